@@ -1,18 +1,14 @@
 #include "identification/gravity.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "models/foundation/serialize.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSpacing = kTurn / kGravityKnots;
@@ -75,18 +71,17 @@ TEST(Gravity, ComesBackFromJson) {
 }
 
 TEST(Gravity, RefusesJsonThatIsNone) {
-  const auto refuses = [](const char* text, const char* message) {
-    GravityModel gravity;
-    EXPECT_THAT([&] { ReadValue(ParseJsonNode(text, "estimate.json"), &gravity, {}); },
-                ThrowsMessage<BadInput>(HasSubstr(message)));
-  };
-  refuses("3", "must be a map");
-  refuses(R"({"kind": "sincoss", "sine": 1, "cosine": 2})", "did you mean 'sincos'?");
-  refuses(R"({"kind": "sincos", "sine": 1})", "'cosine' is missing");
-  refuses(R"({"kind": "paired", "position": [0], "torque": [1, 2]})",
-          "torque is a list of 2; it must be as long as position");
-  refuses(R"({"kind": "paired", "position": [], "torque": []})", "with one at least");
-  refuses(R"({"kind": "paired", "position": [0.05], "torque": [1]})", "0.05 is not a knot");
+  test::ExpectRefused(
+      {{"3", "estimate.json", "map"},
+       {R"({"kind": "sincoss", "sine": 1, "cosine": 2})", "estimate.json", "'sincos'"},
+       {R"({"kind": "sincos", "sine": 1})", "estimate.json", "'cosine'"},
+       {R"({"kind": "paired", "position": [0], "torque": [1, 2]})", "estimate.json", "torque"},
+       {R"({"kind": "paired", "position": [], "torque": []})", "estimate.json", "position"},
+       {R"({"kind": "paired", "position": [0.05], "torque": [1]})", "estimate.json", "0.05"}},
+      [](const std::string& text) {
+        GravityModel gravity;
+        ReadValue(ParseJsonNode(text, "estimate.json"), &gravity, {});
+      });
 }
 
 }  // namespace

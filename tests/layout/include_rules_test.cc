@@ -1,18 +1,16 @@
 // The house rules that the #include lines show: arrows go one way, and some rooms may not meet.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/folders.h"
 
 namespace {
+
 namespace fs = std::filesystem;
 
 /// What the files of one room may include. The first room whose folder holds a file is the file's.
@@ -116,42 +114,6 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
   EXPECT_GT(files, 20) << "the rooms were not found";
 }
 
-/// Folders of identification in the order in which data flows; "" is its top.
-const std::vector<std::string> kIdentificationOrder{
-    "include",   "preparation", "forward",     "uncertainty", "",       "linear",      "lagged",
-    "inference", "report",      "warming",     "ridge",       "maps",   "alternating", "nonlinear",
-    "online",    "holdout",     "identifiers", "lack_of_fit", "answer", "score"};
-
-/// Place in that order of a file's folder; the number of folders where it is none of them.
-size_t PlaceInIdentification(const std::string& file) {
-  const std::string inside = file.substr(std::string("identification/").size());
-  const size_t slash = inside.find('/');
-  const std::string folder = slash == std::string::npos ? "" : inside.substr(0, slash);
-  const auto found = std::find(kIdentificationOrder.begin(), kIdentificationOrder.end(), folder);
-  return static_cast<size_t>(found - kIdentificationOrder.begin());
-}
-
-TEST(IncludeRules, FoldersOfIdentificationIncludeOnlyThoseBeforeThem) {
-  const fs::path root = warmjoint::test::SourceFolder();
-  std::stringstream readme;
-  readme << std::ifstream(root / "identification/README.md").rdbuf();
-  for (const auto& entry : fs::recursive_directory_iterator(root / "identification")) {
-    const std::string extension = entry.path().extension();
-    if (extension != ".cc" && extension != ".h") continue;
-    const std::string file = fs::relative(entry.path(), root);
-    const size_t place = PlaceInIdentification(file);
-    ASSERT_LT(place, kIdentificationOrder.size()) << file << " stands in a folder without a place";
-    for (const std::string& header : IncludesOf(entry.path())) {
-      if (!StartsWith(header, "identification/")) continue;
-      EXPECT_LE(PlaceInIdentification(header), place) << file << " includes " << header;
-    }
-  }
-  for (const std::string& folder : kIdentificationOrder) {
-    if (folder.empty()) continue;
-    EXPECT_NE(readme.str().find("| `" + folder + "` |"), std::string::npos) << folder;
-  }
-}
-
 TEST(IncludeRules, KnowWhatIsForbidden) {
   EXPECT_NE(Breach("models/friction/law.cc", "scenarios/scenario.h"), "");
   EXPECT_NE(Breach("models/friction/law.cc", "mujoco/mujoco.h"), "");
@@ -161,41 +123,14 @@ TEST(IncludeRules, KnowWhatIsForbidden) {
   EXPECT_NE(Breach("models/recording/csv.cc", "sim/plant/plant.h"), "");
   EXPECT_NE(Breach("sim/plugin/plugin.cc", "sim/plant/plant.h"), "");
   EXPECT_NE(Breach("sim/plant/ideal_plant.cc", "identification/estimate.h"), "");
-  EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "sim/include/warmjoint/simulation.h"), "");
+  EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "sim/include/warmjoint/simulation.h"),
+            "");
   EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "identification/score/npe.h"), "");
   EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "scenarios/scenario.h"), "");
   EXPECT_NE(Breach("identification/score/npe.cc", "tools/store/store.h"), "");
   EXPECT_NE(Breach("identification/score/npe.cc", "mujoco/mujoco.h"), "");
   EXPECT_EQ(Breach("identification/score/npe.cc", "sim/include/warmjoint/simulation.h"), "");
   EXPECT_EQ(Breach("tools/cli/main.cc", "identification/score/npe.h"), "");
-}
-
-/// Folders of the project that hold sources or scripts of their own, relative to it.
-std::vector<fs::path> FoldersOfRooms() {
-  std::vector<fs::path> folders;
-  const fs::path project = warmjoint::test::SourceFolder();
-  for (const char* room : {"models", "sim", "identification", "tools"}) {
-    folders.emplace_back(room);
-    for (const auto& entry : fs::directory_iterator(project / room)) {
-      if (!entry.is_directory()) continue;
-      const bool has_sources = std::ranges::any_of(
-          fs::directory_iterator(entry.path()),
-          [](const fs::directory_entry& file) { return file.path().extension() == ".h"; });
-      if (has_sources) folders.push_back(fs::relative(entry.path(), project));
-    }
-  }
-  folders.emplace_back("scenarios");
-  folders.emplace_back("tests");
-  return folders;
-}
-
-TEST(Rooms, EachSaysWhatItIsForAndWhatMayEnter) {
-  const std::vector<fs::path> folders = FoldersOfRooms();
-  ASSERT_GT(folders.size(), 30u);
-  for (const fs::path& folder : folders) {
-    const fs::path readme = warmjoint::test::SourceFolder() / folder / "README.md";
-    EXPECT_TRUE(fs::is_regular_file(readme)) << "write " << readme;
-  }
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // What the public interface promises about its headers.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "tests/support/folders.h"
 
 namespace {
+
 namespace fs = std::filesystem;
 
 std::string TextOf(const fs::path& file) {

@@ -1,6 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "scenarios/disturbances.h"
 #include "scenarios/read_scenario.h"
+#include "scenarios/realize.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {
@@ -102,6 +108,76 @@ TEST(WriteScenario, WithSettingsChangesOnlyWhatTheyName) {
   expected.noise.torque = 3;
   EXPECT_EQ(ScenarioToYaml(WithSettings(Unusual(), {{"noise.torque", "3"}})),
             ScenarioToYaml(expected));
+}
+
+Scenario Drawn() {
+  return WithSettings(test::Table1(),
+                      {{"friction.parameters.viscous", "{uniform: [4, 6]}"},
+                       {"friction.thermal.thermal_time_constant", "{log_uniform: [100, 1000]}"},
+                       {"initial_energy", "{normal: [-1, 0.5]}"}});
+}
+
+TEST(Realize, LeavesAScenarioWithoutDrawsAsItIs) {
+  EXPECT_EQ(ScenarioToYaml(Realize(test::Table1(), 5)), ScenarioToYaml(test::Table1()));
+}
+
+TEST(Realize, DrawsEachTruthFromItsDistribution) {
+  // 500 draws; sd of the means: 0.577 / sqrt(n), 0.665 / sqrt(n), 0.5 / sqrt(n); bounds 5 sd
+  const int n = 500;
+  double viscous = 0, log_time = 0, energy = 0;
+  for (int i = 0; i < n; ++i) {
+    const Scenario one = Realize(Drawn(), static_cast<std::uint64_t>(i));
+    EXPECT_TRUE(one.draws.empty());
+    EXPECT_EQ(one.friction.parameters.at("coulomb"), 15);
+    const double kv = one.friction.parameters.at("viscous");
+    EXPECT_TRUE(kv >= 4 && kv < 6) << kv;
+    viscous += kv / n;
+    log_time += std::log(one.friction.thermal->time_constant) / n;
+    energy += one.initial_energy / n;
+  }
+  const double root = std::sqrt(double(n));
+  EXPECT_NEAR(viscous, 5, 5 * 0.577 / root);
+  EXPECT_NEAR(log_time, (std::log(100) + std::log(1000)) / 2, 5 * 0.665 / root);
+  EXPECT_NEAR(energy, -1, 5 * 0.5 / root);
+}
+
+TEST(Realize, RepeatsTheTruthOfARealization) {
+  EXPECT_EQ(ScenarioToYaml(Realize(Drawn(), 3)), ScenarioToYaml(Realize(Drawn(), 3)));
+  EXPECT_NE(ScenarioToYaml(Realize(Drawn(), 3)), ScenarioToYaml(Realize(Drawn(), 4)));
+}
+
+TEST(Disturbances, DifferWhereAnyOfThemDoes) {
+  // one number of each member
+  const std::vector<std::function<void(Disturbances&)>> changes{
+      [](Disturbances& d) { d.outliers.fraction = 0.1; },
+      [](Disturbances& d) { d.coloured_noise.deviation = 0.1; },
+      [](Disturbances& d) { d.uneven_noise.of_speed = 0.1; },
+      [](Disturbances& d) { d.periodic_torque.amplitude = 0.1; },
+      [](Disturbances& d) { d.gravity.sine = 0.1; },
+      [](Disturbances& d) { d.ambient_drift.amplitude = 0.1; },
+      [](Disturbances& d) { d.ambient_temperature.amplitude = 0.1; },
+      [](Disturbances& d) { d.load_change.load = 0.1; },
+      [](Disturbances& d) { d.torque_lag.time_constant = 0.1; },
+      [](Disturbances& d) { d.velocity_filter.time_constant = 0.1; },
+      [](Disturbances& d) { d.stale_position.samples = 1; },
+      [](Disturbances& d) { d.encoder.resolution = 0.1; },
+      [](Disturbances& d) { d.hold_parity.level = 0.1; },
+      [](Disturbances& d) { d.step_in_time.level = 0.1; },
+      [](Disturbances& d) { d.run_in.level = 0.1; },
+      [](Disturbances& d) { d.hidden.backlash.level = 0.1; },
+      [](Disturbances& d) { d.faults.clock.factor = 1.1; },
+      [](Disturbances& d) { d.without_velocity = true; },
+      [](Disturbances& d) {
+        d.second_heat = Thermal{-1, 60};
+      },
+  };
+  EXPECT_EQ(Disturbances{}, Disturbances{});
+  for (size_t i = 0; i < changes.size(); ++i) {
+    Disturbances changed;
+    changes[i](changed);
+    EXPECT_FALSE(changed == Disturbances{}) << "member " << i;
+    EXPECT_EQ(changed, changed) << "member " << i;
+  }
 }
 
 }  // namespace

@@ -34,10 +34,23 @@ inline Measurements RecordHour(const Friction& friction, std::uint64_t seed, dou
   return RecordFriction(friction, 1, AlternatingSpeeds(3600, seed), noise, seed);
 }
 
+/// An identifier's answer with its verdict. given: options by name
 inline Estimate Answer(const std::string& name, const Measurements& measurements,
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
   return IdentifyAndJudge(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
+}
+
+/// The same without its verdict.
+inline Estimate Fitted(const std::string& name, const PreparedLog& log,
+                       const std::map<std::string, std::string>& given = {}, StartKey key = {}) {
+  const Identifier& identifier = FindIdentifier(name);
+  return IdentifyUnjudged(identifier, {log, identifier.options.Read(given), key});
+}
+
+inline Estimate Fitted(const std::string& name, const Measurements& measurements,
+                       const std::map<std::string, std::string>& given = {}, StartKey key = {}) {
+  return Fitted(name, Prepare(measurements), given, key);
 }
 
 /// The outcome of a test for lack of fit, by its name; one that is not there was not made.

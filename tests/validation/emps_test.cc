@@ -1,15 +1,14 @@
 // A real ball screw, EMPS (Janot, Gautier, Brunot 2019): what its log of 25 s shows beyond a law.
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
 #include <iostream>
 #include <numbers>
 
-#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "models/recording/read_recording.h"
+#include "tests/support/judging.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {
@@ -33,10 +32,23 @@ Measurements Emps() {
 double TestRmse(const Measurements& m, const std::string& name,
                 const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const auto held = HoldOut(identifier, {Prepare(m), identifier.options.Read(given), {}}, 0.4);
+  const Options options = identifier.options.Read(given);
+  const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4);
   if (!held) return kInfinity;
   std::cout << name << ": " << held->rmse << " N rms on the last 40 %\n";
   return held->rmse;
+}
+
+// one unit of the last digit of published figures, which another selection of samples moves
+TEST(Emps, HasThePublishedNumbersOfTheAsymmetricLaw) {
+  WARMJOINT_NEED_SHARED(kFile);
+  const Estimate estimate = test::Fitted("nominal-ls", Emps(), {{"law", "asymmetric"}});
+  EXPECT_NEAR(estimate.Find("viscous")->value, 193, 2);
+  EXPECT_NEAR(estimate.Find("coulomb_positive")->value, 18.0, 0.1);
+  EXPECT_NEAR(estimate.Find("coulomb_negative")->value, 25.2, 0.1);
+  EXPECT_EQ(estimate.Find("coulomb_positive")->unit, "N");
+  EXPECT_NEAR(estimate.metrics->rmse, 1.78, 0.02);
+  EXPECT_NEAR(estimate.metrics->fit, 95.5, 0.1);
 }
 
 TEST(Emps, PositionForEachDirectionBeatsTheAsymmetricLawOnTheTestPart) {
@@ -50,9 +62,7 @@ TEST(Emps, PositionForEachDirectionBeatsTheAsymmetricLawOnTheTestPart) {
 
 TEST(Emps, RipplesFourTimesATurnOfTheScrew) {
   WARMJOINT_NEED_SHARED(kFile);
-  const Measurements m = Emps();
-  const Identifier& identifier = FindIdentifier("motor-ridge");
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
+  const Estimate estimate = test::Fitted("motor-ridge", Emps());
   std::cout << estimate.message << "\n";
   // 2.50 mm, strongest in both directions
   EXPECT_THAT(estimate.message, ContainsRegex("v > 0: [0-9.]+ N at 4 a turn"));

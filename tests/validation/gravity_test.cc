@@ -1,7 +1,6 @@
 // Gravity in the engine: a pendulum gives the friction that it gives without gravity.
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
 #include <cmath>
 
@@ -11,6 +10,7 @@
 #include "models/recording/read_recording.h"
 #include "scenarios/scenario.h"
 #include "sim/plant/plant.h"
+#include "tests/support/judging.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
 
@@ -46,9 +46,7 @@ Scenario Sweeps(const std::string& robot) {
 }
 
 Estimate Identify(const Measurements& measurements, const std::string& gravity) {
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  return IdentifyUnjudged(
-      identifier, {Prepare(measurements), identifier.options.Read({{"gravity", gravity}}), {}});
+  return test::Fitted("energy-ml", measurements, {{"gravity", gravity}});
 }
 
 TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
@@ -82,8 +80,8 @@ TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
   const Measurements log =
       ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Estimate estimate = IdentifyUnjudged(
-      identifier, {Prepare(log), identifier.options.Read({{"gravity", "paired"}}), {}});
+  const Options options = identifier.options.Read({{"gravity", "paired"}});
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
   ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
 
   // Janot, Gautier, Brunot 2019, from all samples: within our interval

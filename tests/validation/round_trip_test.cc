@@ -5,24 +5,17 @@
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
 #include "sim/plant/motion_of.h"
 #include "sim/plant/plant.h"
+#include "tests/support/judging.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
 namespace {
-
-Estimate Identify(const Measurements& measurements, const std::string& name,
-                  const std::map<std::string, std::string>& given) {
-  const Identifier& identifier = FindIdentifier(name);
-  return IdentifyUnjudged(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
-}
 
 /// The engine's recording of `log`'s motion on `robot`, which gets the estimated friction.
 Simulation Again(const Measurements& log, const Estimate& estimate, const std::string& robot,
@@ -78,10 +71,10 @@ TEST(RoundTrip, OfAJointThatWarmsUp) {
 
   const ScratchDirectory scratch;
   const std::map<std::string, std::string> law{{"law", "asymmetric"}};
-  const Estimate first = Identify(log, "energy-ml", law);
+  const Estimate first = test::Fitted("energy-ml", log, law);
   ASSERT_EQ(first.status, Status::ok) << first.message;
   const Simulation again = Again(log, first, "rotary", "hinge", scratch.path(), 0.2);
-  ExpectSameFriction(first, Identify(again.measurements, "energy-ml", law));
+  ExpectSameFriction(first, test::Fitted("energy-ml", again.measurements, law));
 }
 
 TEST(RoundTrip, OfTheEmpsAxis) {
@@ -96,10 +89,10 @@ TEST(RoundTrip, OfTheEmpsAxis) {
 
   const ScratchDirectory scratch;
   const std::map<std::string, std::string> law{{"law", "asymmetric"}};
-  const Estimate first = Identify(log, "nominal-ls", law);
+  const Estimate first = test::Fitted("nominal-ls", log, law);
   ASSERT_EQ(first.status, Status::ok) << first.message;
   const Simulation again = Again(log, first, "linear_axis", "carriage", scratch.path(), 1);
-  ExpectSameFriction(first, Identify(again.measurements, "nominal-ls", law));
+  ExpectSameFriction(first, test::Fitted("nominal-ls", again.measurements, law));
 }
 
 }  // namespace

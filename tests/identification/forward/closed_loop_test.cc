@@ -3,6 +3,10 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
+#include "identification/forward/thermal_filter.h"
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
 #include "models/friction/viscous_coulomb.h"
@@ -93,57 +97,6 @@ TEST(ClosedLoop, AgreesWithDualNumbersOnUnevenSamples) {
     EXPECT_NEAR(loop.Simulate(Eigen::Vector2d(5, 15), thermal, -0.5).force[last], force.a, 1e-12);
     ExpectNear(jacobian.row(last), force.v.transpose(), v[last] == 0 ? 0 : 1e-12);
   }
-}
-
-TEST(ClosedLoop, TellsTheSlopesOfItsLastHeat) {
-  Eigen::VectorXd v(50);
-  for (int i = 0; i < 50; ++i) v[i] = (i / 10 % 2 ? -0.1 : 0.1) * (1 + i / 10);
-  const ClosedLoop loop = Loop(EvenTime(50), v).WithJumps({7, 30});
-  const Eigen::VectorXd x = (Eigen::VectorXd(7) << 5, 15, -0.6, 40, -0.3, 0.2, -0.1).finished();
-  const Thermal thermal{x[2], x[3]};
-
-  // central differences over tau's logarithm: the error is of order step^2 = 1e-10
-  Eigen::VectorXd differences(7);
-  for (int i = 0; i < 7; ++i) {
-    const double step = 1e-5 * std::abs(x[i]);
-    const auto end = [&](double value) {
-      Eigen::VectorXd at = x;
-      at[i] = value;
-      return loop.Simulate(at.head(2), {at[2], at[3]}, at[4], at.tail(2)).energy[49];
-    };
-    differences[i] = (end(x[i] + step) - end(x[i] - step)) / (2 * step);
-  }
-  differences[3] *= x[3];
-  ExpectNear(loop.End(x.head(2), thermal, x[4], x.tail(2)).slopes, differences, 1e-8);
-
-  // without jumps it is compiled for its size: the same but for rounding
-  const Eigen::Vector2d none(0, 0);
-  const LoopEnd fixed = Loop(EvenTime(50), v).End(x.head(2), thermal, x[4]);
-  const LoopEnd dynamic = loop.End(x.head(2), thermal, x[4], none);
-  ExpectNear(fixed.slopes, dynamic.slopes.head(5), 1e-13);
-
-  // E itself is that of the simulation
-  const LoopResponse response = loop.Simulate(x.head(2), thermal, x[4], none);
-  EXPECT_NEAR(fixed.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
-  EXPECT_NEAR(dynamic.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
-}
-
-TEST(ClosedLoop, AgreesWithFiniteDifferences) {
-  Eigen::VectorXd v(200);  // 0.1 to 1 rad/s, held 20 s, alternating
-  for (int i = 0; i < 200; ++i) v[i] = (i / 20 % 2 ? -0.1 : 0.1) * (1 + i / 20);
-  const ClosedLoop loop = Loop(EvenTime(200), v);
-  const Eigen::VectorXd x = (Eigen::VectorXd(5) << 5, 15, -0.6, 40, -0.3).finished();
-  const auto force = [&](const Eigen::VectorXd& at) {
-    return loop.Simulate(at.head(2), {at[2], at[3]}, at[4]).force;
-  };
-  Eigen::MatrixXd differences(200, 5);
-  for (int i = 0; i < 5; ++i) {
-    // central differences: the error is of order step^2 = 1e-10
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(5);
-    step[i] = 1e-5 * std::abs(x[i]);
-    differences.col(i) = (force(x + step) - force(x - step)) / (2 * step[i]);
-  }
-  ExpectNear(loop.Jacobian(x.head(2), {x[2], x[3]}, x[4]), differences, 1e-8);
 }
 
 TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
@@ -241,22 +194,58 @@ TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
   ExpectNear(loop.Jacobian(p, thermal, -0.5), differences, 1e-8);
 }
 
-TEST(ClosedLoop, CoolsThroughRests) {
-  Eigen::VectorXd v = Eigen::VectorXd::Zero(11);
-  v[0] = 1;
-  const LoopResponse response = Loop(EvenTime(11), v).Simulate(Eigen::Vector2d(5, 15), {-0.3, 10});
-  EXPECT_LT(response.energy[1], 0);
-  EXPECT_NEAR(response.energy[10], response.energy[1] * std::exp(-0.9), 1e-14);
-  EXPECT_EQ(response.force[5], 0);
+Eigen::VectorXd EvenTime(Eigen::Index n, double h) {
+  return Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1) * h);
 }
 
-TEST(ClosedLoop, ReportsFrictionThatFeedsItself) {
-  // a minute at 2 rad/s drives E far below -kc, then a slow motion meets it
-  Eigen::VectorXd v = Eigen::VectorXd::Constant(400, 2);
-  v.tail(100).setConstant(0.05);
-  const LoopResponse response = Loop(EvenTime(400), v).Simulate(Eigen::Vector2d(20, 2), {-3, 100});
-  ASSERT_TRUE(response.feeds_itself);
-  EXPECT_EQ(*response.feeds_itself, 300);
+TEST(ThermalFilter, FollowsTheGoldenFilterFromItsInitialEnergy) {
+  const auto& golden = test::Golden()["filter"];
+  const double h = 0.5;
+  const Thermal thermal = Continuous({golden["ke"], golden["te"]}, h);
+
+  const Eigen::VectorXd energy =
+      ThermalFilter(EvenTime(8, h)).Energy(thermal, test::ToVector(golden["W"]), golden["E0"]);
+  // 1e-12: closed form, through one logarithm and back
+  EXPECT_LT((energy - test::ToVector(golden["E"])).norm(), 1e-12 * energy.norm());
+}
+
+TEST(ThermalFilter, SensitivitiesAreTheGoldenOnesByTheChainRule) {
+  const auto& golden = test::Golden()["oe_sens"];
+  const double ke = golden["ke"], te = golden["te"], h = 2;
+  const double tau = Continuous({ke, te}, h).time_constant;
+  const Eigen::VectorXd loss = test::ToVector(golden["W"]);
+  const ThermalFilter filter(EvenTime(8, h));
+  const Eigen::VectorXd initial = filter.Energy({0, tau}, Eigen::VectorXd::Zero(8), 1);  // dE/dE(0)
+
+  filter.ForEach(tau, loss, [&](Eigen::Index i, const UnitEnergy& S) {
+    const auto& row = golden["dE_dke_dte_dE0"][static_cast<size_t>(i)];
+    // E = ke S / (1 - te) + te^i E(0), and dte/dtheta = te h/tau
+    const double by_gain = S.value / (1 - te);
+    const double by_pole =
+        ke * S.value / ((1 - te) * (1 - te)) + ke / (1 - te) * S.slope / (te * h / tau) +
+        (i > 0 ? static_cast<double>(i) * std::pow(te, i - 1) : 0.0) * golden["E0"].get<double>();
+    // 1e-12: closed form; entries are of order 1
+    EXPECT_NEAR(by_gain, row[0].get<double>(), 1e-12 * 10) << i;
+    EXPECT_NEAR(by_pole, row[1].get<double>(), 1e-12 * 10) << i;
+    EXPECT_NEAR(initial[i], row[2].get<double>(), 1e-12) << i;
+  });
+}
+
+TEST(ThermalFilter, UnevenStepsAgreeWithAFineEvenGrid) {
+  // losses change only on a grid of 4 s; the coarse times are a subset of the fine ones
+  const Eigen::VectorXd fine_time = EvenTime(81, 0.5);
+  Eigen::VectorXd fine_loss(81);
+  for (Eigen::Index i = 0; i < 81; ++i) fine_loss[i] = static_cast<double>((i / 8) % 3);
+  std::vector<Eigen::Index> taken;
+  for (Eigen::Index i = 0; i < 81; ++i) {
+    if (i % 8 == 0 || i % 5 == 0) taken.push_back(i);
+  }
+
+  const Thermal thermal{-2, 9};
+  const Eigen::VectorXd fine = ThermalFilter(fine_time).Energy(thermal, fine_loss);
+  const Eigen::VectorXd coarse = ThermalFilter(fine_time(taken)).Energy(thermal, fine_loss(taken));
+  // both are exact: 1e-12 for closed forms
+  EXPECT_LT((coarse - fine(taken)).norm(), 1e-12 * fine.norm());
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "identification/fit_parameters.h"
+#include "identification/holdout/blocked_hold_out.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
@@ -117,6 +119,50 @@ TEST(HoldOut, IsAbsentWhereNothingIsKept) {
   Trial fit{kKnowing, Recording(6, 0)};
   fit.selection.keep = false;
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
+}
+
+TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
+  const Selection selection = SelectMoving(m);
+  const Identifier warm = EnergyMl();
+  const Options options = warm.options.Read({});
+  const auto errors =
+      BlockedErrors(warm, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  ASSERT_TRUE(errors);
+  // 0.25, known to sqrt(2 / 600) = 6 % on each block; five of these; a fit without the first ten
+  // minutes hardly sees the time constant, so that its block is left out
+  for (Eigen::Index b = 1; b < 6; ++b) EXPECT_NEAR((*errors)[b], 0.25, 0.25 * 0.3) << b;
+}
+
+TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
+  const Selection selection = SelectMoving(m);
+  const Identifier cold = NominalLs();
+  const Options options = cold.options.Read({});
+  const auto errors =
+      BlockedErrors(cold, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  ASSERT_TRUE(errors);
+  EXPECT_GT((*errors)[0], 10 * 0.25);  // the first ten minutes are the cold ones
+}
+
+TEST(BlockedHoldOut, StartsAsWarmAsTheFitSays) {
+  const Identifier knowing{"knowing", "", {}, [](const IdentifierInput&) {
+                             Fit fit;
+                             fit.friction = test::TableOne();
+                             fit.initial_energy = -6;
+                             fit.errors.known = Uncertainty{};
+                             return fit;
+                           }};
+  Measurements m = test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(600, 4), 0, 4);
+  m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
+  const Selection selection = SelectMoving(m);
+  const Options options = knowing.options.Read({});
+  const auto errors =
+      BlockedErrors(knowing, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  ASSERT_TRUE(errors);
+  EXPECT_EQ(errors->maxCoeff(), 0);
 }
 
 }  // namespace

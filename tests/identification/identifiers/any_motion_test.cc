@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "tests/support/excited_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -18,9 +18,8 @@ using ::testing::HasSubstr;
 using test::Excited, test::kInertia, test::kSine, test::kCosine;
 
 Estimate AnswerTo(const std::string& name, const Measurements& m,
-                  std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
-  const Identifier& identifier = FindIdentifier(name);
-  return IdentifyAndJudge(identifier, {Prepare(m), identifier.options.Read(given), {}});
+                  const std::map<std::string, std::string>& given = {{"gravity", "sincos"}}) {
+  return test::Answer(name, m, given);
 }
 
 /// Within 4 standard deviations, and not by an interval that says nothing.
@@ -32,9 +31,7 @@ void ExpectTold(const Estimate& estimate, const std::string& name, double truth,
 }
 
 TEST(AnyMotion, NominalLawInertiaAndGravityAreToldTogether) {
-  Friction cold = test::TableOne();
-  cold.thermal.reset();
-  const Estimate estimate = AnswerTo("nominal-ls", Excited(cold, 6000, 1));
+  const Estimate estimate = AnswerTo("nominal-ls", Excited(test::Cold(), 6000, 1));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   // white noise of 0.5 N.m on 5000 samples: some 0.5/sqrt(5000) = 0.007 over the columns' spread
   ExpectTold(estimate, "viscous", 5, 0.05);
@@ -70,20 +67,16 @@ TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
 }
 
 TEST(AnyMotion, GravityThatIsLeftOutIsNamed) {
-  Friction cold = test::TableOne();
-  cold.thermal.reset();
-  const Estimate estimate = AnswerTo("nominal-ls", Excited(cold, 6000, 4), {});
+  const Estimate estimate = AnswerTo("nominal-ls", Excited(test::Cold(), 6000, 4), {});
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_THAT(estimate.message, HasSubstr("--gravity sincos"));
 }
 
 TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
-  Friction cold = test::TableOne();
-  cold.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const auto held = HoldOut(
-      identifier,
-      {Prepare(Excited(cold, 6000, 5)), identifier.options.Read({{"gravity", "sincos"}}), {}}, 0.3);
+  const Options options = identifier.options.Read({{"gravity", "sincos"}});
+  const auto held =
+      HoldOut(identifier, {Prepare(Excited(test::Cold(), 6000, 5)), options, {}}, 0.3);
   ASSERT_TRUE(held);
   // noise alone: 0.5 with a standard error of 0.5/sqrt(2 * 1500)
   EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);

@@ -1,12 +1,9 @@
 #include <gmock/gmock.h>
-#include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/course_of.h"
+#include "tests/support/judging.h"
 #include "tests/support/slow_recording.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"
@@ -16,10 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Estimate AnswerTo(const Measurements& m) {
-  const Identifier identifier = Auto();
-  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
-}
+Estimate AnswerTo(const Measurements& m) { return test::Fitted("auto", m); }
 
 /// How many of 10 realizations choose that law, with that warming.
 int Chosen(const Friction& truth) {
@@ -41,11 +35,7 @@ constexpr int kAtLeast = 9;
 
 TEST(Auto, ChoosesWarmingForTableOne) { EXPECT_GE(Chosen(test::TableOne()), kAtLeast); }
 
-TEST(Auto, ChoosesNoWarmingForAColdJoint) {
-  Friction cold = test::TableOne();
-  cold.thermal.reset();
-  EXPECT_GE(Chosen(cold), kAtLeast);
-}
+TEST(Auto, ChoosesNoWarmingForAColdJoint) { EXPECT_GE(Chosen(test::Cold()), kAtLeast); }
 
 TEST(Auto, ChoosesALevelForEachDirectionWhereTheyDiffer) {
   // by 0.2 N.m, ten standard deviations
@@ -109,9 +99,7 @@ TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
     ADD_FAILURE() << "not told";
     return false;
   };
-  Friction cold = test::TableOne();
-  cold.thermal.reset();
-  EXPECT_FALSE(tried(cold));
+  EXPECT_FALSE(tried(test::Cold()));
   EXPECT_TRUE(tried(test::TableOne()));
 }
 
@@ -197,11 +185,10 @@ TEST(Auto, BeginsAsWarmAsItIsTold) {
   const Measurements all = test::RecordFriction(truth, 1, test::AlternatingSpeeds(4200, 7), 0.5, 7);
   const double energy = PredictFriction(truth, all).energy[600];
   const Measurements log = test::Without(all, {{-1, 599.5}});
-  const Identifier identifier = Auto();
-  const Options options = identifier.options.Read({{"initial_energy", "expected"},
-                                                   {"expected_energy", std::to_string(energy)},
-                                                   {"expected_energy_std", "0.05"}});
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
+  const Estimate estimate = test::Fitted("auto", log,
+                                         {{"initial_energy", "expected"},
+                                          {"expected_energy", std::to_string(energy)},
+                                          {"expected_energy_std", "0.05"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, value] :
        {std::pair("initial_energy", energy), std::pair("thermal_gain", -3.0),

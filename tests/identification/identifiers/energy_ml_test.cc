@@ -1,26 +1,20 @@
 #include <gmock/gmock.h>
-#include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
-#include "tests/identification/identifiers/fit_of_table_one.h"
+#include "tests/support/judging.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Estimate FitWarming(const Measurements& measurements,
                     const std::map<std::string, std::string>& given = {}) {
-  const Identifier identifier = EnergyMl();
-  return IdentifyUnjudged(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
+  return test::Fitted("energy-ml", measurements, given);
 }
 
 /// Torque of kv = 5, kc = 15 with `thermal` and E(0), plus noise, over a velocity at `time`.
@@ -130,15 +124,6 @@ TEST(EnergyMl, GivesFrictionWithWarming) {
   EXPECT_NEAR(estimate.trace.back().rmse, estimate.metrics->rmse, 1e-12);
 }
 
-TEST(EnergyMl, SaysThatOneSpeedAloneIsNotIdentifiable) {
-  const Eigen::VectorXd v = Eigen::VectorXd::Constant(3600, 0.5);
-  const Estimate estimate = FitWarming(Warm(EvenTime(3600), v, {-3, 600}, 0.5));
-  EXPECT_EQ(estimate.status, Status::not_identifiable);
-  EXPECT_THAT(estimate.message, AllOf(HasSubstr("viscous, coulomb"), HasSubstr("two or more")));
-  EXPECT_TRUE(estimate.parameters.empty());
-  EXPECT_FALSE(estimate.friction || estimate.metrics);
-}
-
 TEST(EnergyMl, SaysThatNoWarmUpCanBeSeen) {
   const Estimate cold = FitWarming(Warm(EvenTime(3600), Speeds(3600), {0, 600}, 0.5));
   EXPECT_EQ(cold.status, Status::not_identifiable);
@@ -152,23 +137,6 @@ TEST(EnergyMl, SaysThatARecordIsTooShort) {
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("thermal_time_constant"));
   EXPECT_FALSE(estimate.friction);
-}
-
-TEST(EnergyMl, SaysWhereTheLogShowsNoLag) {
-  const Fit plain = test::FitOfTableOne(EnergyMl(), {});
-  const Fit asked = test::FitOfTableOne(EnergyMl(), {{"torque_lag", "estimated"}});
-  EXPECT_EQ(asked.fitted, plain.fitted);
-  EXPECT_FALSE(asked.torque_lag);
-  EXPECT_THAT(asked.afterword, HasSubstr("the torque shows no lag"));
-}
-
-TEST(EnergyMl, RefusesALagUnderHubersLossAndBesideMaps) {
-  for (const auto& [option, value] : {std::pair{"loss", "huber"}, std::pair{"position", "map"}}) {
-    const Fit fit = test::FitOfTableOne(EnergyMl(), {{"torque_lag", "estimated"}, {option, value}});
-    ASSERT_TRUE(fit.refusal);
-    EXPECT_EQ(fit.refusal->status, Status::bad_data);
-    EXPECT_THAT(fit.refusal->message, HasSubstr("or torque_lag none"));
-  }
 }
 
 }  // namespace

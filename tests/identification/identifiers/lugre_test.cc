@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
-#include <cmath>
-
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/lugre_data.h"
@@ -173,16 +171,6 @@ TEST(Lugre, SaysWhatTurnsBetweenTwoSamplesCannotTell) {
       EXPECT_THAT(estimate.message,
                   AllOf(HasSubstr("bristle_stiffness"), HasSubstr("reverse slowly")));
     }
-  }
-}
-
-TEST(Lugre, GivesNoNumbersForTableOne) {
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
-  for (const char* damping : {"estimated", "none"}) {
-    const Estimate estimate = AnswerTo(m, SelectMoving(m), {{"damping", damping}});
-    EXPECT_EQ(estimate.status, Status::not_identifiable) << estimate.message;
-    EXPECT_TRUE(estimate.parameters.empty());
   }
 }
 

@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
-#include <warmjoint/prepared_log.h>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/select.h"
+#include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -24,12 +21,7 @@ Measurements Geared(std::vector<FrictionMap> maps, double noise) {
 }
 
 Estimate Identify(const Measurements& m) {
-  const Identifier identifier = MotorRidge();
-  const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier,
-                          {Prepare(m, selection),
-                           identifier.options.Read({{"width", "1"}, {"arm_kernels", "10"}}),
-                           {}});
+  return test::Fitted("motor-ridge", m, {{"width", "1"}, {"arm_kernels", "10"}});
 }
 
 TEST(MotorRidge, FindsTheMultiplesOfTheMotorsTurn) {

@@ -1,14 +1,11 @@
 #include <gmock/gmock.h>
-#include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/random_stream.h"
+#include "tests/support/judging.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -19,9 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Estimate FitLaw(const Measurements& measurements, const std::string& law) {
-  const Identifier identifier = NominalLs();
-  return IdentifyUnjudged(identifier,
-                          {Prepare(measurements), identifier.options.Read({{"law", law}}), {}});
+  return test::Fitted("nominal-ls", measurements, {{"law", law}});
 }
 
 /// Speeds `speeds` (rad/s) in turn, 10 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m.
@@ -62,16 +57,6 @@ TEST(NominalLs, RecoversAnExactLawWithoutError) {
   EXPECT_NEAR(estimate.Find("coulomb")->value, 7, 1e-12);
   EXPECT_EQ(estimate.friction->law, "viscous_coulomb");
   EXPECT_EQ(estimate.friction->parameters.at("coulomb"), estimate.Find("coulomb")->value);
-}
-
-TEST(NominalLs, SaysThatOneSpeedAloneIsNotIdentifiable) {
-  const Estimate estimate = FitLaw(Steps({0.5, -0.5}), "viscous_coulomb");
-  EXPECT_EQ(estimate.status, Status::not_identifiable);
-  EXPECT_TRUE(estimate.parameters.empty());
-  EXPECT_FALSE(estimate.friction || estimate.metrics);
-  EXPECT_THAT(estimate.message,
-              AllOf(HasSubstr("viscous, coulomb"), HasSubstr("two or more speeds"),
-                    Not(HasSubstr("direction"))));
 }
 
 TEST(NominalLs, SaysThatAnUnseenDirectionIsNotIdentifiable) {

@@ -1,13 +1,11 @@
 #include <gmock/gmock.h>
-#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
 #include "models/recording/join_recordings.h"
+#include "tests/support/judging.h"
 #include "tests/support/slow_recording.h"
 
 namespace warmjoint {
@@ -17,8 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
-  const Identifier identifier = StribeckIdentifier();
-  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read(given), {}});
+  return test::Fitted("stribeck", m, given);
 }
 
 using test::StribeckJoint;

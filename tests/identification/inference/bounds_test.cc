@@ -63,12 +63,6 @@ TEST(JudgeBounds, VoidsTheFitWhoseIntervalIsWhollyOutside) {
   EXPECT_FALSE(judged.inference.gives_friction);
 }
 
-TEST(JudgeBounds, DoesNotLetFrictionRiseFromRest) {
-  // viscous, coulomb, static
-  Judged judged("stiction", {1, 2, 1.5});
-  EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
-}
-
 TEST(JudgeBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
   // viscous, forwards, backwards, static_rise, stribeck_velocity, exponent; beyond doubt or by chance
   for (const double rise : {-1.0, -0.05}) {
@@ -80,46 +74,6 @@ TEST(JudgeBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
   }
   Judged judged("asymmetric_stribeck", {1, 2, 3, 0, 0.1, 2});
   EXPECT_EQ(judged.Judge().status, Status::ok);
-}
-
-TEST(JudgeBounds, NeverNamesWhatTheFitHoldsAlready) {
-  const auto message = [](const char* identifier, const char* law, std::vector<double> values,
-                          bool warms) {
-    Judged judged(law, values);
-    judged.fit.identifier = identifier;
-    if (warms) {
-      for (FitParameter& row : HeatParameters({-3, 600}, {})) {
-        judged.fit.parameters.push_back(std::move(row));
-        judged.inference.parameters.push_back({1, 0.05, {{0.9, 1.1}}, 0});
-      }
-    }
-    return judged.Judge().message;
-  };
-  const std::vector<double> falling{-2, 2};
-  const std::string nominal = message("nominal-ls", "viscous_coulomb", falling, false);
-  EXPECT_THAT(nominal, HasSubstr("try --identifier energy-ml, or --identifier stribeck"));
-  const std::string warm = message("energy-ml", "viscous_coulomb", falling, true);
-  EXPECT_THAT(warm, HasSubstr("try --identifier stribeck --set warming=estimated"));
-  EXPECT_THAT(warm, testing::Not(HasSubstr("energy-ml")));
-
-  // viscous, coulomb, static, stribeck_velocity, exponent
-  const std::vector<double> curve{-2, 2, 3, 0.1, 1};
-  EXPECT_THAT(message("stribeck", "stribeck", curve, false),
-              HasSubstr("try --identifier stribeck --set warming=estimated"));
-  EXPECT_THAT(message("stribeck", "stribeck", curve, true),
-              testing::AllOf(HasSubstr("record higher speeds"), testing::Not(HasSubstr("try"))));
-
-  // of a law with two levels, those
-  const std::vector<double> apart{-2, 2, 3};
-  EXPECT_THAT(message("nominal-ls", "asymmetric", apart, false),
-              HasSubstr("try --identifier energy-ml --set law=asymmetric, or --identifier stribeck "
-                        "--set law=asymmetric_stribeck"));
-  EXPECT_THAT(message("stribeck", "asymmetric_stribeck", {-2, 2, 3, 1, 0.1, 2}, false),
-              HasSubstr("--set law=asymmetric_stribeck --set warming=estimated"));
-
-  // a negative level, with the gravity that may be meant, and without where that is fitted
-  EXPECT_THAT(message("energy-ml", "viscous_coulomb", {0.5, -2}, true),
-              HasSubstr("try --identifier energy-ml --gravity paired"));
 }
 
 TEST(AtBounds, HoldsWhatNoisePutsBeyond) {

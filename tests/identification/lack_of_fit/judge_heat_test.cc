@@ -48,15 +48,6 @@ TEST(JudgeHeat, FindsAWarmStart) {
   EXPECT_GE(CountAlarms("energy-ml", warm), kNearlyAll);
 }
 
-TEST(JudgeHeat, SaysHowMuchAColdStartMatters) {
-  const Estimate estimate = Answer("energy-ml", RecordHour(test::TableOne(), 1));
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("this assumes a cold start"));
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("--start estimated"));
-  const auto estimated = std::map<std::string, std::string>{{"initial_energy", "estimated"}};
-  EXPECT_THAT(Answer("energy-ml", RecordHour(test::TableOne(), 1), estimated).FullMessage(),
-              Not(HasSubstr("assumes a cold start")));
-}
-
 TEST(JudgeHeat, GivesNoIntervalOfAWarmingBesideADrift) {
   // half a sine in the hour, of which the warming takes up a part that nobody can tell
   Measurements m = RecordHour(test::TableOne(), 1);

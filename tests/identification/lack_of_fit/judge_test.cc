@@ -2,6 +2,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
@@ -12,18 +13,16 @@
 namespace warmjoint {
 namespace {
 
-using ::testing::HasSubstr;
-
 using test::Answer;
 using test::Asked;
 using test::Cold;
-using test::Count;
 using test::CountAlarms;
 using test::CountRejected;
 using test::kFew;
 using test::kInadequate;
 using test::kNearlyAll;
 using test::RecordHour;
+using ::testing::HasSubstr;
 
 /// AR(1) noise with the given coefficient and a standard deviation of 0.5 N.m.
 Measurements Coloured(const Friction& friction, std::uint64_t seed, double a) {
@@ -215,6 +214,41 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   EXPECT_GT(narrow[0], 15);  // the true level
   EXPECT_LT(wide[0], 15);
   EXPECT_GT(wide[1], 15);
+}
+
+/// An hour whose velocity is in revolutions a minute.
+Measurements HourInRpm() {
+  Measurements m = test::RecordHour(test::TableOne(), 1);
+  m.velocity *= 60 / (2 * std::numbers::pi);
+  return m;
+}
+
+TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
+  const Measurements m = HourInRpm();
+  const Selection selection = SelectConstantSpeed(m);
+  for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
+    const Identifier& identifier = FindIdentifier(name);
+    const Options options = identifier.options.Read({});
+    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
+    EXPECT_EQ(estimate.status, Status::bad_data) << name;
+    EXPECT_THAT(estimate.message, HasSubstr("--unit velocity=rpm")) << name;
+    EXPECT_FALSE(estimate.friction) << name;
+    for (const EstimatedParameter& one : estimate.parameters) EXPECT_FALSE(one.interval95) << name;
+  }
+}
+
+TEST(FaultyLog, ShowsItsNumbersByForce) {
+  const Measurements m = HourInRpm();
+  const Selection selection = SelectConstantSpeed(m);
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options = identifier.options.Read({});
+  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const auto answer = FitAndJudge(identifier, input);
+  ASSERT_EQ(answer.inferred.status, Status::ok);
+  const Estimate shown = WithVoidNumbers(identifier, input, answer);
+  EXPECT_EQ(shown.status, Status::bad_data);
+  EXPECT_TRUE(shown.Find("viscous")->interval95);
+  EXPECT_THAT(shown.message, HasSubstr("all numbers are void"));
 }
 
 }  // namespace

@@ -1,19 +1,13 @@
 #include "identification/linear/robust.h"
 
 #include <gmock/gmock.h>
-#include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Table I with a share of its samples moved by N(0, 10^2) N.m.
 Measurements Wild(std::uint64_t seed, double share) {
@@ -27,43 +21,7 @@ Measurements Wild(std::uint64_t seed, double share) {
 }
 
 Estimate Identify(const char* name, const Measurements& m, const char* loss) {
-  const Identifier& identifier = FindIdentifier(name);
-  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read({{"loss", loss}}), {}});
-}
-
-TEST(Huber, ThresholdIsThatOfTheNormalNoiseBelowTheOutliers) {
-  RandomStream random({5, 0}, Stream::test);
-  Eigen::VectorXd residual(20000);
-  for (double& r : residual) r = 0.5 * random.Normal();
-  // the median of |r| of n normal samples is known to 1.17 / sqrt(n): 4 of these
-  EXPECT_NEAR(HuberThreshold(residual), kHuberBend * 0.5, 0.04 * kHuberBend * 0.5);
-  residual.head(200).array() += 1e6;
-  EXPECT_NEAR(HuberThreshold(residual), kHuberBend * 0.5, 0.06 * kHuberBend * 0.5);
-}
-
-TEST(Huber, WeightsAndScoresAreThoseOfItsLoss) {
-  const Eigen::Vector4d residual(0.5, -1, 4, -8);
-  EXPECT_TRUE(HuberWeights(residual, 2).isApprox(Eigen::Vector4d(1, 1, 0.5, 0.25)));
-  // two of four lie below: the slope of psi is 1/2 on average
-  EXPECT_TRUE(HuberScores(residual, 2).isApprox(Eigen::Vector4d(1, -2, 4, -4)));
-  EXPECT_EQ(HuberScores(residual, kInfinity), residual);
-}
-
-TEST(Huber, LinearFitIsWhereTheScoresAreOrthogonalToTheColumns) {
-  RandomStream random({6, 0}, Stream::test);
-  Eigen::MatrixXd A(500, 2);
-  Eigen::VectorXd y(500);
-  for (Eigen::Index i = 0; i < 500; ++i) {
-    A.row(i) << 1, random.Uniform(-1, 1);
-    y[i] = 2 + 3 * A(i, 1) + 0.1 * random.Normal() + (i % 20 == 0 ? 50 : 0);
-  }
-  const RobustLeastSquares robust = SolveHuber(A, y);
-  ASSERT_TRUE(robust.converged);
-  const Eigen::VectorXd score =
-      (y - A * robust.fit.solution).cwiseMax(-robust.threshold).cwiseMin(robust.threshold);
-  // the rounds end when the fit moves by less than 1e-9 of itself
-  EXPECT_LT((A.transpose() * score).norm(), 1e-5 * score.norm());
-  EXPECT_NEAR(robust.fit.solution[1], 3, 0.1);
+  return test::Fitted(name, m, {{"loss", loss}});
 }
 
 // 60 recordings with 5 % of wild samples: squares are off by 4.6 times the bound (0.05 x 400 of

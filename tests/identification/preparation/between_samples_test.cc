@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "models/foundation/random_stream.h"
@@ -73,15 +72,6 @@ TEST(BetweenSamples, SumsToTheWayOfAJointThatTurnsBetweenSamples) {
   }
 }
 
-TEST(BetweenSamples, SizesOfTheVelocityMissTheWay) {
-  // what the test above would let pass without it: a sine that turns at samples loses a h^2 / 6 of
-  // its 4 / pi rad a stretch, a = pi / 2
-  const Measurements m = Sampled({.h = 0.1, .phase = 0, .straight = false}, 100 * 40 + 1);
-  const double way = 100 * 8 / std::numbers::pi;
-  EXPECT_NEAR(WayOf(m, m.velocity.cwiseAbs()) / way, 1 - std::pow(std::numbers::pi, 2) / 4800,
-              1e-5);
-}
-
 TEST(BetweenSamples, GiveTheLossOfAStraightLineOverSpeed) {
   // of 5 v^2 + 15 |v|, v from -1 to 1 and back at 1 rad/s^2: 5/3 and 15/2 a second
   for (const double phase : {0.0, 0.013, 0.025, 0.041}) {
@@ -93,24 +83,6 @@ TEST(BetweenSamples, GiveTheLossOfAStraightLineOverSpeed) {
                 5 * (2.0 / 3) * 0.05 * 0.05 / 4 / (55.0 / 3))
         << phase;
   }
-}
-
-TEST(BetweenSamples, TurnsWhereTheVelocityPassesZeroWithoutPositions) {
-  Measurements m = Sampled({}, 8001);
-  const double way = WayOf(m, MeansBetween(m, {{0, m.size()}}, kClear).mean_speed);
-  m.position.setConstant(std::numeric_limits<double>::quiet_NaN());
-  // corners alone are missed: at most h^2 / 4 rad of 1 rad each
-  EXPECT_NEAR(WayOf(m, MeansBetween(m, {{0, m.size()}}, kClear).mean_speed), way,
-              0.05 * 0.05 / 4 * way);
-}
-
-TEST(BetweenSamples, IsNotRaisedByNoiseOfThePositions) {
-  // noise of a tenth of a sample's way, which the sizes of single differences would add up
-  Measurements m = Sampled({}, 8001);
-  RandomStream random({1, 0}, Stream::position_noise);
-  for (double& position : m.position) position += 0.005 * random.Normal();
-  // 200 stretches with two ends each: 0.005 sqrt(400) rad of 200 rad, four of them
-  EXPECT_NEAR(WayOf(m, MeansBetween(m, {{0, m.size()}}, kClear).mean_speed), 200, 4 * 0.005 * 20);
 }
 
 TEST(BetweenSamples, KeepsToTheVelocityWherePositionsContradictIt) {

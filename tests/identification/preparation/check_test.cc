@@ -1,15 +1,16 @@
-#include "identification/preparation/check.h"
-
 #include <gmock/gmock.h>
+#include <warmjoint/friction.h>
+#include <warmjoint/prepared_log.h>
 
-#include <nlohmann/json.hpp>
-
+#include "identification/preparation/select.h"
+#include "models/recording/csv.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Constant speeds in turn, 20 s each, one sample a second.
 Measurements Log(const std::vector<double>& speeds, int repetitions) {
@@ -110,23 +111,43 @@ TEST(CheckRecording, JudgesAMotionWithoutConstantSpeeds) {
   EXPECT_THAT(CheckToText(check), HasSubstr("record piecewise constant speeds"));
 }
 
-TEST(CheckToJson, HoldsWhatTheTextSays) {
-  const nlohmann::json json = CheckToJson(CheckRecording(Log({0.1, -0.5}, 20)));
-  EXPECT_EQ(json["sampling"]["samples"], 800);
-  EXPECT_EQ(json["motion"]["levels"].size(), 2U);
-  EXPECT_EQ(json["excitation"].size(), 7U);
-  EXPECT_EQ(json["joint"], "rotary");
+class Emps : public testing::Test {
+ protected:
+  void SetUp() override {
+    WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
+    const std::string path = test::SharedFolder() / "data/emps/DATA_EMPS.csv";
+
+    ReadSettings layout;
+    layout.joint = JointKind::linear;
+    layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
+    log_ = Prepare(ReadCsv(path, layout)).taken().measurements;
+  }
+
+  Measurements log_;
+};
+
+TEST_F(Emps, MovesAtThreeSpeedsInBothDirections) {
+  const RecordingCheck check = CheckRecording(log_);
+  EXPECT_EQ(check.motion.segments, 32);
+  EXPECT_NEAR(check.motion.constant_share, 0.67, 0.01);
+  ASSERT_EQ(check.motion.levels.size(), 6U);
+  const double speeds[] = {-0.125, -0.083, -0.042, 0.042, 0.083, 0.125};  // m/s
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(check.motion.levels[i].velocity, speeds[i], 0.0005);
+  }
+  EXPECT_NEAR(check.sampling.rate, 1000, 0.01);
+  EXPECT_EQ(check.sampling.gaps, 0);
 }
 
-TEST(Unsettled, SaysWhatTheRecordingLacks) {
-  const auto record = [](Eigen::Index n) {
-    return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(n, 1), 0.5, 1);
-  };
-  EXPECT_THAT(WhyNotConverged(record(60), FrictionKind::warm_up), HasSubstr("the log lasts 59 s"));
-  EXPECT_THAT(WhyNotConverged(record(60), FrictionKind::stribeck),
-              HasSubstr("the slowest below 1/20 of the fastest"));
-  EXPECT_THAT(WhyNotConverged(record(3600), FrictionKind::warm_up),
-              HasSubstr("does the torque column"));
+TEST_F(Emps, IsTooShortForWarmUp) {
+  const RecordingCheck check = CheckRecording(log_);
+  for (const Excitation& excitation : check.excitation) {
+    const bool is_law =
+        excitation.what == "law coulomb" || excitation.what == "law viscous_coulomb" ||
+        excitation.what == "law asymmetric" || excitation.what == "position dependence";
+    EXPECT_EQ(excitation.sufficient, is_law) << excitation.what << ": " << excitation.reason;
+  }
+  EXPECT_THAT(CheckToText(check), testing::HasSubstr("the log lasts 24.8 s"));
 }
 
 }  // namespace

@@ -18,11 +18,6 @@ LogView Steady() {
   return Prepare(m).steady();
 }
 
-TEST(Condense, LeavesAShortLogAsItIs) {
-  const LogView all = Steady();
-  EXPECT_EQ(Condense(all, 4000).view.measurements.size(), all.measurements.size());
-}
-
 TEST(Condense, MakesRowsOfOneSegment) {
   const LogView all = Steady();
   const LogView some = Condense(all, 900).view;

@@ -97,19 +97,6 @@ TEST(SegmentVelocity, LeavesLogsAloneWhoseNoiseIsHarmless) {
   EXPECT_FALSE(TakeSegmentVelocity(m, SelectMoving(m))) << "no segments are known";
 }
 
-TEST(SegmentVelocity, ChangesKeptSamplesAlone) {
-  const Measurements m = Noisy{}.Log();
-  const Selection selection = SelectConstantSpeed(m);
-  const auto taken = TakeSegmentVelocity(m, selection);
-  ASSERT_TRUE(taken);
-  for (Index i = 0; i < m.size(); ++i) {
-    if (selection.keep[i]) continue;
-    ASSERT_EQ(taken->measurements.velocity[i], m.velocity[i]) << i;
-  }
-  EXPECT_EQ(taken->measurements.position, m.position);
-  EXPECT_EQ(taken->measurements.torque, m.torque);
-}
-
 TEST(SegmentVelocity, KeepsADriftOfTheSpeed) {
   Measurements m = Noisy{.noise = 0.02}.Log();
   Selection selection;
@@ -128,12 +115,12 @@ TEST(SegmentVelocity, KeepsADriftOfTheSpeed) {
 
 TEST(SegmentVelocity, LetsIntervalsHold) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options = identifier.options.Read({});
   int held = 0, ok = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Measurements m = Noisy{.seed = seed}.Log();
     const Selection selection = SelectConstantSpeed(m);
-    const Estimate estimate =
-        IdentifyAndJudge(identifier, {Prepare(m, selection), identifier.options, {}});
+    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
     if (estimate.status != Status::ok) continue;
     ++ok;
     const auto interval = *estimate.Find("viscous")->interval95;
@@ -143,32 +130,6 @@ TEST(SegmentVelocity, LetsIntervalsHold) {
   // of 100 at 95 %, fewer than 87 come once in a thousand times
   EXPECT_GE(ok, 95);
   EXPECT_GE(held, ok - 13);
-}
-
-TEST(SegmentVelocity, IsForSteadyMotionAlone) {
-  const Measurements m = Noisy{}.Log();
-  const Selection selection = SelectConstantSpeed(m);
-  const auto velocities_of = [&](const char* name) {
-    const Identifier& identifier = FindIdentifier(name);
-    const IdentifierInput seen = Seen(identifier, {Prepare(m, selection), identifier.options, {}});
-    return Eigen::VectorXd(seen.measurements.velocity);
-  };
-  EXPECT_EQ(velocities_of("lugre"), m.velocity);
-  EXPECT_NE(velocities_of("energy-ml").head(100), m.velocity.head(100));
-}
-
-TEST(SegmentVelocity, WarnsOfWhatIsLeft) {
-  Estimate estimate;
-  estimate.parameters = {{"viscous", 5, "N.m.s/rad", 0.1, {{4.8, 5.2}}},
-                         {"coulomb", 15, "N.m", 0.1, {{14.8, 15.2}}}};
-  TellVelocity({0.05, 0.037, 0.0005, 0.5}, JointKind::rotary, estimate);
-  EXPECT_THAT(estimate.message, HasSubstr("noise of 0.05 rad/s would change viscous by -3.7 %"));
-  EXPECT_TRUE(estimate.warnings.empty());
-  EXPECT_EQ((*estimate.Find("viscous")->interval95)[0], 4.8);
-  TellVelocity({0.05, 0.037, 0.01, 0.5}, JointKind::rotary, estimate);
-  EXPECT_EQ(estimate.warnings.size(), 1U);
-  EXPECT_NEAR((*estimate.Find("viscous")->interval95)[1], 5.25, 1e-12);
-  EXPECT_NEAR((*estimate.Find("coulomb")->interval95)[0], 14.8 - 0.025, 1e-12);
 }
 
 }  // namespace

@@ -2,8 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "identification/inference/covariance.h"
+#include "identification/inference/hold_structure.h"
+#include "identification/uncertainty/between_ends.h"
+#include "identification/uncertainty/turns_with_direction.h"
+#include "models/foundation/random_stream.h"
+#include "tests/support/coloured_noise.h"
+
 namespace warmjoint {
 namespace {
+
+using test::Coloured;
 
 constexpr double kMany = 1e6;  // degrees of freedom
 
@@ -28,6 +39,100 @@ TEST(Disagreement, CountsATenthOfTheVarianceWhereBothFitsAreAsGood) {
   EXPECT_FALSE(FindDisagreement(TwoRows(0, 0, 1), TwoRows(1.5, 0, 1), kMany));
   EXPECT_TRUE(FindDisagreement(TwoRows(0, 0, 1), TwoRows(1.7, 0, 1), kMany));
   EXPECT_FALSE(FindDisagreement(TwoRows(0, 0, 1), TwoRows(0, 0, 1), kMany));
+}
+
+TEST(ReachBeyondEnds, IsTheTwoSidedQuantileOfOneAndTheOneSidedOfTwoFarApart) {
+  EXPECT_NEAR(ReachBeyondEnds(0), 1.959964, 1e-4);
+  EXPECT_NEAR(ReachBeyondEnds(10), 1.644854, 1e-5);
+  EXPECT_LT(ReachBeyondEnds(1), ReachBeyondEnds(0.5));
+}
+
+TEST(ReachBeyondEnds, HoldsEitherEndAsOftenAsItSays) {
+  constexpr int kDraws = 100'000;
+  RandomStream random({6, 3}, Stream::test);
+  for (const double range : {0.2, 1.0, 4.0}) {
+    const double reach = ReachBeyondEnds(range);
+    int held = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      // the truth is one end, 0; the other lies above the estimate of it
+      const double estimate = random.Normal();
+      held += estimate - reach <= 0 && 0 <= estimate + range + reach;
+    }
+    // 4 standard errors
+    const double share = static_cast<double>(held) / kDraws;
+    EXPECT_NEAR(share, 0.95, 4 * std::sqrt(0.95 * 0.05 / kDraws)) << range;
+  }
+}
+
+TEST(TurnsWithDirection, IsSaidOfFrictionAndNotOfTorque) {
+  Eigen::VectorXd velocity(1000);
+  for (Eigen::Index i = 0; i < 1000; ++i) velocity[i] = i / 20 % 2 == 0 ? 1 : -1;
+  int turning = 0, found = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Eigen::VectorXd noise = Coloured(1000, 0.9, seed);
+    // colour of the torque seldom turns, colour of the friction does
+    turning += *TurnsWithDirection(noise, velocity);
+    found += *TurnsWithDirection(Coloured(1000, 0.99, seed).cwiseProduct(velocity), velocity);
+  }
+  EXPECT_LE(turning, 1);  // three deviations to one side: one in 700
+  EXPECT_GE(found, 90);   // 50 runs whose means correlate by exp(-0.2): 5 deviations on average
+}
+
+TEST(TurnsWithDirection, NeedsNineChangesOfDirection) {
+  const auto turns = [](Eigen::Index changes) {
+    Eigen::VectorXd velocity(changes + 1);
+    for (Eigen::Index i = 0; i <= changes; ++i) velocity[i] = i % 2 == 0 ? 1 : -1;
+    return TurnsWithDirection(3 * velocity, velocity);
+  };
+  EXPECT_FALSE(turns(8));
+  EXPECT_EQ(turns(9), false);  // all of nine are three deviations, and not more
+  EXPECT_EQ(turns(10), true);
+  EXPECT_FALSE(TurnsWithDirection(Eigen::VectorXd::Ones(50), Eigen::VectorXd::Ones(50)));
+}
+
+constexpr Eigen::Index kSamples = 400;
+
+/// 15 sign v with white noise of 0.1 N.m, J = sign v.
+Fit LevelFit() {
+  Fit fit;
+  const Eigen::Index n = kSamples;
+  Eigen::VectorXd sign(n), noise(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    sign[i] = i / 20 % 2 ? -1 : 1;
+    // white enough: a sequence of signs with little correlation
+    noise[i] = 0.1 * ((i * 7919 + i * i * 31) % 97 < 48 ? -1 : 1);
+  }
+  fit.parameters = {FitParameter{.name = "coulomb", .value = 15, .unit = "N.m"}};
+  fit.used.keep = decltype(fit.used.keep)::Constant(n, true);
+  fit.fitted = 15 * sign;
+  fit.torque = fit.fitted + noise;
+  fit.jacobian = [sign] { return Eigen::MatrixXd(sign); };
+  fit.errors.cofactor = Eigen::MatrixXd::Constant(1, 1, 1.0 / static_cast<double>(n));
+  return fit;
+}
+
+Disagreement MovedBy(double difference) {
+  return {0, difference, 9, Eigen::VectorXd::Constant(1, difference)};
+}
+
+TEST(HoldStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
+  Fit fit = LevelFit();
+  const double before = CovarianceOf(fit).covariance(0, 0);
+  fit.held_structure = {MovedBy(0.2), fit.fitted};
+  const Inference inference = Infer(fit);
+  EXPECT_TRUE(inference.without_intervals.empty());
+  EXPECT_EQ(inference.warnings.size(), 1u);
+  EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before + 0.04);
+}
+
+TEST(HoldStructure, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
+  // J d is 1.55 N.m of 15 everywhere, 10.3 %
+  Fit fit = LevelFit();
+  const double before = CovarianceOf(fit).covariance(0, 0);
+  fit.held_structure = {MovedBy(1.55), fit.fitted};
+  const Inference inference = Infer(fit);
+  EXPECT_FALSE(inference.without_intervals.empty());
+  EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before);
 }
 
 }  // namespace

@@ -1,38 +1,37 @@
 #include "identification/uncertainty/uncertainty.h"
 
 #include <gtest/gtest.h>
-#include <warmjoint/prepared_log.h>
-#include <warmjoint/recording.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
+#include "identification/uncertainty/few_segments.h"
+#include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/tails.h"
-#include "tests/support/warm_recording.h"
+#include "models/foundation/random_stream.h"
+#include "tests/support/coloured_noise.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
 
+using test::Coloured;
+
 /// Share of 500 recordings (3600 s, law (2) without warming) whose 95 % intervals hold the truth,
 /// for kv and kc. pole: of the autoregressive noise, of standard deviation 0.5 N.m.
 Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
-  Friction friction = test::TableOne();
-  friction.thermal.reset();
-  const Identifier& identifier = FindIdentifier("nominal-ls");
   Eigen::Vector2d covered = Eigen::Vector2d::Zero();
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Measurements m =
-        test::RecordFriction(friction, 1, test::AlternatingSpeeds(3600, seed, rest), 0, 0);
+        test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(3600, seed, rest), 0, 0);
     RandomStream random({seed, 0}, Stream::torque_noise);
     double noise = 0.5 * random.Normal();
     for (double& torque : m.torque) {
       noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
       torque += noise;
     }
-    const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
+    const Estimate estimate = test::Fitted("nominal-ls", m);
     const auto holds = [&](const char* name, double truth) {
       const auto [lower, upper] = *estimate.Find(name)->interval95;
       return lower <= truth && truth <= upper;
@@ -107,6 +106,99 @@ TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {
   EXPECT_EQ(known.freedom, 398);
   EXPECT_EQ(known.covariance, residual.squaredNorm() / 398 * cofactor);
   EXPECT_EQ(ColourOf(known.noise), "");
+}
+
+constexpr int kSamples = 20;  // of a segment
+
+Selection Segments(int count) {
+  const Eigen::Index n = count * kSamples;
+  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
+  for (int g = 0; g < count; ++g) {
+    selection.segments.push_back({g * kSamples, (g + 1) * kSamples, 1});
+  }
+  return selection;
+}
+
+/// How often intervals of a level and of a slope over speed hold the truth, in a thousand fits of
+/// noise whose part in common to a segment has a deviation.
+Eigen::Array2d CoverageOfSegments(int count, double in_common) {
+  constexpr int kFits = 1000;
+  const Selection selection = Segments(count);
+  const Eigen::Index n = selection.count();
+  Eigen::MatrixXd A(n, 2);
+  RandomStream random({7, static_cast<std::uint64_t>(count)}, Stream::test);
+  for (int g = 0; g < count; ++g) {
+    const double speed = 0.1 + 0.9 * (g + 0.5) / count;
+    A.middleRows(g * kSamples, kSamples).rowwise() = Eigen::RowVector2d(1, speed);
+  }
+  const Eigen::MatrixXd cofactor = Cofactor(A.transpose() * A);
+  Eigen::Array2d held(0, 0);
+  for (int fit = 0; fit < kFits; ++fit) {
+    Eigen::VectorXd noise(n);
+    for (int g = 0; g < count; ++g) {
+      const double common = in_common * random.Normal();
+      for (int i = 0; i < kSamples; ++i) noise[g * kSamples + i] = common + random.Normal();
+    }
+    const Eigen::Vector2d x = cofactor * A.transpose() * noise;
+    const Eigen::VectorXd residual = noise - A * x;
+    Uncertainty known = JudgeUncertainty(A, cofactor, residual, selection);
+    CountSegments(A, cofactor, residual, selection, known);
+    for (int j = 0; j < 2; ++j) {
+      const double reach = StudentQuantile(known.Freedom(j), kIntervalLevel) * known.Deviation(j);
+      held[j] += (std::abs(x[j]) <= reach) / static_cast<double>(kFits);
+    }
+  }
+  return held;
+}
+
+TEST(FewSegments, LeaveIntervalsThatHoldTheTruth) {
+  // standard error of 95 % in a thousand: 0.7 %, of which three; noise in common to a segment makes
+  // the variance scatter less than white noise, for which its degrees of freedom are counted
+  for (const int count : {3, 4, 6, 9}) {
+    const Eigen::Array2d white = CoverageOfSegments(count, 0),
+                         common = CoverageOfSegments(count, 2);
+    for (int j = 0; j < 2; ++j) {
+      EXPECT_NEAR(white[j], 0.95, 0.021) << count << " segments, " << j;
+      EXPECT_GE(common[j], 0.95 - 0.021) << count << " segments, " << j;
+    }
+  }
+}
+
+Selection Keep(Eigen::Index n, Eigen::Index gap) {
+  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
+  for (Eigen::Index i = 0; gap > 0 && i < n; ++i) selection.keep[i] = i / gap % 2 == 0;
+  return selection;
+}
+
+Eigen::VectorXd KeptOf(const Eigen::VectorXd& all, const Selection& selection) {
+  Eigen::VectorXd kept(selection.count());
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (selection.keep[i]) kept[row++] = all[i];
+  }
+  return kept;
+}
+
+TEST(NoiseModel, TakesWhiteNoiseForWhite) {
+  int white = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    white += FitNoise(Coloured(3600, 0, seed), Keep(3600, 0)).order() == 0;
+  }
+  // BIC takes one order of 6 for real when its log-likelihood is ln(n)/2 = 4 above chance: 2.5 %
+  EXPECT_GE(white, 92);
+}
+
+TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
+  for (Eigen::Index gap : {0, 300}) {
+    const Selection selection = Keep(20000, gap);
+    const NoiseModel noise = FitNoise(KeptOf(Coloured(20000, 0.9, 7), selection), selection);
+    ASSERT_GE(noise.order(), 1) << gap;
+    // standard deviation of a pole: sqrt((1 - 0.81) / 10000) = 0.0044
+    EXPECT_NEAR(noise.correlation, 0.9, 4 * 0.0044) << gap;
+    EXPECT_NEAR(noise.coefficients[0], -0.9, 0.05) << gap;
+    // (1 + 0.81) / (1 - 0.81), within what four deviations of the pole make of it
+    EXPECT_NEAR(noise.variance_inflation, 9.5, 2.5) << gap;
+  }
 }
 
 }  // namespace

@@ -12,9 +12,11 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/output_failed.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
+
 namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
@@ -58,29 +60,19 @@ TEST_F(AtomicFileTest, KeepsTheExtensionForWritersThatLookAtIt) {
   EXPECT_EQ(AtomicFile(folder_ / "fit.png").temporary().extension(), ".png");
 }
 
-/// What refuses `work`; empty when nothing does.
-template <typename Work>
-std::string Refusal(Work work) {
-  try {
-    work();
-  } catch (const BadInput& refusal) {
-    return refusal.what();
-  }
-  return "";
-}
-
 TEST_F(AtomicFileTest, RefusesWhatIsNoRegularFileAndLeavesItAsItIs) {
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const fs::path& name : {pipe, fs::path("/dev/null"), folder_}) {
-    EXPECT_THAT(Refusal([&] { WriteWholeFile(name, "x"); }),
+    EXPECT_THAT(test::RefusalOf([&] { WriteWholeFile(name, "x"); }),
                 testing::HasSubstr(name.string() + ": is no regular file"));
   }
   EXPECT_TRUE(fs::is_fifo(pipe) && fs::is_character_file("/dev/null"));
-  EXPECT_THAT(Refusal([&] { WriteWholeFile("", "x"); }), testing::HasSubstr("name is empty"));
-  EXPECT_THAT(Refusal([&] { WriteWholeFile(folder_ / "nowhere" / "a.txt", "x"); }),
+  EXPECT_THAT(test::RefusalOf([&] { WriteWholeFile("", "x"); }),
+              testing::HasSubstr("name is empty"));
+  EXPECT_THAT(test::RefusalOf([&] { WriteWholeFile(folder_ / "nowhere" / "a.txt", "x"); }),
               testing::HasSubstr("nowhere' cannot be written to"));
-  EXPECT_THAT(Refusal([&] { AtomicFile(folder_ / std::string(300, 'n')); }),
+  EXPECT_THAT(test::RefusalOf([&] { AtomicFile(folder_ / std::string(300, 'n')); }),
               testing::HasSubstr("name too long"));
   EXPECT_EQ(FileCount(), 1);
 }
@@ -165,13 +157,14 @@ TEST_F(AtomicFileTest, ReadsPipesAndRefusesDevices) {
   std::thread writer([&] { std::ofstream(pipe) << text; });
   EXPECT_EQ(ReadWholeFile(pipe), text);
   writer.join();
-  EXPECT_THAT(Refusal([] { ReadWholeFile("/dev/zero"); }), testing::HasSubstr("is a device"));
+  EXPECT_THAT(test::RefusalOf([] { ReadWholeFile("/dev/zero"); }),
+              testing::HasSubstr("is a device"));
 }
 
 TEST_F(AtomicFileTest, ReadsNoMoreThanIsAllowed) {
   WriteWholeFile(folder_ / "a.txt", std::string(2000, 'x'));
   EXPECT_EQ(ReadWholeFile(folder_ / "a.txt", 2000).size(), 2000u);
-  EXPECT_THAT(Refusal([&] { ReadWholeFile(folder_ / "a.txt", 1999); }),
+  EXPECT_THAT(test::RefusalOf([&] { ReadWholeFile(folder_ / "a.txt", 1999); }),
               testing::HasSubstr("more than"));
 }
 

@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tests/models/recording/temporary_file.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 const char* const kPlain =
     "time,position,velocity,torque\n"
@@ -27,15 +27,10 @@ Measurements Read(const std::string& text, const ReadSettings& layout = {}) {
   return ReadCsv(file.path(), layout);
 }
 
-/// The message with which `text` is refused; empty where it is not.
+/// The message with which `text` is refused.
 std::string Refusal(const std::string& text, const ReadSettings& layout = {}) {
   const TemporaryFile file("log.csv", text.empty() ? "\n" : text);
-  try {
-    ReadCsv(file.path(), layout);
-  } catch (const BadInput& refusal) {
-    return refusal.what();
-  }
-  return "";
+  return test::RefusalOf([&] { ReadCsv(file.path(), layout); });
 }
 
 TEST(ReadCsv, ReadsColumnsInAnyOrder) {
@@ -139,83 +134,52 @@ TEST(ReadCsv, UnwrapsAPositionByItsRange) {
   EXPECT_NEAR(log.position[99], 69.3, 1e-9);
 }
 
-TEST(ReadCsv, RefusesWhatIsNoRecording) {
-  EXPECT_THAT(Refusal(""), HasSubstr("is empty"));
-  EXPECT_THAT(Refusal("\n \r\n"), HasSubstr("is empty"));
-  EXPECT_THAT(Refusal("0,1,2,3\n1,2,3,4\n"),
-              HasSubstr("log.csv:1: holds numbers where the header"));
-  EXPECT_THAT(Refusal("time,position,velocity,torque\n"), HasSubstr("has 0 samples; at least 3"));
-  EXPECT_THAT(Refusal("time,position,velocity,torque\n0,0,1,1\n1,1,1,2\n"),
-              HasSubstr("has 2 samples; at least 3"));
+TEST(ReadCsv, RefusesWhatIsNoRecordingAtItsPlace) {
+  const std::string header = "time,position,velocity,torque\n", wide(5'000'000, ',');
+  const std::string start = header + "0,0,1,1\n\n1,1,1,2\n";
+  const std::vector<test::Refused> rows{
+      {"", "log.csv", "empty"},
+      {"\n \r\n", "log.csv", "empty"},
+      {"0,1,2,3\n1,2,3,4\n", "log.csv:1: ", "header"},
+      {header, "log.csv", "0 samples"},
+      {header + "0,0,1,1\n1,1,1,2\n", "log.csv", "2 samples"},
+      // columns
+      {"t_s,q_m,q_ref_m,force_N\n0,0,0,1\n1,1,1,2\n2,2,2,3\n",
+       "log.csv:1: ", "--map time=t_s,position=q_m,torque=force_N"},
+      {"time,position,torque,torque\n0,0,1,1\n", "log.csv:1: ", "'torque'"},
+      {"time,position,velocity,torque" + wide + "\n", "log.csv:1: ", "5000004"},
+      {header + "0" + wide + "\n", "log.csv:2: ", "5000001"},
+      // rows
+      {header + "0,0,1,1\n1,1,1,two\n2,2,1,3\n", "log.csv:3: ", "torque is 'two'"},
+      {header + "0,0,1,1\n1,1,1,\n2,2,1,3\n", "log.csv:3: ", "torque"},
+      {header + "0,0,1,1\n1,1,1,2\n2,2,1\n", "log.csv:4: ", "3 fields"},
+      {header + "0,0,1,1\n1,1,1,2,5\n2,2,1,3\n", "log.csv:3: ", "5 fields"},
+      {"time;position;torque\n0;0;0,5\n1;1;0,6\n2;2;0,7\n", "log.csv:2: ", "point"},
+      {header + "0,0,1,1\n1,1,nan,2\n2,2,1,3\n", "log.csv:3: ", "velocity of sample 2 is nan"},
+      {header + "0,0,1,1\n1,1,1,2\n2,-inf,1,3\n", "log.csv:4: ", "position of sample 3 is -inf"},
+      {header + "0,0,1,1\n1,1,1,1e999\n2,2,1,3\n", "log.csv:3: ", "torque is '1e999'"},
+      // times
+      {start + "1,1,1,3\n", "log.csv:5: ", "time 1 s of sample 3"},
+      {start + "0.5,1,1,3\n", "log.csv:5: ", "time of sample 3 is 0.5 s"},
+      {"time,position,torque\n0,0,1\n1e-300,1,2\n2e-300,2,3\n", "log.csv", "--unit time=ms"},
+      {header + "0,0,1,7\n1,1,1,7\n2,2,1,7\n", "log.csv", "torque is 7 N.m"},
+  };
+  test::ExpectRefused(rows, [](const std::string& text) { ParseCsv(text, "log.csv"); });
   EXPECT_THROW(ReadCsv("there/is/none.csv"), BadInput);
 }
 
-TEST(ReadCsv, NamesTheMapThatAMissingColumnNeeds) {
-  const std::string text = "t_s,q_m,q_ref_m,force_N\n0,0,0,1\n1,1,1,2\n2,2,2,3\n";
-  EXPECT_THAT(Refusal(text),
-              AllOf(HasSubstr("log.csv:1: has no column 'time'"), HasSubstr("t_s, q_m, q_ref_m"),
-                    HasSubstr("--map time=t_s,position=q_m,torque=force_N")));
-
-  ReadSettings layout;
-  layout.map = {{"time", "t_s"}, {"position", "q_n"}, {"torque", "force_N"}};
-  EXPECT_THAT(Refusal(text, layout),
-              AllOf(HasSubstr("no column 'q_n' (for position)"), HasSubstr("did you mean 'q_m'?")));
-  layout.map = {{"times", "t_s"}};
-  EXPECT_THAT(Refusal(text, layout), AllOf(HasSubstr("--map times=t_s"), HasSubstr("'time'?")));
-  EXPECT_THAT(Refusal("time,position,torque,torque\n0,0,1,1\n"), HasSubstr("'torque' twice"));
-}
-
-TEST(ReadCsv, RefusesUnknownUnits) {
-  ReadSettings layout;
-  layout.unit = {{"position", "degg"}};
-  EXPECT_THAT(Refusal(kPlain, layout), HasSubstr("did you mean 'deg'?"));
-  layout.unit = {{"positon", "deg"}};
-  EXPECT_THAT(Refusal(kPlain, layout), HasSubstr("did you mean 'position'?"));
-  layout.unit = {{"temperature", "K"}};
-  EXPECT_THAT(Refusal(kPlain, layout), HasSubstr("the file has no temperature"));
-}
-
-TEST(ReadCsv, RefusesBadRowsByLine) {
-  const std::string header = "time,position,velocity,torque\n";
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,two\n2,2,1,3\n"),
-              HasSubstr("log.csv:3: torque is 'two', which is not a number"));
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,\n2,2,1,3\n"), HasSubstr(":3: torque is empty"));
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,2\n2,2,1\n"),
-              HasSubstr(":4: has 3 fields where the header has 4"));
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,2,5\n2,2,1,3\n"), HasSubstr(":3: has 5 fields"));
-  EXPECT_THAT(Refusal("time;position;torque\n0;0;0,5\n1;1;0,6\n2;2;0,7\n"),
-              HasSubstr("write decimals with a point"));
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,nan,2\n2,2,1,3\n"),
-              HasSubstr(":3: velocity of sample 2 is nan; it must be a finite"));
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,2\n2,-inf,1,3\n"),
-              HasSubstr(":4: position of sample 3 is -inf"));
-  EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,1e999\n2,2,1,3\n"),
-              HasSubstr(":3: torque is '1e999'"));
-}
-
-TEST(Csv, RefusesMoreColumnsThanAnyLogHas) {
-  const std::string wide = "time,position,velocity,torque" + std::string(5'000'000, ',') + "\n";
-  EXPECT_THAT(Refusal(wide), HasSubstr(":1: has 5000004 columns; 10000 at most"));
-  EXPECT_THAT(Refusal("time,position,velocity,torque\n0" + std::string(5'000'000, ',') + "\n"),
-              HasSubstr(":2: has 5000001 fields where the header has 4"));
-}
-
-TEST(ReadCsv, RefusesTimeThatDoesNotIncrease) {
-  const std::string start = "time,position,velocity,torque\n0,0,1,1\n\n1,1,1,2\n";
-  EXPECT_THAT(Refusal(start + "1,1,1,3\n"),
-              HasSubstr("log.csv:5: time 1 s of sample 3 is that of the sample before"));
-  EXPECT_THAT(Refusal(start + "0.5,1,1,3\n"),
-              AllOf(HasSubstr(":5: time of sample 3 is 0.5 s, after 1 s"), HasSubstr("sort")));
-}
-
-TEST(ReadCsv, RefusesTimesThatAreNoTimes) {
-  EXPECT_THAT(Refusal("time,position,torque\n0,0,1\n1e-300,1,2\n2e-300,2,3\n"),
-              AllOf(HasSubstr("samples are 1e-300 s apart"), HasSubstr("--unit time=ms")));
-}
-
-TEST(ReadCsv, RefusesAConstantTorque) {
-  EXPECT_THAT(Refusal("time,position,velocity,torque\n0,0,1,7\n1,1,1,7\n2,2,1,7\n"),
-              HasSubstr("torque is 7 N.m in all 3 samples"));
+TEST(ReadCsv, RefusesColumnsAndUnitsThatAreNone) {
+  const auto refusal = [](auto member, ColumnTexts given) {
+    ReadSettings layout;
+    layout.*member = std::move(given);
+    return Refusal(kPlain, layout);
+  };
+  const auto map = &ReadSettings::map, unit = &ReadSettings::unit;
+  EXPECT_THAT(refusal(map, {{"time", "time"}, {"position", "positon"}}), HasSubstr("'position'"));
+  EXPECT_THAT(refusal(map, {{"times", "time"}}), HasSubstr("'time'"));
+  EXPECT_THAT(refusal(unit, {{"position", "degg"}}), HasSubstr("'deg'"));
+  EXPECT_THAT(refusal(unit, {{"positon", "deg"}}), HasSubstr("'position'"));
+  EXPECT_THAT(refusal(unit, {{"temperature", "K"}}), HasSubstr("temperature"));
 }
 
 TEST(RecordingToCsv, ReadsBackBitForBit) {
@@ -231,15 +195,41 @@ TEST(RecordingToCsv, ReadsBackBitForBit) {
   EXPECT_EQ(copy.temperature, log.temperature);
 }
 
-TEST(ReadCsv, ReadsTwentyMinutes) {
-  std::string text = "time,position,velocity,torque\n";
-  for (int i = 0; i < 25000; ++i) {
-    text += fmt::format("{},{},{},{}\n", 0.05 * i, std::sin(i), std::cos(i), std::sin(2 * i));
+constexpr const char* kRows = "0,0,1,10,300\n1,1,1,11,301\n2,2,1,12,302\n";
+
+Measurements ReadWith(const std::string& name, const ReadSettings& layout = {}) {
+  return ParseCsv("time,position,velocity,torque," + name + "\n" + kRows, "log.csv", layout);
+}
+
+TEST(TemperatureColumn, IsKnownByItsUnit) {
+  for (const char* name : {"motor_degC", "case [degC]", "T (degC)", "oil/degC", "temp_K", "T_K",
+                           "t [K]", "Temperature (K)"}) {
+    EXPECT_TRUE(ReadWith(name).temperature) << name;
   }
-  const TemporaryFile file("long.csv", text);
-  const Measurements log = ReadCsv(file.path());
-  ASSERT_EQ(log.size(), 25000);
-  EXPECT_EQ(log.torque[24999], std::sin(2 * 24999));
+  for (const char* name : {"gain_K", "K", "degC", "torques", "", "T_", "BREAK"}) {
+    EXPECT_FALSE(ReadWith(name).temperature) << name;
+  }
+  const char* two =
+      "time,position,velocity,torque,a_degC,b_degC\n0,0,1,10,3,3\n1,1,1,1,1,2\n2,2,1,1,1,1\n";
+  EXPECT_FALSE(ParseCsv(two, "log.csv").temperature);
+}
+
+TEST(TemperatureColumn, IsReadInItsUnit) {
+  const Measurements kelvin = ReadWith("case_temp_K");
+  ASSERT_TRUE(kelvin.temperature);
+  EXPECT_NEAR((*kelvin.temperature)[0], 300 - 273.15, 1e-12);
+  ASSERT_EQ(kelvin.notes.size(), 1u);
+  EXPECT_EQ(kelvin.notes[0], "temperature from the column 'case_temp_K'");
+  EXPECT_EQ((*ReadWith("case_degC").temperature)[0], 300);
+
+  // what is said counts, and what is left out is
+  ReadSettings layout;
+  layout.unit = {{"temperature", "K"}};
+  EXPECT_NEAR((*ReadWith("case_degC", layout).temperature)[0], 300 - 273.15, 1e-12);
+  layout = {};
+  layout.map = {{"temperature", ""}};
+  EXPECT_FALSE(ReadWith("case_degC", layout).temperature);
+  EXPECT_FALSE(ReadWith("speed_of_fan").temperature);
 }
 
 }  // namespace

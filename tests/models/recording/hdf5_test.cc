@@ -1,18 +1,25 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/recording/read_apart.h"
 #include "models/recording/read_recording.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/folders.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 Measurements Example() {
   Measurements log;
@@ -28,12 +35,7 @@ Measurements Example() {
 }
 
 std::string Refusal(const std::string& path, const ReadSettings& layout = {}) {
-  try {
-    ReadRecordingFile(path, layout);
-  } catch (const BadInput& refusal) {
-    return refusal.what();
-  }
-  return "";
+  return test::RefusalOf([&] { ReadRecordingFile(path, layout); });
 }
 
 TEST(Hdf5, ReadsBackBitForBitWithUnitsAndGear) {
@@ -125,6 +127,28 @@ TEST(Hdf5, LeavesNothingBehindWhereItCannotWrite) {
   EXPECT_THROW(WriteRecording(Example(), "there/is/no/folder.h5"), BadInput);
   EXPECT_FALSE(std::filesystem::exists("there"));
   EXPECT_THROW(WriteRecording(Example(), "log.xlsx"), BadInput);
+}
+
+/// A reader that a file took over: it sends its parent a byte now and then, for 5 s.
+FileContent Trickle(const std::string&, const ReadSettings&) {
+  for (int i = 0; i < 50; ++i) {
+    for (int file = 3; file < 64; ++file) {
+      struct stat status {};
+      const bool is_pipe = fstat(file, &status) == 0 && S_ISFIFO(status.st_mode) &&
+                           (fcntl(file, F_GETFL) & O_ACCMODE) == O_WRONLY;
+      if (is_pipe && write(file, "c", 1) < 0) _exit(1);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  _exit(0);
+}
+
+TEST(ReadApart, EndsInTimeWhateverTheReaderSends) {
+  EXPECT_THAT(
+      [] {
+        ReadApart({"trickle", &Trickle}, "absent", {}, 0.3);
+      },
+      testing::ThrowsMessage<BadInput>(testing::HasSubstr("within 0.3 s")));
 }
 
 }  // namespace

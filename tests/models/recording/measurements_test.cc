@@ -1,12 +1,26 @@
 #include "models/recording/measurements.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <warmjoint/recording.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "models/foundation/bad_input.h"
+#include "models/recording/course_of.h"
+#include "models/recording/join_recordings.h"
 #include "models/recording/sampling.h"
+#include "models/recording/unwrap.h"
+#include "tests/support/warm_recording.h"
 
 namespace warmjoint {
 namespace {
+
+using Eigen::VectorXd;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 TEST(KnowsMotorAngle, NeedsAColumnOrAGearThatTurnsTheMotorFurther) {
   Measurements m;
@@ -47,6 +61,210 @@ TEST(WithoutRest, LeavesOutSamplesOfVelocityZeroAlone) {
   EXPECT_TRUE(moving.keep[2]);
   EXPECT_FALSE(moving.keep[3]);
   EXPECT_EQ(moving.segments.size(), 1u);
+}
+
+/// n samples 0.5 s apart from `begin` on, all of one value.
+Measurements Recording(const std::string& source, Eigen::Index n, double begin, double value) {
+  Measurements m;
+  m.source = source;
+  m.time = begin + 0.5 * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
+  m.position = m.velocity = m.torque = Eigen::VectorXd::Constant(n, value);
+  return m;
+}
+
+TEST(JoinRecordings, PutsOneAfterTheOtherAStepApart) {
+  const Measurements joined = JoinRecordings(
+      {Recording("a", 3, 0, 1), Recording("b", 2, 100, 2), Recording("c", 2, -5, 3)});
+  EXPECT_THAT(joined.starts, ElementsAre(3, 5));
+  EXPECT_THAT(joined.time, ElementsAre(0, 0.5, 1, 1.5, 2, 2.5, 3));
+  EXPECT_THAT(joined.torque, ElementsAre(1, 1, 1, 2, 2, 3, 3));
+  EXPECT_THAT(joined.position, ElementsAre(1, 1, 1, 2, 2, 3, 3));
+  EXPECT_EQ(joined.source, "a + b + c");
+}
+
+TEST(JoinRecordings, LeavesOneRecordingAsItIs) {
+  const Measurements one = JoinRecordings({Recording("a", 3, 7, 1)});
+  EXPECT_TRUE(one.starts.empty());
+  EXPECT_EQ(one.time[0], 7);
+  EXPECT_EQ(one.source, "a");
+}
+
+TEST(JoinRecordings, LeavesOutAColumnThatOneLacks) {
+  Measurements with = Recording("with", 3, 0, 1);
+  with.load = Eigen::VectorXd::Ones(3);
+  with.temperature = Eigen::VectorXd::Constant(3, 25);
+  Measurements without = Recording("without", 2, 0, 1);
+  without.temperature = Eigen::VectorXd::Constant(2, 26);
+  const Measurements joined = JoinRecordings({with, without});
+  EXPECT_FALSE(joined.load);
+  EXPECT_THAT(joined.notes, ElementsAre(HasSubstr("load is left out")));
+  EXPECT_THAT(*joined.temperature, ElementsAre(25, 25, 25, 26, 26));
+}
+
+TEST(JoinRecordings, RefusesAnotherUnitAndNothing) {
+  Measurements amperes = Recording("b", 3, 0, 1);
+  amperes.torque_unit = "A";
+  EXPECT_THAT(
+      [&] {
+        JoinRecordings({Recording("a", 3, 0, 1), amperes});
+      },
+      ThrowsMessage<BadInput>(HasSubstr("b: is of another joint or in another unit (A)")));
+  EXPECT_THROW(JoinRecordings({}), BadInput);
+}
+
+TEST(PredictFriction, FollowsTheGoldenClosedLoop) {
+  const nlohmann::json& golden = test::Golden().at("closed_sim");
+  const double h = 0.25;
+  const Thermal thermal = Continuous({golden.at("ke"), golden.at("te")}, h);
+  const Friction friction{"viscous_coulomb",
+                          {{"viscous", golden.at("kv")}, {"coulomb", golden.at("kc")}},
+                          thermal,
+                          0,
+                          1};
+  const Eigen::VectorXd velocity = test::ToVector(golden.at("v"));
+  const Measurements motion = test::Record(h, velocity, 0 * velocity);
+
+  const Prediction prediction = PredictFriction(friction, motion, {golden.at("E0")});
+  // 1e-12: closed form, through one logarithm and back
+  const Eigen::VectorXd force = test::ToVector(golden.at("F"));
+  EXPECT_LT((prediction.force - force).norm(), 1e-12 * force.norm());
+  const Eigen::VectorXd energy = test::ToVector(golden.at("E"));
+  EXPECT_LT((prediction.energy - energy).norm(), 1e-12 * energy.norm());
+  EXPECT_EQ(prediction.feeds_itself, motion.size());
+}
+
+TEST(PredictFriction, HoldsTheNominalLawWhereNothingWarms) {
+  Friction friction = test::TableOne();
+  friction.thermal.reset();
+  const Eigen::VectorXd velocity = test::AlternatingSpeeds(100, 1, 30);
+  const Prediction prediction = PredictFriction(friction, test::Record(1, velocity, 0 * velocity));
+  for (Eigen::Index i = 0; i < 100; ++i) {
+    EXPECT_DOUBLE_EQ(prediction.force[i], 5 * velocity[i] + 15 * Sign(velocity[i]));
+  }
+}
+
+TEST(PredictFriction, CoolsThroughAGapInTime) {
+  Measurements motion = test::Record(1, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Zero(5));
+  motion.time << 0, 1, 2, 602, 603;
+  const Prediction prediction = PredictFriction(test::TableOne(), motion, {-8});
+  // 1e-12: closed form
+  EXPECT_NEAR(prediction.energy[3], -8 * std::exp(-602.0 / 600), 8e-12);
+}
+
+TEST(PredictFriction, SaysWhereFrictionFeedsItself) {
+  // warm at 1.2 rad/s for an hour, then creep: E is below the level of slow friction
+  Eigen::VectorXd velocity = Eigen::VectorXd::Constant(3600, 1.2);
+  velocity.tail(1000).setConstant(0.05);
+  Friction friction = test::TableOne();
+  friction.parameters["viscous"] = 20;
+  const Prediction prediction = PredictFriction(friction, test::Record(1, velocity, 0 * velocity));
+  EXPECT_EQ(prediction.feeds_itself, 2600);
+}
+
+TEST(PredictFriction, BendsTheBristleAsTheTorqueTells) {
+  // 1 s at 0.001 rad/s: the bristle of 2000 N.m/rad takes up 2 N.m on the way, from 3 N.m on
+  Friction friction;
+  friction.law = "lugre";
+  friction.parameters = {{"viscous", 0},
+                         {"coulomb", 15},
+                         {"static", 15},
+                         {"stribeck_velocity", 0.1},
+                         {"bristle_stiffness", 2000},
+                         {"bristle_damping", 0}};
+  Measurements m =
+      test::Record(0.01, Eigen::VectorXd::Constant(101, 0.001), Eigen::VectorXd::Zero(101));
+  m.torque[0] = 3;
+  const Eigen::VectorXd sliding = PredictFriction(friction, m).force;
+  EXPECT_NEAR(sliding[0], 15, 1e-9);
+  EXPECT_NEAR(sliding[100], 15, 1e-9);
+  const Eigen::VectorXd bent = PredictFriction(friction, m, {}, BristleStart::torque).force;
+  EXPECT_NEAR(bent[0], 3, 1e-9);
+  // ds/dx = sigma0 (1 - s/15)
+  EXPECT_NEAR(bent[100], 15 - 12 * std::exp(-2000 * 0.001 / 15), 1e-9);
+}
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+VectorXd Wrapped(const VectorXd& position, double lowest) {
+  VectorXd wrapped = position;
+  for (double& p : wrapped) p -= kTurn * std::floor((p - lowest) / kTurn);
+  return wrapped;
+}
+
+TEST(UnwrapTurns, FollowsSeveralTurnsInBothDirections) {
+  const VectorXd time = VectorXd::LinSpaced(2000, 0, 20);
+  const VectorXd position = 10 * (0.5 * time.array()).sin();
+  for (const double lowest : {0.0, -kTurn / 2}) {
+    VectorXd log = Wrapped(position, lowest);
+    EXPECT_GE(UnwrapTurns(time, {}, log), 4);
+    // up to whole turns at the start, and their rounding
+    EXPECT_LT(((log - position).array() - (log[0] - position[0])).abs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(UnwrapTurns, LeavesOtherPositionsAlone) {
+  const VectorXd time = VectorXd::LinSpaced(100, 0, 99);
+  VectorXd position = 3 * (0.1 * time.array()).sin();
+  const VectorXd before = position;
+  EXPECT_EQ(UnwrapTurns(time, {}, position), 0) << "never half a turn between samples";
+  EXPECT_EQ(position, before);
+
+  position = VectorXd::LinSpaced(100, 0, 400);
+  EXPECT_EQ(UnwrapTurns(time, {}, position), 0) << "more than one turn in all";
+}
+
+TEST(UnwrapTurns, BelievesTheVelocity) {
+  // 4 rad each second, there and back: a step of more than half a turn that is no jump
+  const VectorXd time = VectorXd::LinSpaced(5, 0, 4);
+  VectorXd position(5), velocity(5);
+  position << 0, 4, 0, 4, 0;
+  velocity << 4, 0, 0, 0, -4;
+  const VectorXd before = position;
+  EXPECT_EQ(UnwrapTurns(time, velocity, position), 2) << "a velocity of 0 asks for small steps";
+  velocity << 4, 4, -12, 20, -28;
+  position = before;
+  EXPECT_EQ(UnwrapTurns(time, velocity, position), 0);
+  EXPECT_EQ(position, before);
+}
+
+/// To and fro between -3 and 3 rad at 1 rad/s, ten samples a second, without those of a span.
+struct WithGap {
+  VectorXd time, position, velocity;
+
+  WithGap(double begin, double end) : time(600), position(600), velocity(600) {
+    Eigen::Index n = 0;
+    for (int i = 0; i < 600; ++i) {
+      const double t = 0.1 * i, phase = std::fmod(t, 12);
+      if (t > begin && t < end) continue;
+      time[n] = t;
+      position[n] = phase < 6 ? phase - 3 : 9 - phase;
+      velocity[n++] = phase < 6 ? 1 : -1;
+    }
+    for (VectorXd* column : {&time, &position, &velocity}) column->conservativeResize(n);
+  }
+};
+
+TEST(UnwrapTurns, TakesNoGapInWhichTheJointMovedForAJump) {
+  WithGap log(17.5, 25);  // from 2.5 rad to -2
+  const VectorXd before = log.position;
+  ASSERT_LT((before.tail(before.size() - 1) - before.head(before.size() - 1)).minCoeff(),
+            -kTurn / 2);
+  EXPECT_EQ(UnwrapTurns(log.time, log.velocity, log.position), 0);
+  EXPECT_EQ(UnwrapTurns(log.time, {}, log.position), 0);
+  EXPECT_EQ(log.position, before);
+}
+
+TEST(UnwrapTurns, GoesOnAtTheNearestPlaceBehindAGapOfASensorThatWraps) {
+  // 1 rad/s on and on; a gap of 4.5 s in which it turns by 4.5 rad: as well by 4.5 - 2 pi = -1.8 rad
+  VectorXd time(155), velocity = VectorXd::Ones(155);
+  for (Eigen::Index i = 0; i < 155; ++i) time[i] = 0.1 * static_cast<double>(i < 100 ? i : i + 44);
+  VectorXd log = Wrapped(time, 0);
+  EXPECT_GE(UnwrapTurns(time, velocity, log), 2);
+  EXPECT_NEAR(log[100] - log[99], 4.5 - kTurn, 1e-12);
+  for (Eigen::Index i = 1; i < 155; ++i) {
+    if (i == 100) continue;
+    EXPECT_NEAR(log[i] - log[i - 1], 0.1, 1e-12) << i;
+  }
 }
 
 }  // namespace

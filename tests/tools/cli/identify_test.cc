@@ -17,8 +17,8 @@
 namespace warmjoint {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Four speeds in both directions, 30 s each.
 double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
@@ -180,29 +180,6 @@ TEST(Identify, TakesSeveralRecordingsAtOnce) {
               testing::AllOf(HasSubstr("monday.csv"), HasSubstr("tuesday.csv")));
 }
 
-TEST(Identify, SaysWhyThereAreNoHeldOutFigures) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv", still = scratch.path() / "still.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  WriteRecordingFile(still, 480, [](int) { return 0.0; });
-  const auto reason = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls"};
-    command.insert(command.end(), more.begin(), more.end());
-    const ProgramAnswer text = RunWarmjoint(command);
-    command.insert(command.end(), {"--format", "json"});
-    const auto estimate = nlohmann::json::parse(RunWarmjoint(command).out);
-    const std::string why = estimate.value("without_holdout", "");
-    // either figures, or a reason in both
-    EXPECT_EQ(estimate.at("holdout").is_null(), !why.empty());
-    EXPECT_EQ(text.out.find("no held-out figures: ") != std::string::npos, !why.empty());
-    return why;
-  };
-  EXPECT_EQ(reason({}), "");
-  EXPECT_THAT(reason({"--holdout", "0.98"}),
-              HasSubstr("a fit to the first 2 % of the log gives no friction (the motion cannot"));
-  EXPECT_THAT(reason({"--holdout", still}), HasSubstr("no sample moves at a constant speed"));
-}
-
 TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
   const ScratchDirectory scratch;
   const std::string recording = scratch.path() / "log.csv";
@@ -346,28 +323,6 @@ TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
   EXPECT_EQ(rows[2].at("status"), "crashed");
   EXPECT_EQ(filed.status, 2);
   EXPECT_THAT(filed.err, HasSubstr("--output: is for one identifier"));
-}
-
-TEST(Identify, ReadsAForeignLogOfALinearAxis) {
-  WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
-  const ScratchDirectory scratch;
-  const std::string output = scratch.path() / "estimate.json";
-  const ProgramAnswer answer =
-      RunWarmjoint({"identify", test::SharedFolder() / "data/emps/DATA_EMPS.csv", "--map",
-                    "time=t_s,position=q_m,torque=force_N", "--joint", "linear", "--identifier",
-                    "nominal-ls", "--set", "law=asymmetric", "--force", "-o", output});
-  // the slope of its friction differs between the directions, which law (3) cannot follow, by little
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  EXPECT_THAT(answer.out, HasSubstr("depends on direction"));
-  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
-
-  // one unit of the last digit of published figures, which another selection of samples moves
-  const auto& parameters = estimate.at("parameters");
-  EXPECT_NEAR(parameters.at("coulomb_positive").at("value").get<double>(), 18.0, 0.1);
-  EXPECT_NEAR(parameters.at("coulomb_negative").at("value").get<double>(), 25.2, 0.1);
-  EXPECT_NEAR(estimate.at("metrics").at("rmse").get<double>(), 1.78, 0.02);
-  EXPECT_NEAR(estimate.at("metrics").at("fit").get<double>(), 95.5, 0.1);
-  EXPECT_EQ(parameters.at("coulomb_positive").at("unit"), "N");
 }
 
 }  // namespace

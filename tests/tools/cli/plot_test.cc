@@ -155,18 +155,6 @@ TEST(Plot, WritesNoDataOverARecording) {
   EXPECT_EQ(ReadWholeFile(at("log.csv")), before);
 }
 
-TEST(Plot, KeepsNoticesToItselfWhereAsked) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
-  WriteRecordingFile(at("log.csv"), 480, [](int i) { return (i / 30 % 2 ? -0.4 : 0.4); });
-  RunWarmjoint({"identify", at("log.csv"), "-o", at("e.json")});
-  auto file = nlohmann::json::parse(ReadWholeFile(at("e.json")));
-  file.erase("recording");
-  WriteWholeFile(at("e.json"), file.dump());
-  EXPECT_THAT(Call({"plot", at("e.json"), "-o", at("told")}).err, HasSubstr("--recording"));
-  EXPECT_EQ(Call({"plot", at("e.json"), "-o", at("quiet"), "--quiet"}).err, "");
-}
-
 TEST(Compare, KeepsNoticesToItselfWhereAsked) {
   const ScratchDirectory scratch;
   const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };

@@ -1,10 +1,14 @@
+// Predictions by a stored estimate, and recordings that follow one another.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/support/warm_recording.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/scratch_directory.h"
@@ -12,7 +16,7 @@
 namespace warmjoint {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Four speeds in both directions, 30 s each.
 double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
@@ -66,12 +70,6 @@ TEST_F(PredictTest, RefusesAnEstimateWithoutFriction) {
   EXPECT_THAT(answer.err, HasSubstr("is inadequate_model and holds no friction"));
 }
 
-TEST_F(PredictTest, RefusesAHeatThatTheEstimateDoesNotKnow) {
-  const ProgramAnswer answer = Run({"predict", "e.json", "other.csv", "--initial", "warm"});
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("cold, end or settled:SPEED"));
-}
-
 TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   const std::vector<std::string> amperes{"identify", "log.csv",  "--identifier",      "nominal-ls",
                                          "--unit",   "torque=A", "--torque-constant", "2",
@@ -91,6 +89,144 @@ TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   const ProgramAnswer refused = Run({"identify", "log.csv", "--torque-constant", "2"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("give --unit torque=A"));
+}
+
+constexpr int kFirst = 3600, kPause = 300, kSecond = 3600;  // s, a sample each
+
+/// The rows of a recording from one sample to another, its clock set back by `clock` s.
+void WriteRows(const std::filesystem::path& path, const Measurements& m, Eigen::Index begin,
+               Eigen::Index end, double clock) {
+  std::string csv = "time,position,velocity,torque\n";
+  for (Eigen::Index i = begin; i < end; ++i) {
+    csv +=
+        fmt::format("{},{},{},{}\n", m.time[i] - clock, m.position[i], m.velocity[i], m.torque[i]);
+  }
+  WriteWholeFile(path, csv);
+}
+
+/// A run of the joint of Table I, cut in two with a pause of 300 s between: day1.csv, day2.csv that
+/// begins at 0 s, and later.csv, the same by the clock of day1.
+class FollowTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    Eigen::VectorXd velocity = test::AlternatingSpeeds(kFirst + kPause + kSecond, 7);
+    velocity.segment(kFirst, kPause).setZero();
+    const Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, 0.3, 7);
+    const Eigen::Index second = kFirst + kPause;
+    WriteRows(scratch_.path() / "day1.csv", m, 0, kFirst, 0);
+    WriteRows(scratch_.path() / "day2.csv", m, second, m.size(), m.time[second]);
+    WriteRows(scratch_.path() / "later.csv", m, second, m.size(), 0);
+    ASSERT_EQ(Run({"identify", "day1.csv", "-o", "day1.json"}).status, 0);
+  }
+
+  ProgramAnswer Run(std::vector<std::string> arguments) const {
+    return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
+  }
+
+  nlohmann::json Json(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const ProgramAnswer answer = Run(std::move(arguments));
+    return nlohmann::json::parse(answer.out, nullptr, false);
+  }
+
+  const ScratchDirectory scratch_;
+};
+
+/// By how many deviations a parameter lies off, and its interval.
+double Off(const nlohmann::json& estimate, const char* name, double truth) {
+  const auto& one = estimate.at("parameters").at(name);
+  return (one.at("value").get<double>() - truth) / one.at("std").get<double>();
+}
+
+TEST_F(FollowTest, TheSecondRecordingFindsTheTruthThatAColdStartMisses) {
+  const auto followed = Json({"identify", "day2.csv", "--follows", "day1.json", "--pause", "300"});
+  ASSERT_EQ(followed.at("status"), "ok") << followed.at("message");
+  for (const auto& [name, truth] : {std::pair{"viscous", 5.0},
+                                    {"coulomb", 15.0},
+                                    {"thermal_gain", -3.0},
+                                    {"thermal_time_constant", 600.0}}) {
+    EXPECT_LT(std::abs(Off(followed, name, truth)), 3) << name;
+  }
+  const auto& expected = followed.at("follows").at("energy");
+  const auto& fitted = followed.at("parameters").at("initial_energy");
+  EXPECT_NEAR(fitted.at("value").get<double>(), expected.at("value").get<double>(),
+              3 * expected.at("std").get<double>());
+  // what is known beforehand is not forgotten
+  EXPECT_LE(fitted.at("std").get<double>(), 1.01 * expected.at("std").get<double>());
+
+  // from cold the same log is refused, or its level lies far off
+  const auto cold = Json({"identify", "day2.csv"});
+  const bool refused = cold.at("status") != "ok";
+  EXPECT_TRUE(refused || std::abs(Off(cold, "coulomb", 15)) > 5);
+
+  // and E(0) from the second log alone is known less well
+  const auto alone = Json({"identify", "day2.csv", "--start", "estimated"});
+  EXPECT_GT(alone.at("parameters").at("coulomb").at("std").get<double>(),
+            1.2 * followed.at("parameters").at("coulomb").at("std").get<double>());
+}
+
+TEST_F(FollowTest, TakesTheEarlierRecordingItselfAndTheStampsOfOneClock) {
+  const auto given = Json({"identify", "day2.csv", "--follows", "day1.json", "--pause", "300"});
+  const auto stamps = Json({"identify", "later.csv", "--follows", "day1.csv"});
+  EXPECT_EQ(given.at("follows").at("pause_from"), "given");
+  EXPECT_EQ(stamps.at("follows").at("pause_from"), "stamps");
+  // from the last sample to the first one
+  EXPECT_NEAR(stamps.at("follows").at("pause").get<double>(), kPause + 1, 1e-9);
+  const double at_300 = given.at("follows").at("energy").at("value");
+  const double at_301 = stamps.at("follows").at("energy").at("value");
+  EXPECT_NEAR(at_301 / at_300, std::exp(-1.0 / 600), 1e-3);
+}
+
+TEST_F(FollowTest, TellsWhereTheLogContradictsThePause) {
+  const auto estimate = Json({"identify", "day2.csv", "--follows", "day1.json", "--pause", "3"});
+  ASSERT_EQ(estimate.at("status"), "ok") << estimate.at("message");
+  EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("check the pause"));
+  EXPECT_LT(std::abs(Off(estimate, "coulomb", 15)), 3);
+}
+
+TEST_F(FollowTest, PredictsWithTheHeatThatWasLeft) {
+  const auto rmse = [](const nlohmann::json& told) {
+    return told.at("metrics").at("rmse").get<double>();
+  };
+  const auto cold = Json({"predict", "day1.json", "day2.csv"});
+  for (const char* file : {"day1.json", "day1.csv"}) {
+    const auto followed =
+        Json({"predict", "day1.json", "day2.csv", "--follows", file, "--pause", "301"});
+    // noise of 0.3 N.m, and what the parameters are off
+    EXPECT_NEAR(rmse(followed), 0.3, 0.02) << file;
+    EXPECT_LT(rmse(followed), 0.5 * rmse(cold)) << file;
+    EXPECT_EQ(followed.at("follows").at("pause"), 301) << file;
+  }
+}
+
+TEST_F(FollowTest, RefusesWhatCannotFollow) {
+  const auto refusal = [&](std::vector<std::string> arguments) {
+    const ProgramAnswer answer = Run(std::move(arguments));
+    EXPECT_EQ(answer.status, 2) << answer.err;
+    return answer.err;
+  };
+  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json"}),
+              HasSubstr("share no clock: give --pause SECONDS"));
+  EXPECT_THAT(refusal({"identify", "day2.csv", "--pause", "300"}),
+              HasSubstr("name that with --follows"));
+  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json", "--pause", "-1"}),
+              HasSubstr("0 or more"));
+  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json", "--pause", "300",
+                       "--identifier", "nominal-ls"}),
+              HasSubstr("nominal-ls cannot estimate E(0); use one of: energy-ml"));
+  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json", "--pause", "300",
+                       "--start", "estimated"}),
+              HasSubstr("leave one of them"));
+  EXPECT_THAT(refusal({"identify", "day1.csv", "day2.csv", "--follows", "day1.json"}),
+              HasSubstr("is for one recording"));
+  EXPECT_THAT(refusal({"predict", "day1.json", "day2.csv", "--follows", "day1.json", "--initial",
+                       "end", "--pause", "3"}),
+              HasSubstr("leave one"));
+
+  // what knows no heat leaves none
+  ASSERT_EQ(Run({"identify", "day1.csv", "--set", "law=coulomb", "-o", "bad.json"}).status, 3);
+  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "bad.json", "--pause", "300"}),
+              HasSubstr("tells of no heat at its end"));
 }
 
 }  // namespace

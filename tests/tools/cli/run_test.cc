@@ -23,8 +23,8 @@
 namespace warmjoint {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// 40 realizations of Algorithm 1 and least squares: long enough to be hit in the middle.
 std::string SuiteText() {
@@ -87,13 +87,6 @@ TEST_F(Run, EveryFileHasTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(Run, AShardWithoutRealizationsIsDone) {
-  const ProgramAnswer answer =
-      RunWarmjoint(Command("empty", {"--realizations", "3", "--shard", "1/4"}));
-  EXPECT_EQ(answer.status, 0) << answer.err;
-  EXPECT_THAT(answer.out, HasSubstr("0 results"));
-}
-
 TEST_F(Run, TakesSeedsOf64BitsAndNoNegativeOnes) {
   const std::string largest = "18446744073709551615";
   ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2", "--seed", largest})).status, 0);
@@ -150,16 +143,6 @@ TEST_F(Run, AnotherRunInTheSameDirectoryIsRefusedWithWhatDiffers) {
   EXPECT_THAT(refusal({"--realizations", "2", "--identifier", "em"}), HasSubstr("identifiers"));
   EXPECT_EQ(Results("run"), results);
   EXPECT_EQ(RunWarmjoint(Command("run", {"--realizations", "2"})).status, 0) << "same run";
-}
-
-TEST_F(Run, TakesTheIdentifiersThatAreNamed) {
-  ASSERT_EQ(
-      RunWarmjoint(Command("ls", {"--realizations", "2", "--identifier", "nominal-ls"})).status, 0);
-  EXPECT_THAT(Results("ls"), Not(HasSubstr("em,")));
-  const ProgramAnswer unknown = RunWarmjoint(Command("none", {"--identifier", "nominal"}));
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("nominal-ls"));
-  EXPECT_FALSE(std::filesystem::exists(Directory("none"))) << "left behind";
 }
 
 TEST_F(Run, ShardsMergeToTheBytesOfTheWhole) {
@@ -408,16 +391,6 @@ TEST_F(Run, CommandsNeedConsentToRunWithoutLandlock) {
   command.push_back("--unconfined");
   EXPECT_EQ(WithoutLandlock(command, err), 0);
   EXPECT_THAT(ReadWholeFile(err), HasSubstr("warning: commands run unconfined"));
-}
-
-TEST_F(Run, BadSuitesLeaveNothingBehind) {
-  std::string text = SuiteText();
-  text.replace(text.find("name: nominal-ls"), 16, "name: nominal-sl");
-  WriteWholeFile(suite_, text);
-  const ProgramAnswer answer = RunWarmjoint(Command("run"));
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("did you mean 'nominal-ls'?"));
-  EXPECT_FALSE(std::filesystem::exists(Directory("run")));
 }
 
 }  // namespace

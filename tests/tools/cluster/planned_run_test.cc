@@ -18,10 +18,10 @@
 namespace warmjoint {
 namespace {
 
-using testing::AllOf;
-using testing::AnyOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 class PlannedRun : public testing::Test {
  protected:
@@ -237,25 +237,11 @@ TEST_F(SubmittedRun, AKilledShardIsRequeued) {
   EXPECT_EQ(Said(), "requeue 7_1\nrequeue 7_1\n");
 }
 
-TEST(Plan, HasAShardForEach1000RealizationsAndThread) {
-  Suite suite;
-  suite.realizations = 2001;
-  EXPECT_EQ(DefaultShards(suite, 1), 3);
-  EXPECT_EQ(DefaultShards(suite, 2), 2);
-  suite.ladder = {"", "", {{"low", {}, {}}, {"high", {}, {}}}};
-  EXPECT_EQ(DefaultShards(suite, 1), 5);
-}
-
 TEST(CheckSbatch, TakesKeysThatTheScriptDoesNotSet) {
   EXPECT_NO_THROW(CheckSbatch({"time=1-00:00:00", "mem-per-cpu=2G"}));
   for (const char* entry : {"array=1", "partition", "=x", "time=1\nrm", "-p=x y\""}) {
     EXPECT_THROW(CheckSbatch({entry}), BadInput) << entry;
   }
-}
-
-TEST(Ranges, JoinNumbersThatFollow) {
-  EXPECT_EQ(Ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
-  EXPECT_EQ(Ranges({4}, ","), "4");
 }
 
 }  // namespace

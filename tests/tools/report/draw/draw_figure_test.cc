@@ -3,14 +3,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "models/foundation/bad_input.h"
+#include "models/foundation/random_stream.h"
 #include "tests/tools/report/look.h"
+#include "tools/report/draw/figure_data.h"
+#include "tools/report/draw/reduce.h"
+#include "tools/report/draw/ticks.h"
 
 namespace warmjoint::report {
 namespace {
 
+using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// One panel whose single series is a line through two points of unequal axes.
@@ -29,8 +37,6 @@ Figure OneLine() {
   figure.panels.push_back({"Panel", plot});
   return figure;
 }
-
-Series& OnlySeries(Figure& figure) { return std::get<Plot>(figure.panels[0].content).series[0]; }
 
 TEST(DrawFigure, HandsOverLimitsDataAndColour) {
   const Drawn drawn = DrawTidy(OneLine());
@@ -79,31 +85,12 @@ TEST(DrawFigure, WritesEveryWord) {
                                               "torque (N·m)", "measured", "0", "10", "−2.0"}));
 }
 
-TEST(DrawFigure, KeepsLegendsOffTheData) {
-  const Drawn drawn = DrawTidy(OneLine());
-  for (const DrawnText& text : drawn.texts) {
-    if (text.text == "measured") {
-      EXPECT_LE(text.place.bottom, drawn.plots[0].area.top);
-    }
-  }
-}
-
 TEST(DrawFigure, GivesTheSameBytesWhateverWasDrawnBefore) {
   const std::string first = EncodePng(DrawFigure(OneLine()).image, "alt");
   Figure other = OneLine();
   other.title = "Other letters: xyzäöüβγ";
   DrawFigure(other, DarkTheme());
   EXPECT_EQ(EncodePng(DrawFigure(OneLine()).image, "alt"), first);
-}
-
-TEST(DrawFigure, ClipsToTheAxes) {
-  Figure figure = OneLine();
-  OnlySeries(figure).shape = Line{Vector2d(-50, 50), Vector2d(1, 1), 3};
-  const Drawn drawn = DrawTidy(figure);
-  const DrawnPlot& plot = drawn.plots[0];
-  const Rgb blue = LightTheme().Colour(Hue::blue);
-  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(plot, 0.5, 1), blue));
-  EXPECT_FALSE(HasColourNear(drawn.image, PixelOf(plot, -0.3, 1), blue));
 }
 
 TEST(DrawFigure, ShowsBandsBarsBoxesLevelsAndHeatMapsWhereTheyBelong) {
@@ -142,50 +129,6 @@ TEST(DrawFigure, ShowsBandsBarsBoxesLevelsAndHeatMapsWhereTheyBelong) {
       heat.image.At(PixelOf(heat.plots[0], 7.5, 1).x, PixelOf(heat.plots[0], 7.5, 1).y);
   EXPECT_LT(low.red + low.green, 120) << "row 0, column 0 stands at the lower left";
   EXPECT_GT(high.red + high.green, 400);
-}
-
-TEST(DrawFigure, LeavesGapsForNaN) {
-  Figure figure = OneLine();
-  VectorXd x(5), y(5);
-  x << 0, 3, 5, 7, 10;
-  y << 1, 1, NAN, 1, 1;
-  OnlySeries(figure).shape = Line{x, y, 3};
-  const Drawn drawn = DrawTidy(figure);
-  const Rgb blue = LightTheme().Colour(Hue::blue);
-  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 2, 1), blue));
-  EXPECT_FALSE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 5, 1), blue));
-}
-
-TEST(DrawFigure, RefusesAxesThatCannotBeDrawn) {
-  Figure figure = OneLine();
-  auto& plot = std::get<Plot>(figure.panels[0].content);
-  plot.y = {"error (%)", 0, 1, Scale::logarithmic, {}};
-  try {
-    DrawFigure(figure);
-    FAIL() << "drawn";
-  } catch (const BadInput& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("axis 'error (%)' cannot run from 0 to 1"));
-  }
-  // and draws on as if nothing had happened
-  DrawTidy(OneLine());
-}
-
-TEST(DrawFigure, SaysWhichTextsItsTypefaceCannotSet) {
-  Figure figure = OneLine();
-  figure.title = "two signs \u4E2D";
-  EXPECT_THAT(DrawFigure(figure).unreadable, ::testing::ElementsAre(figure.title));
-}
-
-TEST(DrawFigure, PutsPicturesWhereTheirPanelsAre) {
-  Figure figure = OneLine();
-  Image red{2, 1, {255, 0, 0, 0, 0, 255}};
-  figure.panels = {{"", Picture{red}}};
-  const Drawn drawn = DrawFigure(figure);
-  const Rectangle& place = drawn.pictures.at(0);
-  EXPECT_NEAR(place.width(), 2 * place.height(), 0.01);
-  const int y = static_cast<int>(place.top + place.bottom);
-  EXPECT_EQ(drawn.image.At(static_cast<int>(2 * place.left + 3), y), (Rgb{255, 0, 0}));
-  EXPECT_EQ(drawn.image.At(static_cast<int>(2 * place.right - 3), y), (Rgb{0, 0, 255}));
 }
 
 TEST(EncodeFigure, GivesTheSameBytesOfEachFormatWhateverWasDrawnBefore) {
@@ -236,16 +179,6 @@ TEST(EncodeFigure, IsAsLargeAsAsked) {
   EXPECT_THROW(EncodeFigure(OneLine(), setting), BadInput) << "no room between the axes";
 }
 
-TEST(EncodeFigure, LeavesTheTitleToTheCaption) {
-  PageSetting setting;
-  setting.format = FileFormat::svg;
-  setting.titled = false;
-  const std::string svg = EncodeFigure(OneLine(), setting).bytes;
-  EXPECT_EQ(svg.find(">Title</text>"), std::string::npos);
-  EXPECT_EQ(svg.find(">Subtitle</text>"), std::string::npos);
-  EXPECT_THAT(svg, HasSubstr("<title>Title</title>"));
-}
-
 TEST(EncodeFigure, ThinsAHundredThousandSamplesAndSaysSo) {
   constexpr Eigen::Index kSamples = 100000;
   const VectorXd x = VectorXd::LinSpaced(kSamples, 0, 10);
@@ -264,6 +197,138 @@ TEST(EncodeFigure, ThinsAHundredThousandSamplesAndSaysSo) {
     EXPECT_THAT(file.caption, HasSubstr("thinned; no extreme is lost"));
   }
   EXPECT_EQ(EncodeFigure(OneLine(), setting).caption, "A line.");
+}
+
+TEST(FigureCsv, HoldsEveryNumberWithAllItsDigits) {
+  Plot plot;
+  plot.x = {"time (s)", 0, 10, Scale::linear, {}};
+  plot.y = {"torque (N·m)", -2, 2, Scale::linear, {}};
+  const Eigen::Vector2d x(0, 1), y(1.0 / 3, std::nan(""));
+  plot.series = {{"a, b", Hue::blue, Line{x, y}},
+                 {"", Hue::blue, Band{x, y, 2 * y}},
+                 {"", Hue::text, LevelLine{0.5}},
+                 {"", Hue::text, HeatMap{Eigen::MatrixXd{{7}}, {0, 2}, {0, 4}, {0, 1}, "z"}},
+                 {"", Hue::text, Note{0, 0, "words"}}};
+  Figure figure;
+  figure.panels = {{"", plot}, {"Words", Words{}}};
+  EXPECT_EQ(FigureCsv(figure),
+            "# panel 1: x is time (s); y is torque (N·m)\n"
+            "panel,series,kind,x,y,lower,upper,value\n"
+            "panel 1,\"a, b\",line,0,0.3333333333333333,,,\n"
+            "panel 1,\"a, b\",line,1,,,,\n"
+            "panel 1,series 2,band,0,,0.3333333333333333,0.6666666666666666,\n"
+            "panel 1,series 2,band,1,,,,\n"
+            "panel 1,series 3,level,,0.5,,,\n"
+            "panel 1,series 4,cell,1,2,,,7\n");
+}
+
+std::vector<std::string> Labels(const Axis& axis, int wanted) {
+  std::vector<std::string> labels;
+  for (const Tick& tick : AxisTicks(axis, wanted)) labels.push_back(tick.label);
+  return labels;
+}
+
+TEST(AxisTicks, AreRoundAndInsideTheLimits) {
+  EXPECT_THAT(Labels({"", 0, 10, Scale::linear, {}}, 5),
+              ElementsAre("0", "2", "4", "6", "8", "10"));
+  EXPECT_THAT(Labels({"", -0.3, 0.31, Scale::linear, {}}, 4), ElementsAre("−0.2", "0", "0.2"));
+  EXPECT_THAT(Labels({"", -6e-5, 1e-6, Scale::linear, {}}, 4),
+              ElementsAre("−6·10⁻⁵", "−4·10⁻⁵", "−2·10⁻⁵", "0"));
+}
+
+TEST(AxisTicks, AreDecadesOnLogarithmicAxes) {
+  EXPECT_THAT(Labels({"", 0.5, 2000, Scale::logarithmic, {}}, 5),
+              ElementsAre("1", "10", "100", "1000"));
+  EXPECT_THAT(Labels({"", 0.9, 11, Scale::logarithmic, {}}, 6), ElementsAre("1", "2", "5", "10"));
+  EXPECT_THAT(Labels({"", 1e-6, 1e-2, Scale::logarithmic, {}}, 5),
+              ElementsAre("10⁻⁶", "10⁻⁵", "10⁻⁴", "0.001", "0.01"));
+}
+
+TEST(AxisTicks, ShareOnePowerOfTen) {
+  EXPECT_THAT(Labels({"", 0, 2.2e-4, Scale::linear, {}}, 5),
+              ElementsAre("0", "0.5·10⁻⁴", "1.0·10⁻⁴", "1.5·10⁻⁴", "2.0·10⁻⁴"));
+}
+
+TEST(SignificantText, RoundsAsPeopleDo) {
+  EXPECT_EQ(SignificantText(15.0412), "15.0");
+  EXPECT_EQ(SignificantText(-3.0), "−3.00");
+  EXPECT_EQ(SignificantText(603.2), "603");
+  EXPECT_EQ(SignificantText(-5.4e-5, 2), "−5.4·10⁻⁵");
+  EXPECT_EQ(SignificantText(0), "0");
+  EXPECT_EQ(SignificantText(0.09999, 2), "0.10") << "one more digit before the point";
+  EXPECT_EQ(SignificantText(9.999e-5, 2), "1.0·10⁻⁴");
+}
+
+/// How many inked pixels of a picture have no ink of another within a pixel.
+int Astray(const Image& image, const Image& other) {
+  const auto inked = [](const Image& picture, int x, int y) {
+    return x >= 0 && y >= 0 && x < picture.width && y < picture.height &&
+           Distance(picture.At(x, y), LightTheme().background) > 60;
+  };
+  int astray = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (!inked(image, x, y)) continue;
+      bool near = false;
+      for (int i = 0; i < 9; ++i) near = near || inked(other, x + i % 3 - 1, y + i / 3 - 1);
+      astray += !near;
+    }
+  }
+  return astray;
+}
+
+TEST(ReduceCloud, DrawsTheSameCloudWithATenthOfTheMarks) {
+  // a dense disc and stray samples about it
+  constexpr Index kPoints = 60000;
+  RandomStream random({4, 0}, Stream::test);
+  VectorXd x(kPoints), y(kPoints);
+  for (Index i = 0; i < kPoints; ++i) {
+    const double radius = i % 500 == 0 ? 1.5 : 0.6 * std::sqrt(random.Uniform(0, 1));
+    const double angle = random.Uniform(0, 2 * M_PI);
+    x[i] = radius * std::cos(angle);
+    y[i] = radius * std::sin(angle);
+  }
+  Figure figure;
+  figure.width = figure.height = 200;
+  Plot plot;
+  plot.x = plot.y = {"x", -1.6, 1.6, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, Scatter{x, y, 1}}};
+  figure.panels = {{"cloud", plot}};
+  const Drawn reduced = DrawFigure(figure);
+
+  // parts so small that each of their markers is drawn
+  constexpr Index kParts = 100;
+  plot.series.clear();
+  for (Index part = 0; part < kParts; ++part) {
+    const auto own = Eigen::seqN(part, kPoints / kParts, kParts);
+    plot.series.push_back({"", Hue::blue, Scatter{x(own), y(own), 1}});
+  }
+  figure.panels = {{"cloud", plot}};
+  const Drawn whole = DrawFigure(figure);
+  Index markers = 0;
+  for (const DrawnSeries& series : whole.plots[0].series) markers += series.points;
+  EXPECT_LT(reduced.plots[0].series[0].points, markers / 10);
+  // what either shows, the other shows within a pixel
+  EXPECT_EQ(Astray(whole.image, reduced.image), 0);
+  EXPECT_EQ(Astray(reduced.image, whole.image), 0);
+}
+
+TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikes) {
+  Figure figure;
+  figure.name = "million";
+  figure.finding = "One spike.";
+  const Index n = 1000000;
+  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
+  VectorXd y = 0.3 * (5000 * x).array().sin();
+  y[n / 4] = 0.95;
+  Plot plot;
+  plot.x = {"x", 0, 1, Scale::linear, {}};
+  plot.y = {"y", -1, 1, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, Line{x, y, 1.5}}};
+  figure.panels = {{"curve", plot}};
+  const Drawn drawn = DrawFigure(figure);
+  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 0.25, 0.9),
+                            LightTheme().Colour(Hue::blue)));
 }
 
 }  // namespace

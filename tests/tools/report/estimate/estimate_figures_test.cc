@@ -104,7 +104,8 @@ TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {
 TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
   const PreparedLog log = Prepare(WarmRecording().measurements);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const IdentifierInput input{log, identifier.options, {}};
+  const Options options = identifier.options.Read({});
+  const IdentifierInput input{log, options, {}};
   Estimate estimate = IdentifyAndJudge(identifier, input);
   estimate.holdout = HoldOut(identifier, input, 0.3);
   const EstimateView view = ViewOwnRecording(estimate, log);
@@ -113,20 +114,6 @@ TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
   const double rmse = std::sqrt(Residuals(*view.held_out).array().square().mean());
   EXPECT_NEAR(rmse, estimate.holdout->rmse, 1e-9 * rmse) << "the same fit and the same samples";
   EXPECT_FALSE(MakeEstimateView(estimate, log).held_out.has_value()) << "of another recording";
-}
-
-TEST(EstimateFigures, PredictTheHeldOutSamplesByTheStructureThatWasChosen) {
-  const PreparedLog log = Prepare(WarmRecording().measurements);
-  const Identifier& identifier = FindIdentifier("auto");
-  const IdentifierInput input{log, identifier.options, {}};
-  const Answer answer = FitAndJudge(identifier, input);
-  Estimate estimate = ReportAnswer(identifier, input, answer);
-  ASSERT_TRUE(estimate.choice.has_value());
-  estimate.holdout = HoldOut(identifier, input, 0.3, answer.fit);
-  const EstimateView view = ViewOwnRecording(estimate, log);
-  ASSERT_TRUE(view.held_out.has_value());
-  const double rmse = std::sqrt(Residuals(*view.held_out).array().square().mean());
-  EXPECT_NEAR(rmse, estimate.holdout->rmse, 1e-9 * rmse) << "the same fit and the same samples";
 }
 
 TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {
@@ -143,10 +130,6 @@ TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {
   const DrawnPlot& fit = PlotNamed(drawn, "Root mean square error of the fit");
   EXPECT_EQ(fit.series[0].y.second, 1.5);
   EXPECT_THAT(figure.finding, HasSubstr("viscous 10.0 to 5.04"));
-}
-
-TEST(Trace, IsNothingForAnIdentifierThatDoesNotIterate) {
-  EXPECT_FALSE(MakeTrace(WarmRecording().estimate, ""));
 }
 
 }  // namespace

@@ -2,15 +2,24 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/LU>
 
+#include "identification/answer/identify.h"
 #include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/moving_view.h"
+#include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
+#include "tests/support/excited_recording.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/warm_recording.h"
+#include "tools/report/estimate/estimate_figures.h"
 #include "tools/report/figures/fit_panels.h"
+#include "tools/report/figures/fit_view.h"
 #include "tools/report/figures/friction_spread.h"
+#include "tools/report/figures/predicted.h"
 
 namespace warmjoint::report {
 namespace {
@@ -54,55 +63,6 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
   DrawLight(MakeFitPage(view));
 }
 
-TEST(FitPage, GivesALongMessageTheRoomItNeeds) {
-  WarmRecording warm;
-  const auto height = [&] {
-    return DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)))
-        .image.height;
-  };
-  warm.estimate.message = "short";
-  const int usual = height();
-  for (int i = 0; i < 30; ++i) warm.estimate.message += " and another thing that the data shows";
-  EXPECT_GT(height(), usual + 100) << "pixels";
-}
-
-TEST(FitPage, WarnsOfResidualsThatRemember) {
-  WarmRecording warm;
-  FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  EXPECT_LT(std::abs(ResidualCorrelation(view, 1)), 0.05) << "white";
-  view.torque.array() += 2 * (0.05 * view.time.array()).sin();
-  EXPECT_GT(ResidualCorrelation(view, 1), 0.8);
-  EXPECT_THAT(AllText(VerdictOf(view)), HasSubstr("alike from one sample to the next"));
-}
-
-TEST(FitPage, ShowsWarningsInAmberWhereTheNumbersPass) {
-  WarmRecording warm;
-  const auto verdict = [&] {
-    return VerdictOf(MakeFitView(warm.measurements, warm.selection, warm.estimate)).paragraphs;
-  };
-  EXPECT_EQ(verdict()[0].hue, Hue::green);
-  warm.estimate.message = "maximum likelihood; noise is coloured";
-  warm.estimate.warnings = {
-      "the residual depends on time: 0.4 N.m rms; and on direction: 0.1 N.m rms: the intervals "
-      "reach as far as that moves them; try lpv-energy"};
-  EXPECT_EQ(verdict()[0].hue, Hue::caution);
-  EXPECT_EQ(verdict()[0].text, "energy-ml: the numbers can be used, with a warning.");
-  EXPECT_EQ(verdict()[1].hue, Hue::caution);
-  EXPECT_EQ(
-      verdict()[1].text,
-      "Warning: The residual depends on time: 0.4 N·m rms; and on direction: 0.1 N·m rms: the "
-      "intervals reach as far as that moves them; try lpv-energy.");
-  EXPECT_EQ(verdict()[2].text, "Maximum likelihood; noise is coloured.");
-  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
-  EXPECT_THAT(page.finding, HasSubstr("with a warning"));
-  DrawLight(page);
-
-  // a failure says it all: nothing passes, so nothing is parted off
-  warm.estimate.status = Status::inadequate_model;
-  EXPECT_EQ(verdict()[0].hue, Hue::vermilion);
-  EXPECT_THAT(verdict()[1].text, HasSubstr("Maximum likelihood; noise is coloured; the residual"));
-}
-
 TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
   WarmRecording warm;
   const auto bands = [&] {
@@ -117,15 +77,6 @@ TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
   map.weights = {0.1, 0, -0.1};
   warm.estimate.friction->maps = {map};
   EXPECT_EQ(bands(), 0);
-}
-
-TEST(FrictionCurve, LeavesOutBandsThinnerThanTheirLine) {
-  WarmRecording warm;
-  for (EstimatedParameter& parameter : warm.estimate.parameters) *parameter.std *= 0.01;
-  const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
-  for (const Series& series : plot.series) {
-    EXPECT_FALSE(std::holds_alternative<Band>(series.shape));
-  }
 }
 
 TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
@@ -171,32 +122,6 @@ TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
   }
 }
 
-TEST(ResidualMemory, BeginsOneSampleOn) {
-  const WarmRecording warm;
-  const Plot plot = ResidualMemory(MakeFitView(warm.measurements, warm.selection, warm.estimate));
-  EXPECT_EQ(std::get<Line>(plot.series[0].shape).x[0], 1) << "s, the sampling interval";
-  EXPECT_EQ(plot.x.scale, Scale::logarithmic);
-}
-
-TEST(FitPage, LooksAtTheFirstAndTheLastSegments) {
-  const WarmRecording warm;
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  EXPECT_EQ(ColdWindow(view, 6).begin, 0);
-  const Eigen::Index end = warm.selection.segments[5].end;
-  EXPECT_EQ(ColdWindow(view, 6).end, end + end / 20) << "with a little of what follows";
-  EXPECT_EQ(WarmWindow(view, 6).end, warm.measurements.size());
-}
-
-TEST(FitPage, LooksAtSegmentsWhereThereAreFew) {
-  WarmRecording warm;
-  // two segments in the middle of the recording, as of a joint that rests before and after
-  warm.selection.segments = {{500, 520, 0.3}, {600, 620, -0.3}};
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  EXPECT_EQ(ColdWindow(view).begin, 499);
-  EXPECT_EQ(ColdWindow(view).end, 521);
-  EXPECT_EQ(WarmWindow(view).begin, 599);
-}
-
 TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
   // without warming the covariance is s^2 (A^T A)^-1 of the rows [v, sign v]
   WarmRecording warm;
@@ -227,11 +152,97 @@ TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
               std::sqrt(row.dot(covariance * row)), 1e-6);
 }
 
-TEST(FrictionSpread, IsUnknownWithoutDeviations) {
+struct Identified {
+  PreparedLog log;
+  Estimate estimate;
+};
+
+Identified Identify(const Measurements& m, const std::map<std::string, std::string>& given) {
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options = identifier.options.Read(given);
+  PreparedLog log = Prepare(m);
+  Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+  return {std::move(log), std::move(estimate)};
+}
+
+Friction Warm() {
+  Friction friction = test::TableOne();
+  friction.thermal->time_constant = 100;
+  return friction;
+}
+
+TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
+  const auto [log, estimate] = Identify(test::Excited(Warm(), 12000, 4), {{"gravity", "sincos"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ASSERT_TRUE(estimate.Find("inertia"));
+  const FitView view = MakeFitView(log, estimate);
+  EXPECT_TRUE(IsOfAnyMotion(view));
+
+  // the residual that is shown is that of the fit
+  const Eigen::VectorXd residuals = Residuals(view);
+  ASSERT_EQ(residuals.size(), estimate.metrics->n);
+  EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
+              estimate.metrics->rmse, 1e-9);
+  // and what is taken off is gravity and inertia
+  const Measurements& m = MovingView(log).measurements;
+  const Eigen::VectorXd rigid =
+      estimate.Find("inertia")->value * *m.acceleration + estimate.gravity->Torque(m.position);
+  EXPECT_LT((view.rigid - rigid).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((view.torque + view.rigid - m.torque).cwiseAbs().maxCoeff(), 1e-12);
+
+  const std::optional<Figure> predicted = MakePredicted(view);
+  ASSERT_TRUE(predicted);
+  const auto& scatter =
+      std::get<Scatter>(std::get<Plot>(predicted->panels[0].content).series[0].shape);
+  EXPECT_GT(scatter.y.maxCoeff(), view.fitted.maxCoeff() + 1) << "the fitted torque has all parts";
+  for (const EstimateFigure& one : EstimateFigures()) {
+    SCOPED_TRACE(one.name);
+    if (const auto figure = one.make({estimate, m, view, std::nullopt})) DrawLight(*figure);
+  }
+}
+
+/// The labels of all axes of a figure, one behind the other.
+std::string AxesOf(const Figure& figure) {
+  std::string labels;
+  for (const Panel& panel : figure.panels) {
+    if (const Plot* plot = std::get_if<Plot>(&panel.content)) {
+      labels += plot->x.label + "|" + plot->y.label + "|";
+    }
+  }
+  return labels;
+}
+
+TEST(FitView, OfACurrentSaysAmperesEverywhere) {
+  Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.3, 1);
+  m.torque_unit = "A";
+  const auto [log, estimate] = Identify(m, {});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  const FitView view = MakeFitView(log, estimate);
+  int figures = 0;
+  for (const EstimateFigure& one : EstimateFigures()) {
+    const auto figure = one.make({estimate, m, view, std::nullopt});
+    if (!figure) continue;
+    SCOPED_TRACE(one.name);
+    ++figures;
+    const std::string words = figure->subtitle + figure->finding + AxesOf(*figure);
+    EXPECT_EQ(words.find("N·m"), std::string::npos) << words;
+    EXPECT_EQ(words.find("N.m"), std::string::npos) << words;
+    EXPECT_THAT(words, testing::AnyOf(HasSubstr("(A)"), HasSubstr(" A"))) << words;
+    DrawLight(*figure);
+  }
+  EXPECT_GE(figures, 8);
+}
+
+TEST(FitView, ShowsTheFitBehindALagOfTheTorque) {
+  constexpr double lag = 3;  // s
   WarmRecording warm;
-  for (EstimatedParameter& parameter : warm.estimate.parameters) parameter.std.reset();
-  EXPECT_FALSE(SpreadOf(warm.estimate, CourseOf(warm.measurements), {}, warm.selection).is_known());
-  DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)));
+  const FitView plain = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  Measurements& m = warm.measurements;
+  m.torque = LowPass(m.time, plain.fitted, lag);
+  EXPECT_GT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1);
+  warm.estimate.parameters.push_back({"torque_lag", lag, "s", {}, {}});
+  EXPECT_LT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1e-9);
 }
 
 }  // namespace

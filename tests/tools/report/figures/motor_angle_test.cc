@@ -53,34 +53,6 @@ TEST(MotorMap, ShowsTheMapOverTheTorqueThatItExplains) {
   EXPECT_THAT(figure.finding, HasSubstr("to 0.10"));
 }
 
-TEST(MotorMap, DrawsNoLineOverAnglesThatWereNeverPassed) {
-  MappedRecording mapped;
-  const auto angle = [&](Eigen::Index i) {
-    const double motor = mapped.measurements.gear * mapped.measurements.position[i];
-    return motor - 2 * M_PI * std::floor(motor / (2 * M_PI));
-  };
-  for (Eigen::Index i = 0; i < mapped.measurements.size(); ++i) {
-    if (angle(i) > 2 && angle(i) < 4) mapped.selection.keep[i] = false;
-  }
-  const Figure figure = *MakeMotorMap(mapped.View());
-  int lines = 0;
-  for (const Series& series : std::get<Plot>(figure.panels[0].content).series) {
-    const Line* line = std::get_if<Line>(&series.shape);
-    if (!line) continue;
-    ++lines;
-    for (Eigen::Index i = 0; i < line->x.size(); ++i) {
-      // a kernel's spacing is 0.17 rad
-      const double x = line->x[i];
-      if (x > 2.2 && x < 3.8) {
-        EXPECT_TRUE(std::isnan(line->y[i])) << x;
-      } else if (x < 1.9 || x > 4.1) {
-        EXPECT_TRUE(std::isfinite(line->y[i])) << x;
-      }
-    }
-  }
-  EXPECT_EQ(lines, 3);
-}
-
 TEST(MotorFit, FollowsTheSamplesWithTheMapAndStaysAtTheirMiddleWithoutIt) {
   const MappedRecording mapped;
   const Drawn drawn = DrawLight(*MakeMotorFit(mapped.View()));

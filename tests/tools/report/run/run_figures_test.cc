@@ -5,6 +5,8 @@
 
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/run_example.h"
+#include "tests/tools/scratch_directory.h"
+#include "tools/report/run/run_view.h"
 
 namespace warmjoint::report {
 namespace {
@@ -59,32 +61,6 @@ TEST(NpeBoxes, StandInTheIdentifiersColoursWithTheFailuresWrittenOut) {
   EXPECT_THAT(figure.finding, HasSubstr("with 12 of 40 failed"));
 }
 
-TEST(NpeBoxes, NameAnIdentifierThatNeverAnswered) {
-  RunView run = ExampleRun();
-  run.rows[1].npe.setConstant(std::nan(""));
-  const Figure figure = *NpeBoxes(run);
-  EXPECT_TRUE(Writes(DrawLight(figure), "energy-als"));
-  EXPECT_THAT(figure.finding, HasSubstr("energy-als, 50 iterations none"));
-}
-
-TEST(NpeBoxes, CentreTheFailuresUnderTheIdentifier) {
-  const Drawn drawn = DrawLight(*NpeBoxes(ExampleRun()));
-  const DrawnPlot& plot = drawn.plots.at(0);
-  for (const DrawnText& text : drawn.texts) {
-    if (text.text.find("not converged") == std::string::npos) continue;
-    const double place = plot.area.left + plot.area.width() * 0.75;  // the second of two
-    EXPECT_NEAR((text.place.left + text.place.right) / 2, place, 1);
-    // each line by itself: ink to both sides of the middle is alike in the first, short one
-    const double bottom = text.place.top + (text.place.bottom - text.place.top) / 2 - 1;
-    const double middle = place;
-    const double left = Ink(drawn.image, {text.place.left, text.place.top, middle, bottom},
-                            LightTheme().background);
-    const double right = Ink(drawn.image, {middle, text.place.top, text.place.right, bottom},
-                             LightTheme().background);
-    EXPECT_LT(std::abs(left - right), 0.35 * (left + right));
-  }
-}
-
 TEST(Ladder, ShowsMediansAtTheRungsWithTheBound) {
   const RunView run = ExampleRun();
   const Figure figure = *LadderFigure(run);
@@ -100,20 +76,6 @@ TEST(Ladder, ShowsMediansAtTheRungsWithTheBound) {
   EXPECT_NEAR(bound.y.first, std::sqrt(14), 1e-9);
   EXPECT_TRUE(Writes(drawn, "torque noise (N·m)"));
   EXPECT_THAT(figure.finding, HasSubstr("from the first rung of torque noise to the last"));
-}
-
-TEST(Ladder, SaysInWhichVariantsNobodyGivesNumbers) {
-  RunView run = ExampleRun();
-  run.rungs = {"", "", Eigen::Vector2d(0, 1), {"one speed", "many speeds"}};
-  for (RunRow& row : run.rows) {
-    row.npe = (row.variant.array() == 0).select(std::nan(""), row.npe);
-  }
-  const Figure figure = *LadderFigure(run);
-  const Drawn drawn = DrawLight(figure);
-  EXPECT_TRUE(Writes(drawn, "no numbers"));
-  EXPECT_TRUE(Writes(drawn, "many speeds"));
-  EXPECT_THAT(figure.finding, HasSubstr("No identifier gives numbers in one speed."));
-  EXPECT_THAT(figure.finding, HasSubstr("% (many speeds)"));
 }
 
 TEST(ParameterCourses, ShowWhereMostRealizationsRunAndTheTruth) {
@@ -156,29 +118,6 @@ TEST(IntervalCoverage, ShowsSharesInPerCent) {
   EXPECT_TRUE(Writes(drawn, "τ")) << "symbols";
 }
 
-TEST(IntervalCoverage, TellsRowsOfOneIdentifierApart) {
-  RunView run = ExampleRun();
-  run.rows.push_back(run.rows[0]);
-  run.rows.back().label = "energy-ml, e0";
-  const Figure figure = *IntervalCoverage(run);
-  DrawLight(figure);
-  std::vector<Scatter> dots;
-  for (const Series& series : std::get<Plot>(figure.panels[0].content).series) {
-    if (series.label.starts_with("energy-ml")) dots.push_back(std::get<Scatter>(series.shape));
-  }
-  ASSERT_EQ(dots.size(), 2u);
-  EXPECT_NE(dots[0].marker, dots[1].marker);
-  EXPECT_GT(std::abs(dots[0].x[0] - dots[1].x[0]), 0.1) << "side by side";
-}
-
-TEST(IntervalCoverage, NamesOnlyParametersThatHaveIntervals) {
-  RunView run = ExampleRun();
-  for (RunRow& row : run.rows) row.parameters[1].intervals = row.parameters[1].covered = 0;
-  const Drawn drawn = DrawLight(*IntervalCoverage(run));
-  EXPECT_FALSE(Writes(drawn, "k_{c}"));
-  EXPECT_EQ(drawn.plots[0].x, std::pair(-0.5, 1.5));
-}
-
 TEST(ParameterPairs, HoldTheirEllipsesAndThatOfTheBound) {
   const Drawn drawn = DrawLight(*ParameterPairs(ExampleRun()));
   ASSERT_EQ(drawn.plots.size(), 3u);
@@ -189,6 +128,54 @@ TEST(ParameterPairs, HoldTheirEllipsesAndThatOfTheBound) {
   EXPECT_NEAR(bound.y.second, 2 * 2.4477, 0.002);
   // 40 draws: their deviation is known to 11 %, three times that here
   EXPECT_NEAR(SeriesNamed(plot, "their 95 % ellipse").x.second, 2.4477, 0.9);
+}
+
+constexpr int kRealizations = 50;
+
+/// Realization i, whose NPE is i; every second interval holds the truth, every tenth answer fails.
+Realization Numbered(int i) {
+  Result result;
+  result.realization = i;
+  result.status = i % 10 == 9 ? "not_converged" : "ok";
+  const ParameterScore one{"coulomb", 15, 15.0 + i, true, i % 2 == 0, 0.5};
+  result.metrics = Metrics{100, 1, 1, 0.5, 0.4, 95, 0.25};
+  const auto npe = static_cast<double>(i);
+  result.score = Score{{one}, {one}, npe, npe, 0.05, 0.05};
+  return {{0, i}, 0.1, {result}};
+}
+
+RunView ReadNumbered(std::int64_t most_drawn) {
+  const ScratchDirectory scratch;
+  const RunDescription description{
+      "name: little\nquestion: How much is drawn?\nseed: 7\nrealizations: 50\nidentifiers: "
+      "[{name: nominal-ls}]\n"
+      "scenario: {friction: {law: viscous_coulomb, parameters: {viscous: 5, coulomb: 15}},"
+      " motion: {speeds: [1], hold: 2}, sampling: {rate: 10}, duration: 20}\n",
+      {{"warmjoint", "0.1.0"}}};
+  RunStore store = RunStore::CreateOrResume(scratch.path() / "run", description);
+  std::vector<Realization> all;
+  for (int i = 0; i < kRealizations; ++i) all.push_back(Numbered(i));
+  store.Write(all);
+  return ReadRunView(store, most_drawn);
+}
+
+TEST(ReadRunView, DrawsAllOfAShortRun) {
+  const RunView view = ReadNumbered(kMostDrawn);
+  EXPECT_EQ(view.drawn_every, 1);
+  EXPECT_EQ(view.rows.at(0).npe, Eigen::VectorXd::LinSpaced(kRealizations, 0, kRealizations - 1));
+}
+
+TEST(ReadRunView, DrawsOneInSeveralOfALongOneAndCountsAll) {
+  const RunView view = ReadNumbered(10);
+  EXPECT_EQ(view.drawn_every, 5);
+  EXPECT_EQ(view.realizations, kRealizations);
+  const RunRow& row = view.rows.at(0);
+  EXPECT_EQ(row.npe, Eigen::VectorXd::LinSpaced(10, 0, 45));
+  EXPECT_EQ(row.parameters.at(0).estimate, (Eigen::VectorXd::LinSpaced(10, 15, 60)));
+  EXPECT_EQ(row.runs, kRealizations);
+  EXPECT_EQ(row.failures.at("not_converged"), 5);
+  EXPECT_EQ(row.parameters[0].intervals, kRealizations);
+  EXPECT_EQ(row.parameters[0].covered, kRealizations / 2);
 }
 
 }  // namespace

@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "models/foundation/bad_input.h"
 #include "tests/tools/report/look.h"
 #include "tools/report/draw/draw_series.h"
+#include "tools/report/gl/context.h"
 #include "tools/report/simulation/simulation_figures.h"
 
 namespace warmjoint::report {
@@ -110,33 +114,6 @@ TEST(WarmRobot, StandsBesideTheTorqueThatItsHeatChanges) {
   EXPECT_EQ(DrawFigure(figure).image.pixels, drawn.image.pixels);
 }
 
-TEST(WarmRobot, FillsItsPicture) {
-  const SimulationView view = ExampleSimulation();
-  const auto images = RenderWarmRobot(view, TestContext(), {0, 19, 39}, 300, 200, LightTheme());
-  double widest = 0;
-  for (const Image& image : *images) {
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        if (image.At(x, y) == LightTheme().background) continue;
-        widest = std::max(
-            {widest, std::abs(2.0 * x / image.width - 1), std::abs(2.0 * y / image.height - 1)});
-      }
-    }
-  }
-  // 0.85 is asked for; what is near grows faster than the distance falls
-  EXPECT_GT(widest, 0.75);
-  EXPECT_LT(widest, 0.98);
-}
-
-TEST(SimulationView, LeavesOutWhatOnlySeemsToMoveAtAConstantSpeed) {
-  SimulationView view = ExampleSimulation();
-  const Eigen::Index smeared = view.fit.selection.segments[3].begin + 1;
-  ASSERT_TRUE(view.fit.selection.keep[smeared]);
-  Simulation recording = view.recording;
-  recording.truth.velocity[smeared] *= -1;
-  EXPECT_FALSE(MakeSimulationView(view.scenario, recording).fit.selection.keep[smeared]);
-}
-
 TEST(WarmRobot, IsNothingWithoutARobotOrWarming) {
   SimulationView view = ExampleSimulation();
   view.scenario.plant = PlantKind::ideal;
@@ -155,6 +132,33 @@ TEST(SimulationFigures, AreNamedAsTheirFiles) {
       DrawLight(*figure);
     }
     EXPECT_FALSE(one.summary.empty());
+  }
+}
+
+/// Sets an environment variable for as long as it lives.
+class Variable {
+ public:
+  explicit Variable(const char* value) { setenv("WARMJOINT_GL", value, 1); }
+  ~Variable() { unsetenv("WARMJOINT_GL"); }
+};
+
+TEST(GlContext, IsTheOneThatTheVariableForces) {
+  {
+    Variable forced("osmesa");
+    EXPECT_EQ(MakeGlContext()->Name(), "osmesa");
+  }
+  if (!MakeEglContext()) GTEST_SKIP() << "this machine has no EGL without a display";
+  Variable forced("egl");
+  EXPECT_THAT(MakeGlContext()->Name(), HasSubstr("egl"));
+}
+
+TEST(GlContext, RefusesAnUnknownKind) {
+  Variable forced("osmessa");
+  try {
+    MakeGlContext();
+    FAIL() << "accepted";
+  } catch (const BadInput& refusal) {
+    EXPECT_THAT(refusal.what(), HasSubstr("WARMJOINT_GL: unknown value 'osmessa'; did you mean"));
   }
 }
 

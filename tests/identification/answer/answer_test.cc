@@ -1,0 +1,141 @@
+// Answers of others that are judged, and answers to several recordings.
+#include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+
+#include "identification/answer/judge_estimate.h"
+#include "identification/forward/thermal_filter.h"
+#include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/select.h"
+#include "models/recording/join_recordings.h"
+#include "tests/support/judging.h"
+
+namespace warmjoint {
+namespace {
+
+/// An estimate of another program: a friction, and a coulomb with an interval.
+Estimate From(const Friction& friction, double half_width) {
+  Estimate estimate;
+  estimate.identifier = "other";
+  estimate.friction = friction;
+  const double coulomb = friction.parameters.at("coulomb");
+  estimate.parameters = {
+      {"viscous", friction.parameters.at("viscous"), "N.m.s/rad", {}, {}},
+      {"coulomb", coulomb, "N.m", half_width / 2, {{coulomb - half_width, coulomb + half_width}}}};
+  return estimate;
+}
+
+TEST(JudgeEstimate, FindsWhatAnotherProgramLeftOut) {
+  // no warming on a log that warms
+  Estimate estimate = From(test::Cold(), 0.1);
+  JudgeEstimate(Prepare(test::RecordHour(test::TableOne(), 1)), {}, estimate);
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_FALSE(estimate.friction);
+  EXPECT_FALSE(estimate.Find("coulomb")->interval95);
+  EXPECT_EQ(estimate.Find("coulomb")->value, 15);
+}
+
+TEST(JudgeEstimate, LetsTheTruthPass) {
+  Estimate estimate = From(test::Cold(), 0.1);
+  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_TRUE(estimate.friction);
+  EXPECT_TRUE(test::Asked(estimate, "direction").made);
+}
+
+TEST(JudgeEstimate, FindsNumbersThatTheSameLawWouldBetter) {
+  // 12 for 15 N.m: the residual is 3 sign v, which the law itself can follow
+  Friction low = test::Cold();
+  low.parameters["coulomb"] = 12;
+  Estimate estimate = From(low, 0.1);
+  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_FALSE(estimate.friction);
+
+  // one per cent is below what matters
+  Friction close = test::Cold();
+  close.parameters["coulomb"] = 15.1;
+  Estimate passes = From(close, 0.1);
+  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, passes);
+  EXPECT_EQ(passes.status, Status::ok) << passes.message;
+}
+
+TEST(JudgeEstimate, SaysWhyNothingWasExamined) {
+  Estimate estimate = From(test::Cold(), 0.1);
+  estimate.friction.reset();
+  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  EXPECT_EQ(estimate.status, Status::ok);
+  ASSERT_FALSE(estimate.diagnostics.empty());
+  for (const Diagnostic& one : estimate.diagnostics) {
+    EXPECT_FALSE(one.made);
+    EXPECT_EQ(one.reason, "the fit gives no friction");
+  }
+}
+
+/// Three mornings of the joint of Table I, half an hour each.
+Measurements Mornings(double noise) {
+  std::vector<Measurements> recordings;
+  for (std::uint64_t day = 1; day <= 3; ++day) {
+    recordings.push_back(
+        test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1800, day), noise, day));
+  }
+  return JoinRecordings(recordings);
+}
+
+Estimate Identify(const std::string& name, const Measurements& m) {
+  if (name != "energy-als") return test::Fitted(name, m);
+  return test::Fitted(name, m, {{"iterations", "500"}}, {11, 3});
+}
+
+TEST(SeveralRecordings, EnergyMlFindsTheTruthWithoutNoise) {
+  const Estimate estimate = Identify("energy-ml", Mornings(0));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_NEAR(estimate.Find("viscous")->value, 5, 1e-6);
+  EXPECT_NEAR(estimate.Find("coulomb")->value, 15, 1e-6);
+  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 1e-6);
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 1e-3);
+  EXPECT_LT(estimate.metrics->rmse, 1e-6);
+}
+
+TEST(SeveralRecordings, EnergyMlHoldsTheTruthInItsIntervals) {
+  const Estimate estimate = Identify("energy-ml", Mornings(0.5));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const auto& [name, truth] : {std::pair{"viscous", 5.0},
+                                    {"coulomb", 15.0},
+                                    {"thermal_gain", -3.0},
+                                    {"thermal_time_constant", 600.0}}) {
+    const EstimatedParameter& found = *estimate.Find(name);
+    // three standard deviations of four parameters: beyond by chance once in a hundred recordings
+    EXPECT_NEAR(found.value, truth, 3 * *found.std) << name;
+  }
+}
+
+TEST(SeveralRecordings, EnergyAlsStartsColdWithEach) {
+  // as one recording the joint would be some 3 N.m too cold at each start
+  const Estimate estimate = Identify("energy-als", Mornings(0.1));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  // its own 1 % to the fixed point, and the noise
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 0.02 * 600);
+  EXPECT_NEAR(estimate.metrics->rmse, 0.1, 0.01);
+}
+
+TEST(SeveralRecordings, KalmanAsksForOne) {
+  const Estimate estimate = Identify("kalman", Mornings(0.1));
+  EXPECT_EQ(estimate.status, Status::bad_data);
+  EXPECT_THAT(estimate.message, testing::HasSubstr("give one"));
+}
+
+TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
+  const Measurements m = Mornings(0.5);
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options = identifier.options.Read({});
+  const Selection selection = SelectMoving(m);
+  const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3);
+  ASSERT_TRUE(held);
+  EXPECT_NEAR(held->n, 1800, 1);
+  // noise of 0.5 N.m, known from 1800 samples to 0.5 / sqrt(3600), three times, and the parameters
+  EXPECT_NEAR(held->rmse, 0.5, 3 * 0.5 / 60 + 0.01);
+}
+
+}  // namespace
+}  // namespace warmjoint

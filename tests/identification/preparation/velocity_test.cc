@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "identification/preparation/derive_velocity.h"
+#include "identification/preparation/moving_view.h"
+#include "models/foundation/random_stream.h"
+#include "models/foundation/robust_noise.h"
+#include "tests/support/vectors.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kPi = std::numbers::pi;
+
+VectorXd Times(int n, double rate) { return VectorXd::LinSpaced(n, 0, (n - 1) / rate); }
+
+TEST(DeriveVelocity, FollowsASinusoidInThePassBand) {
+  const VectorXd time = Times(4000, 1000);
+  const double w = 2 * kPi * 5;  // rad/s
+  const VectorXd position = (w * time.array()).sin();
+  const VectorXd expected = w * (w * time.array()).cos();
+  const VectorXd velocity = DeriveVelocity(time, position, 100);
+  // central differences lose (w h)^2 / 6 = 1.6e-4 of the slope, the filter twice (5/100)^8 / 2
+  const auto inner = (velocity - expected).segment(100, 3800).cwiseAbs();
+  EXPECT_LT(inner.maxCoeff(), 1.7e-4 * w);
+}
+
+TEST(ChooseCutoff, HoldsTheNoiseOfTheVelocityAtOnePercent) {
+  RandomStream random({5, 6}, Stream::test);
+  const VectorXd time = Times(20000, 1000);
+  const VectorXd clean = (2 * time.array()).sin();
+  for (const double noise : {1e-4, 5e-4}) {
+    VectorXd position = clean;
+    for (double& p : position) p += noise * random.Normal();
+    const double cutoff = ChooseCutoff(time, position);
+    ASSERT_LT(cutoff, 100);
+    ASSERT_GT(cutoff, 20) << "not the floor";
+
+    const VectorXd error =
+        DeriveVelocity(time, position, cutoff) - DeriveVelocity(time, clean, cutoff);
+    const double rms = std::sqrt(error.squaredNorm() / 20000.0);
+    // 1 % of 2 / sqrt(2); a Butterworth run twice passes 0.9 of the power of an ideal low-pass
+    EXPECT_NEAR(rms, 0.01 * std::sqrt(2.0), 0.15 * 0.01 * std::sqrt(2.0)) << noise;
+  }
+}
+
+/// n samples of v = sin(w t), h apart, with white noise on the velocity.
+Measurements Sine(Eigen::Index n, double h, double w, double noise = 0) {
+  const Eigen::VectorXd time = h * Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
+  Measurements m = test::Record(h, (w * time.array()).sin().matrix(), Eigen::VectorXd::Zero(n));
+  RandomStream random({1, 0}, Stream::velocity_noise);
+  for (double& v : m.velocity) v += noise * random.Normal();
+  return m;
+}
+
+/// Of the acceleration, over all but the first and last samples, rad/s^2.
+double RmsError(const LogView& view, double w, Eigen::Index ends) {
+  const Measurements& m = view.measurements;
+  const Eigen::ArrayXd truth = w * (w * m.time.array()).cos();
+  const Eigen::Index n = m.size() - 2 * ends;
+  const Eigen::ArrayXd error = m.acceleration->array() - truth;
+  return std::sqrt(error.segment(ends, n).square().mean());
+}
+
+TEST(MovingView, DifferentiatesASmoothVelocity) {
+  // differences of fourth order miss w cos by its share (w h)^4 / 30 = 3.3e-10
+  EXPECT_LT(RmsError(ViewMotion(Sine(1000, 0.01, 1)), 1, 2), 3.4e-10);
+}
+
+TEST(MovingView, DifferentiatesUnevenSamples) {
+  // steps of 9.8 and 10.2 ms: the fifth derivative over 5!, times the ways to the four other samples
+  Measurements m = Sine(1000, 0.01, 1);
+  for (Eigen::Index i = 1; i < m.size(); i += 2) m.time[i] -= 0.0002;
+  m.velocity = m.time.array().sin();
+  EXPECT_LT(RmsError(ViewMotion(m), 1, 2), 0.0098 * 0.0102 * 0.02 * 0.02 / 120);
+}
+
+TEST(MovingView, FollowsANoisyVelocityByPolynomials) {
+  // 0.01 at 100 Hz would leave 0.7 of an acceleration of 0.7 rms; polynomials leave 0.05 of that
+  const LogView view = ViewMotion(Sine(4000, 0.01, 1, 0.01));
+  EXPECT_LT(RmsError(view, 1, 64), 0.05 * std::sqrt(0.5));
+  EXPECT_FALSE(view.selection.keep[0]);
+}
+
+TEST(MovingView, KeepsWhatMovesClearlyAndAlike) {
+  const Measurements sine = Sine(1000, 0.01, 1);
+  const LogView view = ViewMotion(sine);
+  EXPECT_NEAR(ClearSpeed(sine), 0.05 * std::sqrt(0.5), 0.002);
+  for (Eigen::Index i = 0; i < 1000; ++i) {
+    const double v = view.measurements.velocity[i];
+    const bool kept = view.selection.keep[i];
+    EXPECT_TRUE(!kept || std::abs(v) > ClearSpeed(sine)) << i;
+    EXPECT_TRUE(kept || std::abs(v) < 0.1 || i == 0 || i == 999) << i;
+  }
+}
+
+TEST(MovingView, LeavesOutCornersOfTheVelocity) {
+  // up for a second, steady for one, down for one: the slope at a corner is that of neither side
+  Eigen::VectorXd velocity(300);
+  for (Eigen::Index i = 0; i < 300; ++i) {
+    velocity[i] = i < 100   ? 0.01 * static_cast<double>(i)
+                  : i < 200 ? 1
+                            : 3 - 0.01 * static_cast<double>(i);
+  }
+  const LogView view = ViewMotion(test::Record(0.01, velocity, Eigen::VectorXd::Zero(300)));
+  EXPECT_FALSE(view.selection.keep[100]);
+  EXPECT_FALSE(view.selection.keep[200]);
+  EXPECT_TRUE(view.selection.keep[50]);
+  EXPECT_TRUE(view.selection.keep[150]);
+}
+
+TEST(PreparedLog, TellsWhetherItHoldsSpeeds) {
+  EXPECT_FALSE(HoldsSpeeds(Prepare(Sine(2000, 0.01, 1))));
+  Eigen::VectorXd holds(400);
+  for (Eigen::Index i = 0; i < 400; ++i) holds[i] = i / 40 % 2 ? -0.5 : 1;
+  EXPECT_TRUE(HoldsSpeeds(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400)))));
+}
+
+}  // namespace
+}  // namespace warmjoint
