@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/foundation/low_pass.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline sim {
 namespace {
