@@ -10,7 +10,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -114,4 +114,4 @@ void WriteEstimate(const Estimate& estimate, const fs::path& file) {
   WriteWholeFile(file, EstimateToTree(estimate, file).dump(2) + "\n");
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/foundation/node.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The estimate as a file in `target`'s folder has it; empty: recordings are named as they are.
 Tree EstimateToTree(const Estimate& estimate, const std::filesystem::path& target = {});
@@ -13,4 +13,4 @@ Tree EstimateToTree(const Estimate& estimate, const std::filesystem::path& targe
 /// EstimateFromJson and ReadEstimate of what was parsed.
 Estimate EstimateFrom(const Node& node);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "identification/fit_parameters.h"
 #include "models/friction/law.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which) {
   return estimate.Find(NameOf(role, which));
@@ -18,4 +18,4 @@ const EstimatedParameter* Find(LawPart part, const Estimate& estimate) {
   return found == estimate.parameters.end() ? nullptr : &*found;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

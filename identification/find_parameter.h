@@ -6,7 +6,7 @@
 
 #include "identification/fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The which-th parameter with such a role, or nullptr.
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which = 0);
@@ -14,4 +14,4 @@ const EstimatedParameter* Find(Role role, const Estimate& estimate, int which = 
 /// The first parameter that is that part of a law's force, or nullptr.
 const EstimatedParameter* Find(LawPart part, const Estimate& estimate);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

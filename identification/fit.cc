@@ -1,6 +1,6 @@
 #include "identification/fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::vector<double> Fit::Values(Role role) const {
   std::vector<double> values;
@@ -39,4 +39,4 @@ Fit Refused(std::string identifier, Status status, std::string message) {
   return Refused(std::move(identifier), {status, std::move(message)});
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -18,7 +18,7 @@
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 class IdentifierInput;
 
@@ -77,7 +77,7 @@ struct HeldStructure {
 };
 
 /// A first-order lag of the torque's way into the log.
-struct TorqueLag {
+struct FittedLag {
   double time_constant = 0;  // s
   Eigen::VectorXd adds;      // [N] to F + G at the kept samples, N.m or N; 0 elsewhere
 };
@@ -112,7 +112,7 @@ struct Fit {
   std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
   /// [N] M a where the fit made its own a of the velocities, N.m or N; else empty.
   Eigen::VectorXd inertia_torque;
-  std::optional<TorqueLag> torque_lag;  // where the log showed one and it was fitted
+  std::optional<FittedLag> torque_lag;  // where the log showed one and it was fitted
   double initial_energy = 0;            // E(0), N.m or N
   /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
   /// estimated; else empty.
@@ -161,4 +161,4 @@ struct Fit {
 Fit Refused(std::string identifier, Refusal refusal);
 Fit Refused(std::string identifier, Status status, std::string message);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

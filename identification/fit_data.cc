@@ -8,7 +8,7 @@
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kLargest = 1e75;  // why: its fourth power, a squared power, is a double
@@ -115,4 +115,4 @@ std::string WouldFeedItself(double time, std::string_view remedy) {
       remedy);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

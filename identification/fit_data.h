@@ -10,7 +10,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The rows of `given` that the selection keeps. given: [N] or [N x d], an expression is evaluated once; returns
 /// [n] or [n x d].
@@ -51,4 +51,4 @@ std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
 /// The sentence on a fitted friction that pushes at a time (s) and so would feed itself.
 std::string WouldFeedItself(double time, std::string_view remedy);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

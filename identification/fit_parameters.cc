@@ -7,7 +7,7 @@
 #include "identification/fit_data.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr ParameterInfo kInertiaInfo{kInertiaName, "M", {"N.m.s^2/rad", "N.s^2/m", -1, 2}, 0,
@@ -132,4 +132,4 @@ Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
   return friction;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

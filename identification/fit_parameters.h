@@ -10,7 +10,7 @@
 
 #include "identification/fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 inline constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag";
 
@@ -54,4 +54,4 @@ void Append(const std::vector<FitParameter>& rows, Fit& fit);
 Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
                     const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

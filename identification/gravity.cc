@@ -7,7 +7,7 @@
 
 #include "models/foundation/serialize.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// The knot at or below a position, and the share of the way to the next.
@@ -135,4 +135,4 @@ Tree WriteValue(const GravityModel& value) {
   return WriteFields(fields);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

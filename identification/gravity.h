@@ -9,7 +9,7 @@
 
 #include "models/foundation/node.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 inline constexpr int kGravityKnots = 64;  // on a turn; a line misses g sin p by g (2 pi/64)^2/8
 inline constexpr double kKnotSpacing = 2 * std::numbers::pi / kGravityKnots;  // rad
@@ -23,4 +23,4 @@ Tree WriteValue(const GravityModel& value);
 Eigen::MatrixXd GravityColumns(GravityKind kind, const std::vector<int>& knots,
                                const Eigen::VectorXd& position);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

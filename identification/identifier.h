@@ -12,7 +12,7 @@
 #include "identification/options.h"
 #include "models/foundation/random_stream.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Told what is being tried, for people who wait; may be empty.
 using Narrator = std::function<void(const std::string& words)>;
@@ -92,4 +92,4 @@ struct Identifier {
   }
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// "number > 0 <= 1"
@@ -77,4 +77,4 @@ Node NodeOf(const std::map<std::string, std::string>& given, const Place& place)
   return {Tree(given), place.file, {{"", place}}, Scalars::texts};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

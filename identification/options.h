@@ -30,7 +30,7 @@
 
 #include "models/foundation/serialize.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// One option, as tables and readers of texts see it.
 struct OptionInfo {
@@ -65,7 +65,6 @@ class OptionLister {
  public:
   template <class T>
   void Field(std::string_view name, T* value, const FieldInfo& info = {}) {
-    using models::WriteValue;  // beside those above
     rows_.push_back({std::string(name), TextOf(WriteValue(*value)), Allowed(*value, info.bounds),
                      std::string(info.meaning)});
   }
@@ -167,4 +166,4 @@ class Options {
 /// What texts give by name, for readers of fields; refusals name the place.
 Node NodeOf(const std::map<std::string, std::string>& given, const Place& place);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 
 #include "models/friction/parameter_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 bool LeavesBounds(const std::vector<FitParameter>& parameters) {
   return std::ranges::any_of(parameters, [](const FitParameter& one) {
@@ -28,4 +28,4 @@ bool GivesFriction(const Fit& fit) {
   return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.friction);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether the value of a law parameter lies outside of its bounds, by chance or not.
 bool LeavesBounds(const std::vector<FitParameter>& parameters);
@@ -20,4 +20,4 @@ std::optional<std::string> RisesFromRest(const Friction& friction);
 /// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.
 bool GivesFriction(const Fit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

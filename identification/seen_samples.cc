@@ -2,7 +2,7 @@
 
 #include "identification/preparation/moving_view.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 IdentifierInput Seen(const Identifier& identifier, const IdentifierInput& input) {
   // of a whole log, what is absurd pulls no less at a loss that bounds its pull than others do
@@ -21,4 +21,4 @@ IdentifierInput Seen(const Identifier& identifier, const IdentifierInput& input)
   return any ? input.On(MovingView(input.log)) : input;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

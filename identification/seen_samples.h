@@ -6,7 +6,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The samples that take part, as options ask for them.
 enum class MotionKind { chosen, constant, any };
@@ -51,4 +51,4 @@ struct LossOption {
 /// option `motion`, all that move where that asks for them, or where the log shows no constant speeds.
 IdentifierInput Seen(const Identifier& identifier, const IdentifierInput& input);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

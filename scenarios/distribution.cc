@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 double Distribution::Draw(RandomStream& random) const {
   switch (kind) {
@@ -56,4 +56,4 @@ Tree WriteValue(const Distribution& value) {
   return {{NameOf(value.kind), {value.a, value.b}}};
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

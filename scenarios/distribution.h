@@ -7,7 +7,7 @@
 #include "models/foundation/node.h"
 #include "models/foundation/random_stream.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// A fixed number, a uniform range, a normal, or a log-uniform range.
 struct Distribution {
@@ -37,4 +37,4 @@ bool IsDistribution(const Node& node);
 void ReadValue(const Node& node, Distribution* value, const FieldInfo& info);
 Tree WriteValue(const Distribution& value);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 double AmbientTemperature::RiseAt(double t) const {
   return amplitude == 0 ? 0 : amplitude * std::sin(2 * std::numbers::pi * t / period);
@@ -33,4 +33,4 @@ std::string_view IdealOnly(const Disturbances& disturbances) {
   return "";
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "scenarios/hidden_forces.h"
 #include "scenarios/sensor_faults.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Single samples of the logged torque that are far off, at random.
 struct Outliers {
@@ -283,4 +283,4 @@ struct Disturbances {
 /// Name of the first disturbance that only the ideal plant knows; empty where there is none.
 std::string_view IdealOnly(const Disturbances& disturbances);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <warmjoint/field.h>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Behind each change of direction the friction lacks a level until the joint has gone some way, as with play in a gear.
 struct Backlash {
@@ -124,4 +124,4 @@ struct HiddenForces {
   bool operator==(const HiddenForces&) const = default;
 };
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

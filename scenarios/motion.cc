@@ -7,7 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 /// Signed velocities, one a segment, without end.
@@ -223,4 +223,4 @@ std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
   return plan.Take();
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/foundation/random_stream.h"
 #include "scenarios/distribution.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Which speed and which sign come next.
 ///   alternating: the next speed of the list or a new draw; the sign changes with each segment. A
@@ -257,4 +257,4 @@ bool FollowsCorners(const Motion& motion);
 std::vector<VelocityCorner> PlanCorners(const Motion& motion, double duration,
                                         RandomStream& random);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

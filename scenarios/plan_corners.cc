@@ -6,7 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "scenarios/motion.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 constexpr int kCorners = 500;  // in the fastest harmonic's period: its slopes are off by 0.6 %
@@ -92,4 +92,4 @@ std::vector<VelocityCorner> PlanCorners(const Motion& motion, double duration,
   return motion.corners;
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

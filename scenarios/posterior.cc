@@ -9,7 +9,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/check_friction.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -127,4 +127,4 @@ Friction Draw(const Posterior& posterior, const Friction& friction, RandomStream
          kMostDraws);
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/foundation/node.h"
 #include "models/foundation/random_stream.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Some of a friction's parameters, known with errors that are normal together.
 struct Posterior {
@@ -50,4 +50,4 @@ Posterior PosteriorOfEstimate(const Node& estimate, const Friction& friction);
 Friction Draw(const Posterior& posterior, const Friction& friction, RandomStream& random,
               const Place& place);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "models/foundation/serialize.h"
 #include "scenarios/yaml.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ Settings MotionSettings(const Motion& motion, double duration) {
   return {{"motion", ToFlowYaml(WriteFields(motion))}, {"duration", fmt::format("{}", duration)}};
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

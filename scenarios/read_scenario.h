@@ -48,7 +48,7 @@
 #include "scenarios/scenario.h"
 #include "scenarios/setting.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Reads a scenario file and applies the settings to it. Unknown keys, wrong types and impossible
 /// values throw BadInput with file:line, the value, the bound and the nearest known key.
@@ -71,4 +71,4 @@ Tree ScenarioToTree(const Scenario& scenario);
 /// A motion and a duration, s, as settings of a scenario.
 Settings MotionSettings(const Motion& motion, double duration);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

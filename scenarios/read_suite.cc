@@ -9,7 +9,7 @@
 #include "scenarios/suite.h"
 #include "scenarios/yaml.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 constexpr std::size_t kMostVariants = 1000;
@@ -139,4 +139,4 @@ Suite ParseSuite(const std::string& text, const std::string& file) {
 
 std::string SuiteToYaml(const Suite& suite) { return ToYaml(WriteFields(suite)); }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include "scenarios/truth_draws.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
   Scenario realized = scenario;
@@ -17,4 +17,4 @@ Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
   return realized;
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -5,10 +5,10 @@
 
 #include "scenarios/scenario.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// The scenario with every drawn truth replaced by this realization's number, from
 /// (scenario.seed, realization, Stream::truth). A scenario without draws comes back as it is.
 Scenario Realize(const Scenario& scenario, std::uint64_t realization);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "scenarios/motion.h"
 #include "scenarios/truth_draws.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// ideal: Sec. III of the paper exactly, no engine. mujoco: the robot, a controller and the plugin.
 enum class PlantKind { ideal, mujoco };
@@ -129,4 +129,4 @@ struct Scenario {
   }
 };
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <warmjoint/field.h>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// The torque sensor drifts: its offset and its gain change evenly in time.
 struct SensorDrift {
@@ -212,4 +212,4 @@ struct SensorFaults {
   bool operator==(const SensorFaults&) const = default;
 };
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// A `--set key=value` of the command line or of a suite's ladder. key: a dotted path such as
 /// noise.torque; value: YAML, where `null` takes the entry out.
@@ -15,4 +15,4 @@ struct Setting {
 
 using Settings = std::vector<Setting>;
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include "scenarios/read_scenario.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 Scenario VariantScenario(const Suite& suite, int variant) {
   if (!suite.ladder) return suite.scenario;
@@ -10,4 +10,4 @@ Scenario VariantScenario(const Suite& suite, int variant) {
   return WithSettings(suite.scenario, rung.settings);
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

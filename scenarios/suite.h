@@ -9,7 +9,7 @@
 #include "scenarios/setting.h"
 #include "scenarios/suite_identifier.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// One rung of a suite's ladder: the scenario with some entries changed.
 struct Variant {
@@ -100,4 +100,4 @@ Suite ParseSuite(const std::string& text, const std::string& file);
 /// The whole suite, defaults written out; ReadSuite of it gives the same suite.
 std::string SuiteToYaml(const Suite& suite);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Name under which a suite holds an identifier that is a command of its own; the command is the
 /// option of that name. An entry {name: mine, command: ...} is the same with the label mine.
@@ -40,4 +40,4 @@ struct SuiteIdentifier {
   bool operator==(const SuiteIdentifier&) const = default;
 };
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

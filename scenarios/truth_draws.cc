@@ -8,7 +8,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/friction/friction_json.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 constexpr std::string_view kPrefix = "friction.";
@@ -130,4 +130,4 @@ Friction DrawFriction(const Friction& friction, const TruthDraws& draws, RandomS
   return FrictionFrom({std::move(tree), place.file});
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

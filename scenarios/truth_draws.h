@@ -12,7 +12,7 @@
 #include "scenarios/distribution.h"
 #include "scenarios/posterior.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Truth that is drawn anew for each realization.
 struct TruthDraws {
@@ -61,4 +61,4 @@ struct DrawnTruth {
 Friction DrawFriction(const Friction& friction, const TruthDraws& draws, RandomStream& random,
                       const Place& place);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

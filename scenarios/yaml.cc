@@ -7,7 +7,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 namespace {
 
 /// The line on which a second document begins; 0: none. YAML::LoadAll does not end on some broken texts.
@@ -209,4 +209,4 @@ std::string ToYaml(const Tree& map, const std::string& indent) {
   return yaml;
 }
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

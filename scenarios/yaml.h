@@ -6,7 +6,7 @@
 #include "models/foundation/node.h"
 #include "scenarios/setting.h"
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Bounds of a document: bytes; levels within levels; values, those of aliases counted each time.
 inline constexpr std::size_t kLargestDocument = std::size_t{16} << 20;
@@ -25,4 +25,4 @@ std::string ToYaml(const Tree& map, const std::string& indent = "");
 /// A value as YAML on one line.
 std::string ToFlowYaml(const Tree& value);
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

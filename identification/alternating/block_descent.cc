@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 BlockDescent::BlockDescent(const Measurements& measurements, const Selection& moving,
                            const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
@@ -70,4 +70,4 @@ DescentState BlockDescent::WithNominal(const Thermal& thermal, bool inside) cons
   return state;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "identification/alternating/output_error.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Where the loop stands.
 struct DescentState {
@@ -60,4 +60,4 @@ class BlockDescent {
   double kept_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr size_t kLastChanges = 5;  // over which the rate is observed
@@ -32,4 +32,4 @@ Convergence JudgeConvergence(const std::vector<Eigen::VectorXd>& iterates) {
   return {rate, change * rate / (1 - rate)};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

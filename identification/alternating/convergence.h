@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Judgement of a sequence that converges linearly, x[i+1] - x* = rate (x[i] - x*).
 struct Convergence {
@@ -17,4 +17,4 @@ struct Convergence {
 /// too short (fewer than 3) to tell.
 Convergence JudgeConvergence(const std::vector<Eigen::VectorXd>& iterates);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

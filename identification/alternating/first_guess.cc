@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kWindows = 40;             // over the recording
@@ -195,4 +195,4 @@ FirstGuess GuessThermal(const Measurements& measurements, const Selection& selec
   return {Thermal{gain, time_constant}, "", description};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The level of friction, c(t) = sign(v) tau - kv |v|, averaged over windows of time, and what is
 /// read off it. M windows, up to the first long rest.
@@ -35,4 +35,4 @@ struct FirstGuess {
 /// Refused with a sentence where the level does not change, or has not settled in the last quarter.
 FirstGuess GuessThermal(const Measurements& measurements, const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "identification/linear/linear_laws.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Law and kernels over position.
@@ -92,4 +92,4 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   return part;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/identify_maps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether a map stands beside the law.
 enum class NominalMap { none, map };
@@ -51,4 +51,4 @@ struct NominalPart {
 /// the torque as it is, warming included. identifier: the name of the one that asks.
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMaxSteps = 100;
@@ -108,4 +108,4 @@ OutputError::Fit OutputError::Refine(const Eigen::VectorXd& energy, double start
   return {{here.gain, std::exp(theta)}, here.cost, theta > lower && theta < upper};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/forward/thermal_filter.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Fits gain and time constant of H to a given energy: the sum over the kept samples of
 /// (E - H W)^2 is smallest. The filter runs over all samples: one that is not kept (at rest,
@@ -53,4 +53,4 @@ class OutputError {
   double longest_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

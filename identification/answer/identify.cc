@@ -11,7 +11,7 @@
 #include "identification/report/tell_preparation.h"
 #include "identification/seen_samples.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr Eigen::Index kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
@@ -104,4 +104,4 @@ Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& in
   return shown;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

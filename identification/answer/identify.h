@@ -7,7 +7,7 @@
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/judging.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fit, what it tells by itself, and what the verdict leaves of that.
 struct Answer {
@@ -40,4 +40,4 @@ Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& i
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
                          const Answer& answer);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

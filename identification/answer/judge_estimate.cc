@@ -7,7 +7,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/lack_of_fit/judge.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// The fit that the estimate's friction stands for: a table of its law, heat and start.
@@ -97,4 +97,4 @@ void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& est
   TakeOver(fit, std::move(inference), estimate);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "identification/lack_of_fit/judging.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Judges an estimate by its friction along the log, as FitAndJudge judges the fits of our own
 /// identifiers (lack_of_fit/judge.h): status, message, warnings, intervals, diagnostics and
@@ -15,4 +15,4 @@ namespace warmjoint::inline identification {
 /// diagnostics say that no test was made.
 void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& estimate);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

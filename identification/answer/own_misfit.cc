@@ -10,7 +10,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::optional<std::string> OwnMisfit(const Fit& fit, const Inference& inference,
                                      const Measurements& measurements, const Selection& selection,
@@ -56,4 +56,4 @@ std::optional<std::string> OwnMisfit(const Fit& fit, const Inference& inference,
       parameter.name, step.solution[most], parameter.unit);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/judging.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The tests for lack of fit ask for what a law cannot follow; a least-squares fit leaves nothing that
 /// its law could. Another program's may: one Gauss-Newton step d of its parameters, over its residual,
@@ -18,4 +18,4 @@ std::optional<std::string> OwnMisfit(const Fit& fit, const Inference& inference,
                                      const Measurements& measurements, const Selection& selection,
                                      const Judging& judging);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "models/foundation/four.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Calls run(D) with the number of law parameters where the compiler may know it, or Dynamic.
@@ -156,4 +156,4 @@ Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& t
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

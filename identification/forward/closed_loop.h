@@ -9,7 +9,7 @@
 
 #include "models/friction/intervals.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What the loop does for one set of parameters.
 struct LoopResponse {
@@ -92,4 +92,4 @@ class ClosedLoop {
 /// three are k, tau, E0) become ke and te. h: the even sampling interval, s.
 Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& thermal, double h);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

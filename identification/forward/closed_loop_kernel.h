@@ -6,7 +6,7 @@
 
 #include "identification/forward/closed_loop.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Eq. (22) over one interval where the loss follows E itself, W = |v| (g p + E): ThermalStep of the
 /// level g p alone, with the gain ke |v| and the pole te + ke |v|. One product and one sum lead from
@@ -115,4 +115,4 @@ void WithHolds(const Intervals& intervals, const Thermal& thermal, Run&& run) {
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& energy) {
   MapPoints points = MapPoints::Zero(measurements.size(), 5);
@@ -21,4 +21,4 @@ MapPoint<double> PointAt(const MapPoints& points, Eigen::Index row) {
   return point;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

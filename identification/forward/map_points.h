@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// One row for each sample, one column for each MapQuantity in its order: [N x 5]; rad or m, rad,
 /// rad/s or m/s, N.m or N, N.m or N.
@@ -19,4 +19,4 @@ MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& ener
 /// One row of it. row: of `points`.
 MapPoint<double> PointAt(const MapPoints& points, Eigen::Index row);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// R^T R of the N rows of an R [N x P] that is never held: a block of rows at a time, so that each
 /// product of two columns is a dot product over samples, with independent partial sums.
@@ -99,4 +99,4 @@ class RowProducts {
   Eigen::Index count_ = 0;  // rows in the block
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

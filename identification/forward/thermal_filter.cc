@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 ThermalFilter::ThermalFilter(const Eigen::VectorXd& time, std::vector<Eigen::Index> starts)
     : starts_(std::move(starts)) {
@@ -44,4 +44,4 @@ Eigen::VectorXd ThermalFilter::Transposed(const Thermal& thermal,
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "models/foundation/four.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// E at unit gain and its derivatives by ln tau, in J; the filter is linear in its gain.
 struct UnitEnergy {
@@ -111,4 +111,4 @@ void ThermalFilter::ForEach(double time_constant, const Eigen::VectorXd& loss, V
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

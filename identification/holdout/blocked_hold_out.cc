@@ -3,7 +3,7 @@
 #include "identification/holdout/evaluate.h"
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) {
   std::vector<Eigen::Index> bounds{0};
@@ -40,4 +40,4 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
   return errors;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Contiguous parts of a recording, each with its number of kept samples as equal as can be.
 /// Returns the first sample of each, and N: [blocks + 1].
@@ -20,4 +20,4 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
                                              const IdentifierInput& input,
                                              const std::vector<Eigen::Index>& bounds);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "identification/holdout/predict_torque.h"
 #include "identification/physical_bounds.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 TorqueModel ModelOf(const Fit& fit) {
   TorqueModel model{fit.friction, fit.gravity, fit.inertia};
@@ -33,4 +33,4 @@ std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements
                         fit.effective_parameters);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/fit.h"
 #include "identification/holdout/predict_torque.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What the fit knows of the torque, its lag on the way into the log too.
 TorqueModel ModelOf(const Fit& fit);
@@ -21,4 +21,4 @@ TorqueModel ModelOf(const Fit& fit);
 std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
                                 const CourseStart& start);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "identification/preparation/moving_view.h"
 #include "identification/seen_samples.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Another log with the samples that the identifier learned from in `input`.
@@ -100,4 +100,4 @@ std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const Pre
   return fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

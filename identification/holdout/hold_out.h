@@ -8,7 +8,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fit that has seen the samples before a time alone.
 struct FirstPart {
@@ -38,4 +38,4 @@ std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& in
                          double fraction, const Fit& all_data);
 std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 #include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, Selection asked,
                                const CourseStart& start) {
@@ -26,4 +26,4 @@ TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, 
   return predicted;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

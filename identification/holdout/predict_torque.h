@@ -9,7 +9,7 @@
 
 #include "models/friction/along_motion.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What acts on a joint, as far as a fit knows it: F + G + M a, Eqs. (5) and (20).
 struct TorqueModel {
@@ -30,4 +30,4 @@ struct TorquePrediction {
 TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& measurements,
                                Selection asked, const CourseStart& start);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

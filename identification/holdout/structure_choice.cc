@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Standard error of the mean of independent values. [n], n >= 2
@@ -50,4 +50,4 @@ Choice ChooseStructure(const std::vector<Contender>& contenders, double samples)
   return choice;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

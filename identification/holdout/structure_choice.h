@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A structure that fits the recording.
 struct Contender {
@@ -31,4 +31,4 @@ struct Choice {
 /// ones, the one of the least error. contenders: at least one; samples: n of BIC.
 Choice ChooseStructure(const std::vector<Contender>& contenders, double samples);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

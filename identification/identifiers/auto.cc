@@ -26,7 +26,7 @@
 #include "identification/seen_samples.h"
 #include "identification/warming/expected_start.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "auto";
@@ -213,4 +213,4 @@ Identifier Auto() {
           OptionGroups<AutoOptions, MotionOption, InitialEnergyOptions>{}, &FitChosen};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

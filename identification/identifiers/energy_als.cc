@@ -26,7 +26,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "energy-als";
@@ -301,4 +301,4 @@ Identifier EnergyAls() {
       "energy-em"};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

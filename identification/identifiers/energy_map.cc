@@ -7,7 +7,7 @@
 #include "identification/maps/warm_maps.h"
 #include "identification/physical_bounds.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "energy-map";
@@ -70,4 +70,4 @@ Identifier EnergyMap() {
           OptionGroups<LawOption, MapOptions, EnergyMapSize>{}, &FitEnergyMap};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

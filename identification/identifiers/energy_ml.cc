@@ -37,7 +37,7 @@
 #include "identification/warming/warm_answer.h"
 #include "identification/warming/warm_course.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kEnergyMl = "energy-ml";
@@ -78,7 +78,7 @@ Whitened FitAgainWhitened(const WarmCourse& course, const LoopResponse& response
 }
 
 /// After the passes by squares: under Huber's loss, or on whitened rows where the noise is coloured beyond doubt.
-Fit FitFurther(const WarmCourse& course, const WarmStart& start, RobustWarmFit robust) {
+Fit FitFurther(const WarmCourse& course, const InitialGuess& start, RobustWarmFit robust) {
   const auto& [input, task] = std::tie(course.input, course.task);
   double nominal_squares = course.nominal_squares;
   // outliers count less, in the fit without warming as well
@@ -107,7 +107,7 @@ Fit FitFurther(const WarmCourse& course, const WarmStart& start, RobustWarmFit r
 }
 
 /// Behind the lag that leaves least; as without one where the log shows none.
-Fit FitWithLag(const WarmCourse& course, const WarmStart& start, RobustWarmFit robust) {
+Fit FitWithLag(const WarmCourse& course, const InitialGuess& start, RobustWarmFit robust) {
   const auto& [input, task] = std::tie(course.input, course.task);
   std::shared_ptr<const LaggedRows> lag;
   if (course.KeepsNoRest()) {
@@ -171,4 +171,4 @@ Identifier EnergyMl() {
           &FitAsAsked};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

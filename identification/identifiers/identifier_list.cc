@@ -6,7 +6,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
@@ -35,4 +35,4 @@ std::string CurrentName(const std::string& name) {
   return found ? found->name : name;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

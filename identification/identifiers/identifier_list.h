@@ -6,7 +6,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Each is described at the top of its file.
 Identifier NominalLs();
@@ -35,4 +35,4 @@ const Identifier* LookUpIdentifier(const std::string& name);
 /// What an identifier is called now; `name` itself where the list has none that is or was called so.
 std::string CurrentName(const std::string& name);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -25,7 +25,7 @@
 #include "identification/online/kalman_passes.h"
 #include "identification/warming/warming_verdict.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "kalman";
@@ -193,4 +193,4 @@ Identifier Kalman() {
           OptionGroups<LawOption, KalmanOptions>{}, &FitOnline};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -77,4 +77,4 @@ bool LeavesOverPlace(const VectorXd& residual, const MapPoints& points) {
   return false;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

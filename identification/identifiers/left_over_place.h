@@ -5,7 +5,7 @@
 
 #include "identification/forward/map_points.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether means over bins of place, one set for each direction of motion, take more of a residual
 /// than chance would, at any of six widths of 8 to 256 bins:
@@ -16,4 +16,4 @@ namespace warmjoint::inline identification {
 /// residual: [n] N.m or N; points: [n x 5]. Places are the joint's position, and the motor's angle.
 bool LeavesOverPlace(const Eigen::VectorXd& residual, const MapPoints& points);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/maps/over_energy.h"
 #include "identification/maps/warm_maps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "load-map";
@@ -85,4 +85,4 @@ Identifier LoadMap() {
           OptionGroups<LawOption, MapOptions, LoadMapSize>{}, &FitLoadMap};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/physical_bounds.h"
 #include "identification/warming/slope_heat.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "lpv-energy";
@@ -59,4 +59,4 @@ Identifier LpvEnergy() {
           OptionGroups<LawOption, MapOptions, LpvEnergySize>{}, &FitSlopeAndLevel};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -29,7 +29,7 @@
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/warming/warming_verdict.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "lugre";
@@ -292,4 +292,4 @@ Identifier LuGreIdentifier() {
           LuGreOptions{}, &FitLugre, Regime::transient};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/physical_bounds.h"
 #include "identification/seen_samples.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "motor-ridge";
@@ -54,4 +54,4 @@ Identifier MotorRidge() {
           &FitMotorMaps};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

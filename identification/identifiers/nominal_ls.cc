@@ -23,7 +23,7 @@
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/disagreement.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "nominal-ls";
@@ -163,4 +163,4 @@ Identifier NominalLs() {
           OptionGroups<LawOption, GravityOption, MotionOption, LossOption, LagOption>{}, &FitLaw};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

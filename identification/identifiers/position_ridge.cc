@@ -6,7 +6,7 @@
 #include "identification/maps/identify_maps.h"
 #include "identification/seen_samples.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "position-ridge";
@@ -29,4 +29,4 @@ Identifier PositionRidge() {
           &FitMap};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

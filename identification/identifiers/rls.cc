@@ -21,7 +21,7 @@
 #include "identification/online/measured_heat.h"
 #include "identification/online/recursive_least_squares.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "rls";
@@ -177,4 +177,4 @@ Identifier Rls() {
           OptionGroups<LawOption, RlsOptions, GravityOption>{}, &FitOnline};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

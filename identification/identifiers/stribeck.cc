@@ -29,7 +29,7 @@
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "stribeck";
@@ -54,7 +54,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   const ClosedLoop loop = ClosedLoop::Along(m, columns);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
-  const WarmStart start = ScanTimeConstant(loop, level, weight);
+  const InitialGuess start = ScanTimeConstant(loop, level, weight);
   const double scale = std::sqrt(squares / static_cast<double>(torque.size()));
   const WarmFit fit = FitWarmFriction(loop, level, Eigen::MatrixXd(m.size(), 0), weight, start,
                                       InitialEnergy::zero, scale);
@@ -264,4 +264,4 @@ Identifier StribeckIdentifier() {
           StribeckOptions{}, &FitStribeck};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

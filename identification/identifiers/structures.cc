@@ -22,7 +22,7 @@
 #include "models/friction/viscous_coulomb.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Linear laws by one identifier.
@@ -204,4 +204,4 @@ Selection Settled(const Measurements& m, Selection selection, double lag) {
   return selection;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -15,7 +15,7 @@
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/nonlinear/stribeck_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// An identifier, whose options are the structure's.
 struct Structure {
@@ -112,4 +112,4 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
 /// see.
 Selection Settled(const Measurements& measurements, Selection selection, double lag);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

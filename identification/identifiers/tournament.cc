@@ -9,15 +9,15 @@
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/identifiers/structures.h"
 #include "identification/identifiers/left_over_place.h"
+#include "identification/identifiers/structures.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/coulomb.h"
 #include "models/recording/course_of.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr Eigen::Index kRows = 3000;    // on which structures are compared
@@ -238,4 +238,4 @@ std::string Tournament::WhyOutdone(const Trial& one, const Trial& other) const {
   return "";
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

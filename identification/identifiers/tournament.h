@@ -11,7 +11,7 @@
 #include "identification/inference/inference.h"
 #include "identification/preparation/condense.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What became of a structure on the rows that are compared.
 struct Trial {
@@ -112,4 +112,4 @@ class Tournament {
   std::vector<size_t> standing_;  // places of the contenders among the trials
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// A parameter beside the bound that its value lies outside of.
@@ -192,4 +192,4 @@ void HoldAtBounds(const Inference& told, const Measurements& measurements, Fit& 
   fit.end_energy = nullptr;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

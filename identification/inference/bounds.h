@@ -3,7 +3,7 @@
 
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Voids an inference some law parameter of which lies outside of its bound, or whose static level is below
 /// its Coulomb level; else the friction may be used.
@@ -15,4 +15,4 @@ void JudgeBounds(const Fit& fit, Inference& inference);
 /// told: of the fit, whatever its bounds; measurements: of the fit.
 void HoldAtBounds(const Inference& told, const Measurements& measurements, Fit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "identification/fit_data.h"
 #include "identification/uncertainty/few_segments.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Of weighted squares: C (W J)^T R (W J) C with C = (J^T W J)^-1.
@@ -79,4 +79,4 @@ double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
   return std::max(effective / noise.variance_inflation - static_cast<double>(d), 1.0);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include "identification/fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Covariance of x, as the fit's error model says, for noise of the colour and the unevenness that
 /// the residual shows (uncertainty.h). [p x p] in the coordinates of the parameters.
@@ -13,4 +13,4 @@ Uncertainty CovarianceOf(const Fit& fit);
 /// least 1. (sum w)^2 / sum w^2 of them count. weights: [n].
 double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise, Eigen::Index d);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

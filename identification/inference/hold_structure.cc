@@ -7,7 +7,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 double Rms(const Eigen::VectorXd& values) {
@@ -38,4 +38,4 @@ void HoldStructure(const Fit& fit, Inference& inference) {
                   name, structure.deviations));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

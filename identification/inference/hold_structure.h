@@ -4,7 +4,7 @@
 #include "identification/fit.h"
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
 /// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by
@@ -12,4 +12,4 @@ namespace warmjoint::inline identification {
 /// it no number gets an interval. fit: with held_structure; inference: with the covariance by noise.
 void HoldStructure(const Fit& fit, Inference& inference);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

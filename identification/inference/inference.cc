@@ -12,7 +12,7 @@
 #include "identification/physical_bounds.h"
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// std and interval of an estimated parameter. deviation: of its coordinate
@@ -140,4 +140,4 @@ Fit AtBounds(Fit fit, const Measurements& measurements) {
   return fit;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 
 #include "identification/fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What is known of one row of the fit's table.
 struct KnownParameter {
@@ -53,4 +53,4 @@ Inference Infer(const Fit& fit);
 /// the whole interval lies beyond. measurements: of the fit.
 Fit AtBounds(Fit fit, const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

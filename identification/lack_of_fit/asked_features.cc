@@ -7,7 +7,7 @@
 #include "identification/lack_of_fit/orthonormal.h"
 #include "models/foundation/four.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -135,4 +135,4 @@ Eigen::RowVectorXd WriteNormed(const MatrixXd& columns, const VectorXd& roots,
   return norms;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Features that a residual may depend on, asked about together: the best of several candidates.
 struct Features {
@@ -75,4 +75,4 @@ class AskedFeatures {
 Eigen::RowVectorXd WriteNormed(const Eigen::MatrixXd& columns, const Eigen::VectorXd& roots,
                                Eigen::Ref<Eigen::MatrixXd> to);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -97,4 +97,4 @@ BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins&
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

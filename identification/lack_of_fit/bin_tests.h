@@ -7,7 +7,7 @@
 #include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/table.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What tests over bins found.
 struct BinFindings {
@@ -24,4 +24,4 @@ BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins&
                      const Eigen::VectorXd& residual, const Eigen::MatrixXd& derivatives,
                      const Circumstances& known, ErrorLevel& level);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

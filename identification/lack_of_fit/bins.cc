@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -139,4 +139,4 @@ Eigen::MatrixXd Bins::Means(const Eigen::Ref<const Eigen::MatrixXd>& all) const 
   return means;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "models/foundation/four.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Runs of neighbouring kept samples in one segment of constant speed, or, where the selection
 /// knows no segments, within 2 % of one speed. At most a 400th of all kept samples each.
@@ -61,4 +61,4 @@ Bins MakeBins(const Measurements& measurements, const Selection& selection);
 /// changes within each one.
 Bins BinsWithinHolds(const Measurements& measurements, const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

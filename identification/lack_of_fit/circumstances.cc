@@ -10,7 +10,7 @@
 #include "models/foundation/four.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMemories = 6;  // time constants that are tried
@@ -87,4 +87,4 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   return known;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/heating_forces.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Means over each bin; [m x 0] where something is not known or not asked.
 struct Circumstances {
@@ -29,4 +29,4 @@ struct Circumstances {
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& measurements,
                               const Bins& bins);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

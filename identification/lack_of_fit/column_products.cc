@@ -5,7 +5,7 @@
 
 #include "models/foundation/four.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -142,4 +142,4 @@ MatrixXd ProductsBetween(const MatrixXd& left, const MatrixXd& right) {
   return products;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

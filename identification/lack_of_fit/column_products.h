@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Products of each two of c columns, i <= j, over each part of the rows: [parts x c^2], in column i c + j; the others are
 /// not set. columns: [m x c]; ends: one past the last row of each part, ascending.
@@ -17,4 +17,4 @@ Eigen::MatrixXd ProductsOf(const Eigen::MatrixXd& columns);
 /// Products of some columns with others, over all rows. left: [m x a]; right: [m x b]; returns [a x b].
 Eigen::MatrixXd ProductsBetween(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

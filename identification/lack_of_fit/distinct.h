@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The different ones among some numbers, so that what depends on them alone is computed once for each.
 struct Distinct {
@@ -33,4 +33,4 @@ struct Distinct {
   }
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Share of the logs without any lack of fit in which a test of the table finds one by chance.
 inline constexpr double kErrorLevel = 0.01;
@@ -33,4 +33,4 @@ class ErrorLevel {
   double level_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -17,7 +17,7 @@
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -258,4 +258,4 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   return examination;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/finding.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The outcome of every test, and how much the log's assumptions matter.
 struct Examination {
@@ -74,4 +74,4 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference,
 /// The table of tests, none made: for one reason, or where that is empty each for its own.
 std::vector<Finding> NotMade(const std::string& reason);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLevel& level) {
   Finding finding;
@@ -35,4 +35,4 @@ Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLev
   return finding;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/lack_of_fit/wave_products.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::ArrayXd;
@@ -176,4 +176,4 @@ Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit
           known.duration / cycles};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

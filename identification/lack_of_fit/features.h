@@ -4,7 +4,7 @@
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/growing_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// 1, |v|: what differs between the directions.
 Features OfDirection(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
@@ -36,4 +36,4 @@ Features OfHoldPhase(const Bins& bins, const Circumstances& known, const Growing
 /// over the log, from 2.5 cycles to one a hold, four bins a cycle at least.
 Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

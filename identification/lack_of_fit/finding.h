@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct LackOfFitTest;
 
@@ -35,4 +35,4 @@ struct Finding {
 /// Parts of a recording that count as independent of each other: noise may be coloured within them.
 inline constexpr Eigen::Index kParts = 32;
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

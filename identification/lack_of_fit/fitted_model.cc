@@ -14,7 +14,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// dFn/dp, by central differences where the law is not linear in p. [N x d]
@@ -161,4 +161,4 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   return model;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/forward/closed_loop.h"
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct FittedModel {
   Selection selection;           // samples that took part
@@ -40,4 +40,4 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
                                          const Measurements& measurements,
                                          const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/lack_of_fit/orthonormal.h"
 #include "identification/lack_of_fit/significance.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -237,4 +237,4 @@ void GrowingFit::Refit() {
   left_ = residual_ - fit_.basis * (fit_.basis.transpose() * residual_);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/lack_of_fit/shared_columns.h"
 #include "identification/uncertainty/noise_model.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The fit beside which features are tested.
 class GrowingFit {
@@ -79,4 +79,4 @@ class GrowingFit {
   double taken_ = 0;  // columns that were there when the noise was learned
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

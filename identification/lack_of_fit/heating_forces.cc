@@ -7,7 +7,7 @@
 #include "models/foundation/four.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::ArrayXd;
@@ -71,4 +71,4 @@ HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& m, c
           all.middleCols(kCourses + 2, model.thermal ? 1 : 0)};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

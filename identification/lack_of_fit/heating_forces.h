@@ -6,7 +6,7 @@
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/fitted_model.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Courses that a drift of the friction may take: evenly, and dying away with three time constants; why: these span what
 /// is neither even nor over before the warming (heating_forces.cc).
@@ -23,4 +23,4 @@ struct HeatingForces {
 HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& measurements,
                               const Bins& bins);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -76,4 +76,4 @@ Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const Measurements& me
   return difference * static_cast<double>(kOfEachStep) / static_cast<double>(kOfEachStep - 1);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether the step h of a log matters to its warming: (22) holds W over a step, in which E and
 /// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau); where
@@ -22,4 +22,4 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
 Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const Measurements& measurements,
                                 const CourseStart& start = {});
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "identification/warming/gaps.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -25,7 +25,7 @@ constexpr double kSureMove = 3;  // deviations from which a move is there; why 3
 constexpr double kTogether = 0.25;
 
 /// Whether something was found that may stand in the warming in that way.
-bool Finds(const Examination& examination, Warming warming) {
+bool Finds(const Examination& examination, HeatRelation warming) {
   return std::ranges::any_of(examination.findings, [=](const Finding& finding) {
     return finding.rejected && finding.test->warming == warming;
   });
@@ -241,7 +241,7 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
   }
 
   // small: the intervals hold it
-  const bool drifts = Finds(examination, Warming::takes_part);
+  const bool drifts = Finds(examination, HeatRelation::confounded);
   const bool unknown = drifts && fit.RowOf(Role::heat);
   inference.warnings.push_back(fmt::format(
       "{}: it changes the friction by {:.2g} % at most; intervals were widened to cover this{}; {}",
@@ -255,7 +255,7 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
     Widen(examination, examination.by_open_drift, inference);
   }
   // nor how much of a warm start
-  if (Finds(examination, Warming::starts) && examination.by_open_start.size() > 0) {
+  if (Finds(examination, HeatRelation::starts) && examination.by_open_start.size() > 0) {
     Widen(examination, examination.by_open_start, inference);
   }
   // intervals reach as far as the findings move the parameters, with 95 % of that
@@ -296,4 +296,4 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/judging.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Judges a fit by the table of tests for lack of fit (table.h), made at one error level for the log
 /// (error_level.h). What they find is relevant where one finding changes the friction of law and heat by
@@ -21,4 +21,4 @@ namespace warmjoint::inline identification {
 void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
                     const Judging& judging, Inference& inference);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

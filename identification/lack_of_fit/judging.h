@@ -3,7 +3,7 @@
 
 #include <warmjoint/estimate.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What is known of the warmth at the start of a log.
 enum class StartBelief {
@@ -18,4 +18,4 @@ struct Judging {
   StartBelief start = StartBelief::cold;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/lack_of_fit/distinct.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -171,4 +171,4 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   return finding;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/table.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Looks for torque that lags: after a change from friction F0 to F1 a share c of
 /// (F0 - F1) exp(-t/T) is left, t: time since the segment of constant speed began, whatever ramp
@@ -21,4 +21,4 @@ namespace warmjoint::inline identification {
 Finding TestLag(const FittedModel& model, const Measurements& measurements,
                 Eigen::VectorXd& residual, ErrorLevel& level);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -149,4 +149,4 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
   examination.by_open_drift = Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/sensitivity.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Fills open_start, open_drift, open_curve and open_memory. A force f that an assumption leaves out has a factor c, which joins the fit
 /// for one step of least squares. Its interval at the level of the log's tests for lack of fit (error_level.h),
@@ -26,4 +26,4 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& measurements, c
                    const Circumstances& known, Eigen::Index p, const ForceMoves& fit,
                    Examination& examination);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kMoving = 0.05;  // of the largest speed: slower samples rest or turn
@@ -30,4 +30,4 @@ std::optional<double> OneSpeed(const Measurements& m) {
   return middle;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

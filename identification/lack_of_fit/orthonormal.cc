@@ -8,7 +8,7 @@
 
 #include "identification/lack_of_fit/column_products.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -182,4 +182,4 @@ MatrixXd MixOfDistinct(const MatrixXd& products, double distinct) {
   return MixOf(FactorOf(products, products.cols(), distinct));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// An orthonormal basis of columns, how it is made of them, basis = columns * mix, and they of it, columns = basis * held
 /// but for what is too short to join.
@@ -23,4 +23,4 @@ Basis Orthonormal(const Eigen::MatrixXd& columns, double distinct);
 /// The mix alone, [q x r]. products: [q x q] of the columns with each other; distinct: 0.001 or more.
 Eigen::MatrixXd MixOfDistinct(const Eigen::MatrixXd& products, double distinct);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;  // rad
@@ -35,4 +35,4 @@ void LearnOtherUnits(const Fit& fit, const Inference& inference, JointKind joint
   examination.by_clock = FarthestMoves(1, kClock, fit, inference, examination.rows);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include "identification/lack_of_fit/examine.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Fills by_degrees and by_clock: no residual shows either, where all columns of way or of time share the slip.
 /// A parameter of dimension torque way^a time^b is f = w^a t^b times as large once way and time are w and t
@@ -12,4 +12,4 @@ namespace warmjoint::inline identification {
 void LearnOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
                      Examination& examination);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

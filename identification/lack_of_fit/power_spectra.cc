@@ -3,7 +3,7 @@
 #include <cassert>
 #include <unsupported/Eigen/FFT>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -36,4 +36,4 @@ MatrixXd PowerSpectra(const MatrixXd& columns, Index length, Index last) {
   return squares;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

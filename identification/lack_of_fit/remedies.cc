@@ -15,7 +15,7 @@
 #include "models/friction/law_list.h"
 #include "models/friction/parameter_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kSettledAfter = 3;    // time constants; why 3: 5 % are left
@@ -287,4 +287,4 @@ std::string AgainstMotorAngle(const Advice& advice) {
   return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=motor" : "motor-ridge");
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "identification/lack_of_fit/table.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::string AgainstWarming(const Advice& advice);
 std::string AgainstStart(const Advice& advice);
@@ -23,4 +23,4 @@ std::string AgainstFading(const Advice& advice);
 std::string AgainstPosition(const Advice& advice);
 std::string AgainstMotorAngle(const Advice& advice);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "identification/lack_of_fit/table.h"
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// by: [p] of the examination's rows; empty for none.
@@ -83,4 +83,4 @@ std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit&
   return assumptions;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/lack_of_fit/examine.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// One for each finding. unit: of the torque
 std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit& fit,
@@ -19,4 +19,4 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
 std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit,
                                       const std::string& unit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

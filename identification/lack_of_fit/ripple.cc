@@ -14,7 +14,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -256,4 +256,4 @@ std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& m,
   return findings;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

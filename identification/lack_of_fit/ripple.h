@@ -8,7 +8,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/table.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// An angle, or a way, along which ripple is looked for.
 struct AngleAxis {
@@ -33,4 +33,4 @@ Finding TestAxis(const AngleAxis& axis, const Eigen::VectorXd& velocity, const S
 std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& measurements,
                                 Eigen::VectorXd& residual, ErrorLevel& level);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kEven = 1e-6;   // of a step: an error that is no matter
@@ -59,4 +59,4 @@ Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorX
   return error;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Mean error of a torque f with white noise of deviation s that is logged in whole steps q,
 ///
@@ -25,4 +25,4 @@ double StepOf(const Eigen::VectorXd& torque);
 /// hundredth of f in the middle of a step, 2 q/(s sqrt(2 pi)) exp(-q^2 / 8 s^2), and the error may be anything up to q/2.
 double HidingStep(const Eigen::VectorXd& torque, double variance);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -114,4 +114,4 @@ void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins
   examination.by_gaps = without_jumps.By(forces).cwiseAbs().rowwise().sum();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/lack_of_fit/examine.h"
 #include "identification/lack_of_fit/fitted_model.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is known,
 /// -(J^T W J)^-1 J^T W f. J is taken apart once for all forces.
@@ -66,4 +66,4 @@ void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins
                       const Eigen::MatrixXd& derivatives, const ForceMoves& moves,
                       Examination& examination);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Many columns of few different rows: row i of column j is factor[i] * shares(place[i], j). Sums over rows are made
 /// once for each place, whatever the number of columns.
@@ -33,4 +33,4 @@ struct SharedColumns {
   }
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

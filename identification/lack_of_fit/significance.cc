@@ -5,7 +5,7 @@
 
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 double HotellingPValue(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& scatter,
                        double groups) {
@@ -19,4 +19,4 @@ double HotellingPValue(const Eigen::VectorXd& coefficients, const Eigen::MatrixX
   return std::isfinite(f) ? PValueOfF(f, q, groups - q) : 1;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The probability that q coefficients differ from 0 together as far as these by chance, where
 /// `scatter` [q x q] was summed over `groups` parts of the recording: Hotelling's
@@ -12,4 +12,4 @@ namespace warmjoint::inline identification {
 double HotellingPValue(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& scatter,
                        double groups);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/lack_of_fit/one_speed.h"
 #include "identification/lack_of_fit/remedies.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// "time", whatever was found.
@@ -85,19 +85,19 @@ constexpr std::string_view kNoHolds = "no segments of constant speed are known";
 
 const std::vector<LackOfFitTest>& LackOfFitTests() {
   using enum Turn;
-  using enum Warming;
+  using enum HeatRelation;
   using enum Harm;
   static const std::vector<LackOfFitTest> tests{
-      {"direction", kHeldByTheFit, first, apart, of_direction, OfDirection, Say<kDirection>,
+      {"direction", kHeldByTheFit, first, independent, of_direction, OfDirection, Say<kDirection>,
        AgainstDirection, "Do forward and backward motion leave different residuals?",
        "Friction differs by direction: try --set law=asymmetric, with stribeck or lugre --set "
        "law=asymmetric_stribeck or asymmetric_lugre. If gravity or a load acts, try --gravity "
        "sincos or --gravity paired."},
-      {"speed", kHeldByTheFit, first, apart, of_effect, OfSpeed, Say<kSpeed>, AgainstSpeed,
+      {"speed", kHeldByTheFit, first, independent, of_effect, OfSpeed, Say<kSpeed>, AgainstSpeed,
        "Does the residual depend on the speed?",
        "The law over speed is too simple: try --identifier stribeck, and record five speeds or "
        "more, the slowest below a twentieth of the fastest."},
-      {"energy", kHeldByTheFit, first, takes_part, of_moves, OfEnergy, Say<kEnergy>, AgainstWarming,
+      {"energy", kHeldByTheFit, first, confounded, of_moves, OfEnergy, Say<kEnergy>, AgainstWarming,
        "Does it depend on how warm the joint is?",
        "Warming is not followed: try --identifier energy-ml, on a log that begins cold and lasts "
        "until the torque settles."},
@@ -105,51 +105,53 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        OfInitialEnergy, Say<kStart>, AgainstStart, "Was the joint warm when the log began?",
        "The joint seems warm at the start: try --start estimated, or let it cool down for an hour "
        "before you record."},
-      {"load", "the log has no column load", first, apart, of_moves, OfLoad, Say<kLoad>,
+      {"load", "the log has no column load", first, independent, of_moves, OfLoad, Say<kLoad>,
        AgainstLoad, "Does it depend on the load?",
        "Friction depends on the load: record one load at a time."},
-      {"temperature", "the log has no column temperature", first, apart, of_effect, OfTemperature,
-       Say<kTemperature>, AgainstTemperature, "Does it depend on the measured temperature?",
+      {"temperature", "the log has no column temperature", first, independent, of_effect,
+       OfTemperature, Say<kTemperature>, AgainstTemperature,
+       "Does it depend on the measured temperature?",
        "The surroundings warm the joint: record at a steady temperature."},
-      {"time", kHeldByTheFit, first, takes_part, of_moves, OfTime, Say<kTime>, AgainstWarming,
+      {"time", kHeldByTheFit, first, confounded, of_moves, OfTime, Say<kTime>, AgainstWarming,
        "Does it drift over time?",
        "Friction drifts: try a model that warms (--identifier energy-ml), or record for longer."},
-      {"speed_by_energy", "the fit knows no warming", first, apart, of_moves, OfSpeedByEnergy,
+      {"speed_by_energy", "the fit knows no warming", first, independent, of_moves, OfSpeedByEnergy,
        Say<kSpeedByEnergy>, AgainstWarmingSlope, "Does the slope over speed change with warmth?",
        "The slope changes as the joint warms: try --identifier lpv-energy."},
       {"speed_memory", "the fit knows no warming, or the segments are too long for the log", first,
-       takes_part, of_moves, OfSpeedMemory, Memory, AgainstMemory,
+       confounded, of_moves, OfSpeedMemory, Memory, AgainstMemory,
        "Does friction follow the speed late?",
        "Friction still depends on the speed of a while ago: hold each speed for longer, so that it "
        "settles."},
-      {"step", kHeldByTheFit, first, takes_part, of_moves, OfStep, Say<kStep>, AgainstStep,
+      {"step", kHeldByTheFit, first, confounded, of_moves, OfStep, Say<kStep>, AgainstStep,
        "Does it jump at some moment?",
        "Something changed in the middle of the log (load, controller, grease): record again, or "
        "cut the log there."},
-      {"lag", "too few samples follow a change of speed", sample, apart, of_either_twice, nullptr,
-       Lag, AgainstLag, "Does the torque lag behind changes of speed?",
+      {"lag", "too few samples follow a change of speed", sample, independent, of_either_twice,
+       nullptr, Lag, AgainstLag, "Does the torque lag behind changes of speed?",
        "The torque column is filtered or delayed: raise --trim, so that samples after each change "
        "of speed are left out."},
-      {"position_by_energy", "the fit has no map beside a warming", sample, apart, of_moves,
+      {"position_by_energy", "the fit has no map beside a warming", sample, independent, of_moves,
        nullptr, Say<kFading>, AgainstFading, "Does the pattern over position change with warmth?",
        "The pattern over position fades or grows as the joint warms: let the map depend on "
        "energy."},
-      {"position", "the travel is too short for the speed", sample, apart, of_effect, nullptr,
+      {"position", "the travel is too short for the speed", sample, independent, of_effect, nullptr,
        Position, AgainstPosition, "Does it repeat over position?",
        "Friction varies over position: try --identifier position-ridge, with motion over the whole "
        "travel."},
-      {"motor_angle", "the log has neither a gear nor the column motor_position", sample, apart,
-       of_effect, nullptr, MotorAngle, AgainstMotorAngle, "Does it repeat over the motor's angle?",
+      {"motor_angle", "the log has neither a gear nor the column motor_position", sample,
+       independent, of_effect, nullptr, MotorAngle, AgainstMotorAngle,
+       "Does it repeat over the motor's angle?",
        "The motor or the gear ripples: give --gear or a column motor_position and try --identifier "
        "motor-ridge."},
-      {"hold_parity", kNoHolds, hold, apart, of_either, OfHoldParity, Say<kParity>, AgainstHolds,
-       "Is every other hold of constant speed different?",
+      {"hold_parity", kNoHolds, hold, independent, of_either, OfHoldParity, Say<kParity>,
+       AgainstHolds, "Is every other hold of constant speed different?",
        "Holds alternate: look whether the two directions have the same load."},
-      {"hold_phase", kNoHolds, hold, apart, of_either, OfHoldPhase, Say<kPhase>, AgainstHolds,
+      {"hold_phase", kNoHolds, hold, independent, of_either, OfHoldPhase, Say<kPhase>, AgainstHolds,
        "Does it change within each hold of constant speed?",
        "Torque settles within each hold: raise --trim, or hold each speed for longer."},
-      {"periodic", "the log is too short", last, apart, of_moves, OfPeriod, Period, AgainstPeriod,
-       "Does it repeat in time?",
+      {"periodic", "the log is too short", last, independent, of_moves, OfPeriod, Period,
+       AgainstPeriod, "Does it repeat in time?",
        "Something repeats in time: look for a controller that swings, or another joint that "
        "moves."}};
   return tests;
@@ -185,4 +187,4 @@ const LackOfFitTest& MotorAngleTest() {
   return row;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/growing_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What advice is about: the finding, and how the fit was made.
 struct Advice {
@@ -24,7 +24,7 @@ struct Advice {
 enum class Turn { first, sample, hold, last };
 
 /// What a fitted warming may have taken up of that which a test looks for; `starts`: that the log began warm.
-enum class Warming { apart, takes_part, starts };
+enum class HeatRelation { independent, confounded, starts };
 
 /// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange), its own
 /// size, where that is friction or where moves do not show it, or the larger; twice where moves understate it, as of
@@ -39,7 +39,7 @@ struct LackOfFitTest {
   std::string_view name;    // in estimate.json
   std::string_view absent;  // why it is not made where there are no features
   Turn turn = Turn::first;
-  Warming warming = Warming::apart;
+  HeatRelation warming = HeatRelation::independent;
   Harm harm = Harm::of_moves;
   /// Features over the bins, the best of several candidates beside the fit; of a test that looks
   /// at samples (lag.h, fading.h, ripple.h): none.
@@ -66,4 +66,4 @@ const LackOfFitTest& FadingTest();
 const LackOfFitTest& PositionTest();
 const LackOfFitTest& MotorAngleTest();
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

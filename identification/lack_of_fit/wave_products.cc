@@ -6,7 +6,7 @@
 
 #include "identification/lack_of_fit/column_products.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::ArrayXd;
@@ -102,4 +102,4 @@ MatrixXd WaveProducts(const Eigen::VectorXd& values, const Eigen::VectorXd& time
   return sums;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

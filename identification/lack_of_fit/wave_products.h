@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Multiples of a step: first step, (first + 1) step, ...
 struct Frequencies {
@@ -26,4 +26,4 @@ Eigen::MatrixXd Waves(const Eigen::ArrayXd& angles);
 /// cos and sin of `count` angles the same step apart, by sums of two angles. [count x 2]
 Eigen::MatrixXd EvenWaves(double first, double step, Eigen::Index count);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// dF/dc at c = 0 of frictions that hold c s g beside the fit's, s = sign(v): s g itself, and what its losses change of E
 /// (closed_loop.h); s g alone where no warming was estimated. levels(n, g): makes g of sample n, 4 F numbers in N.m or N;
@@ -44,4 +44,4 @@ inline Eigen::MatrixXd WithHeat(const FittedModel& model, const Eigen::VectorXd&
   return means;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

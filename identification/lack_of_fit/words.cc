@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::string DescribeFinding(const Examination& examination, const Finding& finding,
                             const Measurements& measurements) {
@@ -16,4 +16,4 @@ std::string DescribeFinding(const Examination& examination, const Finding& findi
       100 * rms / examination.friction, share, share < 0.95 ? 1 : 0);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

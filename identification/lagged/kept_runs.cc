@@ -4,7 +4,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 double Median(const std::vector<double>& values) {
@@ -53,4 +53,4 @@ KeptRuns FindRuns(const Measurements& m, const Selection& selection) {
   return found;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

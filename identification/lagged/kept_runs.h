@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Neighbouring samples of one segment that are all kept: positions among the kept samples.
 struct KeptRun {
@@ -34,4 +34,4 @@ struct KeptRuns {
 /// (Measurements::starts).
 KeptRuns FindRuns(const Measurements& measurements, const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kBits = 20;  // 1e-6
@@ -49,4 +49,4 @@ std::optional<double> FindLag(const LagRange& range, const std::function<double(
   return lag;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

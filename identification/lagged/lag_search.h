@@ -7,7 +7,7 @@
 
 #include "identification/lagged/kept_runs.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// How many time constants, the same ratio apart, are tried before the best is refined.
 inline constexpr int kLagsTried = 14;
@@ -31,4 +31,4 @@ LagRange LagsOf(const KeptRuns& runs);
 /// has none. Nothing where every fit fails or the best lies at an end of the range.
 std::optional<double> FindLag(const LagRange& range, const std::function<double(double)>& squares);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

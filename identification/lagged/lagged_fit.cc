@@ -14,7 +14,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -132,7 +132,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   Append({TorqueLagParameter(rows->lag(), m)}, fit);
   fit.torque = measured;
   fit.fitted = lagged + rows->Dying(held);
-  fit.torque_lag = TorqueLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};
+  fit.torque_lag = FittedLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};
 
   // how all estimated values move it together, what runs begin with left out
   fit.jacobian = [rows, of_model = std::move(fit.jacobian), torque, held, all = m.size()] {
@@ -165,4 +165,4 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   fit.effective_parameters += 1 + begun;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "identification/identifier.h"
 #include "identification/lagged/lagged_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 enum class TorqueLagFit { none, estimated };
 inline std::span<const Word<TorqueLagFit>> WordsOf(TorqueLagFit) {
@@ -70,4 +70,4 @@ inline constexpr const char* kNoLagSeen = "; the torque shows no lag, so that no
 /// What its summary says where it has one.
 inline constexpr const char* kBehindLag = " behind a lag of the torque";
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

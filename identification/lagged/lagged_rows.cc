@@ -5,7 +5,7 @@
 
 #include "models/foundation/low_pass.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -128,4 +128,4 @@ std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const 
   return std::make_shared<const Whitening>(noise, places);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/uncertainty/row_transform.h"
 #include "identification/uncertainty/whitening.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What a log holds of a torque f behind a lag T (low_pass.h) in each run of samples:
 ///
@@ -61,4 +61,4 @@ class LaggedRows final : public RowTransform {
 /// Whitening by a colour of noise that every run has by itself.
 std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const KeptRuns& runs);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include "identification/lagged/lagged_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::optional<LinearLag> FitLinearLag(const std::shared_ptr<const KeptRuns>& runs,
                                       const Eigen::MatrixXd& A, const Eigen::VectorXd& measured,
@@ -27,4 +27,4 @@ std::optional<LinearLag> FitLinearLag(const std::shared_ptr<const KeptRuns>& run
   return LinearLag{std::move(rows), std::move(fit)};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/lagged/lagged_rows.h"
 #include "identification/linear/least_squares.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct LinearLag {
   std::shared_ptr<const LaggedRows> rows;
@@ -20,4 +20,4 @@ std::optional<LinearLag> FitLinearLag(const std::shared_ptr<const KeptRuns>& run
                                       const Eigen::MatrixXd& A, const Eigen::VectorXd& measured,
                                       const Eigen::VectorXd& without);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/lagged/lag_search.h"
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kFewestRuns = 4;
@@ -55,4 +55,4 @@ bool ShowsLag(const std::shared_ptr<const KeptRuns>& runs, const Eigen::VectorXd
   });
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/lagged/lagged_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What runs begin with, against what a lag would leave them.
 struct SeenLag {
@@ -31,4 +31,4 @@ SeenLag LookForLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
 bool ShowsLag(const std::shared_ptr<const KeptRuns>& runs, const Eigen::VectorXd& torque,
               const Eigen::VectorXd& residual);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

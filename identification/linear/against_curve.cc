@@ -8,7 +8,7 @@
 #include "models/friction/asymmetric.h"
 #include "models/friction/asymmetric_stribeck.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 bool TellsDirections(std::string_view law) {
   return std::ranges::any_of(FindLaw(law)->parameters, [](const ParameterInfo& info) {
@@ -29,4 +29,4 @@ std::string LinearCommand(std::string_view identifier, std::string_view law) {
   return command;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether a law has a Coulomb level for each direction of motion.
 bool TellsDirections(std::string_view law);
@@ -16,4 +16,4 @@ std::string CurveCommand(std::string_view law, std::string_view warming);
 /// An identifier of linear laws, with the option for a level for each direction where `law` has two.
 std::string LinearCommand(std::string_view identifier, std::string_view law);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <Eigen/SVD>
 #include <limits>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Columns with a share of at least a tenth in any direction that the data leave open.
@@ -64,4 +64,4 @@ Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
   return scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(p, p)) * scale.asDiagonal();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Directions of a regressor closer to each other than this count as the same: ratio of the
 /// smallest to the largest singular value once every column has norm 1. For [v, sign v] it is
@@ -28,4 +28,4 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
 /// throughout where they are singular to rounding.
 Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

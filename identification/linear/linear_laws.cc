@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 bool IsLinear(const Law& law) {
   // a parameter that steady sliding does not show is nothing to fit
@@ -69,4 +69,4 @@ Eigen::MatrixXd LossColumns(const Law& law, const Measurements& m) {
   return m.loss_velocity ? LawColumns(law, *m.loss_velocity) : Eigen::MatrixXd();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

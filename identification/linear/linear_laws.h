@@ -10,7 +10,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/viscous_coulomb.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether Fn(v; p) is linear in p and depends on all of p, judged by superposition at several
 /// speeds and values.
@@ -44,4 +44,4 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity);
 /// tells none.
 Eigen::MatrixXd LossColumns(const Law& law, const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "identification/gravity.h"
 #include "identification/linear/linear_laws.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kCell = 2 * std::numbers::pi / kGravityKnots;  // rad
@@ -223,4 +223,4 @@ LinearTask BeginLinear(const IdentifierInput& given, int more) {
   return task;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "identification/identifier.h"
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Gravity as options ask for it.
 enum class FittedGravity { none, sincos, paired };
@@ -101,4 +101,4 @@ struct LinearTask {
 /// and gravity.
 LinearTask BeginLinear(const IdentifierInput& given, int more);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kNormal = 1.4826;  // why: standard deviation over median size of normal noise
@@ -67,4 +67,4 @@ RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   return robust;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

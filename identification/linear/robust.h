@@ -7,7 +7,7 @@
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Where Huber's loss turns from squares to lines, in standard deviations: 95 % as efficient as
 /// squares on normal noise (Huber and Ronchetti, Robust Statistics, 2009, 4.5).
@@ -39,4 +39,4 @@ struct RobustLeastSquares {
 /// A: [n x d]; y: [n].
 RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 // rounds; why four: three differences, one for each way in which a warming is mistaken for a map (how far, how soon, from
@@ -31,4 +31,4 @@ Eigen::VectorXd AndersonMixing::Next(const Eigen::VectorXd& x, const Eigen::Vect
   return next.allFinite() ? next : g;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <deque>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fixed point x = g(x), by Anderson's method (J. ACM 12, 1965): the step is the combination of the
 /// latest four rounds whose residual g(x) - x is the smallest in squares.
@@ -21,4 +21,4 @@ class AndersonMixing {
   std::deque<Round> rounds_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/seen_samples.h"
 #include "identification/warming/expected_start.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Kernels over the joint's position beside the motor's map where none are asked for.
@@ -96,4 +96,4 @@ std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& given,
   return ChosenMap{chosen->problem.maps.front(), chosen->strength};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/identifier.h"
 #include "identification/maps/map_options.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What has a map beside law and warming.
 enum class WarmMap { none, map, motor };
@@ -51,4 +51,4 @@ struct ChosenMap {
 std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& input,
                                          const Eigen::VectorXd& energy);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

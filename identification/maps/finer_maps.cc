@@ -7,7 +7,7 @@
 
 #include "identification/uncertainty/draw_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kNarrowest = 0.7;  // of the kernels, spacings; why: no narrower shape is tried
@@ -67,4 +67,4 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
   return FinerFit{std::move(*twice), std::move(*one), std::move(*other)};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

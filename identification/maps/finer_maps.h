@@ -6,7 +6,7 @@
 
 #include "identification/maps/map_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Maps with twice the kernels, at most kMostMapCentres, along their first axis, where that is a position, over the same range and
 /// as wide in spacings of their centres; all others stay. Weights are not set.
@@ -23,4 +23,4 @@ struct FinerFit {
 /// problem: of the fit, its maps and rows are not read; noise: of its residual. Nothing where it cannot be solved.
 std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const NoiseModel& noise);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -89,4 +89,4 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
   return all;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "identification/maps/map_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What law and maps brake with forwards and backwards at a low, the median and a high speed that the joint
 /// held, with 95 % intervals. A constant that only the prior shares out between law and maps is no property of the
@@ -21,4 +21,4 @@ namespace warmjoint::inline identification {
 std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
                                               const Uncertainty& known, const MapPoints& kept);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "identification/maps/nearest_kernel.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -231,4 +231,4 @@ std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
   return names;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

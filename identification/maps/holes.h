@@ -9,7 +9,7 @@
 
 #include "identification/ridge/local_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Kernels to which fewer than 2 samples are nearest, or fewer than a fiftieth of the median of their
 /// map's: there the prior would set the map to 0, to the law's bare level, whatever its neighbours are.
@@ -44,4 +44,4 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
 std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
                                    const std::vector<bool>& unseen, JointKind joint);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -21,7 +21,7 @@
 #include "identification/physical_bounds.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kBeyondDoubt =
@@ -329,4 +329,4 @@ Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
   return AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

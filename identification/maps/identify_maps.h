@@ -12,7 +12,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/map_options.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct MapTask {
   std::string identifier;
@@ -88,4 +88,4 @@ Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice
 /// All of the above.
 Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

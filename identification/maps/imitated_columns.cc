@@ -4,7 +4,7 @@
 
 #include "identification/ridge/envelope_cholesky.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kImitated = 1e-3;  // share of a column's squares
@@ -35,4 +35,4 @@ std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index 
   return imitated;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

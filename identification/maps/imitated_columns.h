@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Columns of the law, or others without a prior, that the kernels can imitate, to a thousandth of their squares: the
 /// prior alone tells these apart from a map. gram: [d x d] A^T A of `free` such columns and the kernels; ascending.
@@ -14,4 +14,4 @@ std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::In
 std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index free,
                                       const std::vector<double>& lower);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

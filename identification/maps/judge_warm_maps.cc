@@ -8,7 +8,7 @@
 #include "identification/maps/holes.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Derivatives by x: law, rigid part, weights, k, log tau, E(0) where it was estimated, jumps.
@@ -111,4 +111,4 @@ JointUncertainty JudgeWarmMaps(const IdentifierInput& input, const WarmMaps& war
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include "identification/maps/warm_maps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct JointUncertainty {
   /// Of law, rigid part, weights, k, log tau, E(0) where it was estimated, jumps, in this order.
@@ -15,4 +15,4 @@ struct JointUncertainty {
 JointUncertainty JudgeWarmMaps(const IdentifierInput& input, const WarmMaps& warm,
                                const Eigen::VectorXd& residual);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Kernels along the first axis: weight k lies at index k / stride of the line k % stride.
 struct KernelLines {
@@ -18,4 +18,4 @@ struct KernelLines {
         circular(map.axes[0].kernels.period.has_value()) {}
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -15,7 +15,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -39,7 +39,7 @@ bool IsByDirection(const FrictionMap& map) {
 
 /// The map's centres, the last axis the fastest, as places at `speed` where it has no velocity, and at
 /// the speed of the samples there where it has but a direction.
-MapPoints Places(const FrictionMap& map, double speed, const MapPoints& kept, MapBand& band) {
+MapPoints PlacesOfBand(const FrictionMap& map, double speed, const MapPoints& kept, MapBand& band) {
   const auto count = static_cast<Index>(map.size());
   MapPoints places = MapPoints::Zero(count, 5);
   places.col(kVelocity).setConstant(speed);
@@ -176,7 +176,7 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
   for (size_t which = 0; which < fit.maps.size(); ++which) {
     const FrictionMap& map = fit.maps[which];
     MapBand& band = bands.emplace_back();
-    const MapPoints places = Places(map, speed, kept, band);
+    const MapPoints places = PlacesOfBand(map, speed, kept, band);
     const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, means);
     // friction at each place, and its variance by the errors of law and weights
     const Eigen::VectorXd value = rows * fit.x;
@@ -208,4 +208,4 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
   return bands;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

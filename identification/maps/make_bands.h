@@ -6,7 +6,7 @@
 
 #include "identification/maps/finer_maps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// One band for each map: law and all maps together at the map's centres, with 95 % for each place
 /// by itself. Law and maps share constants that a prior alone splits, so that neither is known as
@@ -25,4 +25,4 @@ namespace warmjoint::inline identification {
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
                                const MapPoints& kept, const FinerFit* finer = nullptr);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

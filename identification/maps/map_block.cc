@@ -2,7 +2,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 MapBlock::MapBlock(const IdentifierInput& input, MapTask task)
     : input_(input), task_(std::move(task)), everywhere_(PointsOf(input.measurements)) {
@@ -47,4 +47,4 @@ MapTask MapBlock::Settled() const {
   return settled;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

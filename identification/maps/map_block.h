@@ -6,7 +6,7 @@
 
 #include "identification/maps/identify_maps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The block of law and maps where they and a warming are fitted in turn: what does not depend on E is made
 /// once.
@@ -43,4 +43,4 @@ class MapBlock {
   std::optional<MapWeights> fit_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

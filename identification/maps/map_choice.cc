@@ -8,7 +8,7 @@
 #include "identification/maps/imitated_columns.h"
 #include "identification/maps/strength_search.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 // why several: a joint warms up but once; with 12, one load map moves by a third of its half width
@@ -193,4 +193,4 @@ ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<Friction
   return best;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "identification/maps/map_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// By what maps and the strength s of the prior are chosen.
 enum class StrengthRule { cross_validation, leave_one_out, evidence };
@@ -48,4 +48,4 @@ struct ChosenMaps {
 ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
                       StrengthRule rule, int folds);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

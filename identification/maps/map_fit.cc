@@ -7,7 +7,7 @@
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "models/friction/prepared_map.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 NormalEquations NormalOf(const MapProblem& problem) {
   if (problem.rows) return problem.rows->Normal(problem.free, problem.torque);
   return LocalNormal(problem.maps, problem.points, problem.free, problem.torque, 0,
@@ -119,4 +119,4 @@ Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoin
   return sum;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

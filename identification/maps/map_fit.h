@@ -9,7 +9,7 @@
 #include "identification/ridge/kernel_rows.h"
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A law that is linear in its parameters, and kernels with a Gaussian prior N(0, s_w^2) on their
 /// weights alone, on the n samples that a selection keeps:
@@ -89,4 +89,4 @@ Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit);
 /// Sum of maps at some points, [n] N.m or N.
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

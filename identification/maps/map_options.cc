@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 Eigen::VectorXd Column(MapQuantity quantity, const MapPoints& points) {
@@ -77,4 +77,4 @@ std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& po
   return std::nullopt;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "identification/maps/map_choice.h"
 #include "identification/options.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether bands along maps are made.
 enum class MapBands { wide, none };
@@ -136,4 +136,4 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options, const
 /// it can.
 std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& points);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

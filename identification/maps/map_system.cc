@@ -8,7 +8,7 @@
 #include "identification/maps/imitated_columns.h"
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Those under which the maps are what deviates from the columns `shared`.
@@ -126,4 +126,4 @@ std::optional<Eigen::VectorXd> MapSystem::Solve(const NormalEquations& normal) {
   return x.allFinite() ? std::optional(x) : std::nullopt;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 
 #include "identification/ridge/ridge.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Linear conditions on the unknowns: rows x = values.
 struct Conditions {
@@ -79,4 +79,4 @@ class MapSystem {
   std::shared_ptr<const Conditioned> latest_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

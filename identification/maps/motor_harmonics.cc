@@ -7,7 +7,7 @@
 
 #include "identification/ridge/local_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kAngles = 256;
@@ -69,4 +69,4 @@ std::vector<MotorHarmonic> DominantHarmonics(std::vector<MotorHarmonic> harmonic
   return harmonics;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// amplitude cos(multiple motor angle - phase), the mean of the map over its other axes.
 struct MotorHarmonic {
@@ -24,4 +24,4 @@ std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::M
 /// first. A chi-square of 2 freedoms exceeds 23 by chance once in 100 000 times.
 std::vector<MotorHarmonic> DominantHarmonics(std::vector<MotorHarmonic> harmonics);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/maps/motor_harmonics.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
@@ -63,4 +63,4 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include "identification/fit.h"
 #include "identification/maps/map_options.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// How many kernels each map has.
 struct MotorMapSize {
@@ -39,4 +39,4 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
                          const Measurements& measurements, Fit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

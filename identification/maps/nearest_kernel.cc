@@ -6,7 +6,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const
   return medians;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "identification/ridge/local_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The kernel whose centre is nearest to a sample along every axis; axes whose sides are apart keep to
 /// the sample's side. points: [n x 5]
@@ -16,4 +16,4 @@ Eigen::Index NearestKernel(const FrictionMap& map, const MapPoints& points, Eige
 /// there are none, that of the next kernel along the first axis, if any. kept: [n x 5]; returns [q] rad/s or m/s.
 std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const MapPoints& kept);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/physical_bounds.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 20;
@@ -95,4 +95,4 @@ Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* wa
   return warm ? Complete(*warm, rounds, m, std::move(fit)) : fit;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/maps/identify_maps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Shapes of maps for points whose energy is known. points: [n x 5] kept.
 using MapMaker = std::function<std::vector<std::vector<FrictionMap>>(const MapPoints& points)>;
@@ -20,4 +20,4 @@ using MapMaker = std::function<std::vector<std::vector<FrictionMap>>(const MapPo
 Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
                        const MapMaker& maker);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

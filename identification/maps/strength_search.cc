@@ -7,7 +7,7 @@
 
 #include "identification/ridge/local_ridge.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kStrengths = 20;  // why: up to 300 times the mean diagonal, where nothing is left
@@ -122,4 +122,4 @@ std::vector<StrengthTrial> SearchStrengths(const std::vector<NormalEquations>& p
   return curve.Solved();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

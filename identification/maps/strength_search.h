@@ -6,7 +6,7 @@
 
 #include "identification/ridge/ridge.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Strengths s of a prior: 20, half a decade apart, from 1e-7 of the mean diagonal of the kernels' Gram matrix
 /// on. free: leading columns without a prior.
@@ -30,4 +30,4 @@ std::vector<StrengthTrial> SearchStrengths(const std::vector<NormalEquations>& p
                                            const NormalEquations& all, Eigen::Index free,
                                            const std::vector<double>& lower);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -19,7 +19,7 @@
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 50;
@@ -183,4 +183,4 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   return fit;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

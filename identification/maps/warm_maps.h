@@ -5,7 +5,7 @@
 #include "identification/warming/gaps.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fit of F = Fn(v) + maps + sign(v) E over the closed loop.
 struct WarmMaps {
@@ -33,4 +33,4 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
 /// maps together; not_identifiable where no warming can be seen or its time constant is vague.
 Fit AsFit(const IdentifierInput& input, const WarmMaps& warm);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

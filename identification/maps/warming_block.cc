@@ -10,7 +10,7 @@
 #include "identification/warming/scan_time_constant.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// The loop of law columns and, with maps that are not 0, the maps' values as one column more.
@@ -42,7 +42,7 @@ bool WarmingBlock::FitBeside(const MapBlock& maps) {
   // gravity and inertia make no heat: out of the scan, beside the loop in the fit
   const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task_.rigid.columns;
   const Eigen::VectorXd weights = maps.fit().x.segment(task_.law_count(), task_.rigid.count());
-  WarmStart from = ScanTimeConstant(loop, level - offsets * weights, kept_);
+  InitialGuess from = ScanTimeConstant(loop, level - offsets * weights, kept_);
   if (fit_) from.thermal = fit_->thermal();
   const Eigen::Index d = from.parameters.size();
   from.parameters.conservativeResize(d + weights.size());
@@ -70,4 +70,4 @@ bool WarmingBlock::FitBeside(const MapBlock& maps) {
   return fit_->converged && energy_.allFinite();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

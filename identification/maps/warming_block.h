@@ -8,7 +8,7 @@
 #include "identification/warming/gaps.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The other block of those fitted in turn (map_block.h): the warming, the law and one factor on the maps
 /// over the closed loop.
@@ -36,4 +36,4 @@ class WarmingBlock {
   Eigen::VectorXd energy_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "identification/maps/kernel_lines.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -53,4 +53,4 @@ Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
   return all(seen, seen);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Correlation of the weights of maps, one map's after the other's, those `unseen` left out, as if independent ones
 /// had been smeared along each line of the first axis by a Gaussian of `length` / sqrt(2) spacings: far from the ends
@@ -14,4 +14,4 @@ namespace warmjoint::inline identification {
 Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
                                    const std::vector<bool>& unseen, double length);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

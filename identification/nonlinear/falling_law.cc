@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// {kv, kc, ks}: both directions alike.
@@ -46,4 +46,4 @@ const FallingLaw& FindFallingLaw(std::string_view name) {
   return *found;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

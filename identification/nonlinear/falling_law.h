@@ -11,7 +11,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/law_list.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What the fit of a law with the Stribeck effect knows of it beside its table. x begins with the l
 /// parameters before stribeck_velocity, of which the force of steady sliding is linear; then comes
@@ -76,4 +76,4 @@ std::span<const Word<FallingLawOf<LawList<All...>>>> WordsOf(FallingLawOf<LawLis
   return words;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/nonlinear/lugre_data.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kOutlier = 4;  // standard deviations
@@ -116,4 +116,4 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
   return answer;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/nonlinear/lugre_fit.h"
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fit with what is known of it.
 struct LugreAnswer {
@@ -35,4 +35,4 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
 /// deviation, what the sampling shifts them by.
 LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem, LugreFit fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

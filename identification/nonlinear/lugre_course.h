@@ -8,7 +8,7 @@
 #include "identification/nonlinear/lugre_fit.h"
 #include "models/friction/bristle_course.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// F + M a over all samples, and the loads s with which the R recordings begin.
 template <typename T>
@@ -97,4 +97,4 @@ LugreCourse<T> FollowLugre(const LugreProblem& problem, const T* x) {
   return course;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "identification/preparation/velocity_scale.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -29,7 +29,7 @@ Mask Rests(const Measurements& m) {
 }
 
 /// First sample of each recording, and N.
-std::vector<Index> Bounds(const Measurements& m) {
+std::vector<Index> SegmentBounds(const Measurements& m) {
   std::vector<Index> bounds{0};
   bounds.insert(bounds.end(), m.starts.begin(), m.starts.end());
   bounds.push_back(m.size());
@@ -45,7 +45,7 @@ struct Grid {
 /// Every so manieth sample of each recording.
 Grid EverySample(const Measurements& m, Index every) {
   Grid grid;
-  const std::vector<Index> bounds = Bounds(m);
+  const std::vector<Index> bounds = SegmentBounds(m);
   for (size_t r = 0; r + 1 < bounds.size(); ++r) {
     if (r > 0) grid.starts.push_back(static_cast<Index>(grid.samples.size()));
     for (Index i = bounds[r]; i < bounds[r + 1]; i += every) grid.samples.push_back(i);
@@ -101,7 +101,7 @@ LugreProblem MakeLugreProblem(const IdentifierInput& input, const FallingLaw& la
 
   // each recording from its first kept sample to the last one
   Mask used = Mask::Constant(m.size(), false);
-  const std::vector<Index> bounds = Bounds(m);
+  const std::vector<Index> bounds = SegmentBounds(m);
   for (size_t r = 0; r + 1 < bounds.size(); ++r) {
     Index first = bounds[r], last = bounds[r + 1] - 1;
     while (first <= last && !keep[first]) ++first;
@@ -143,4 +143,4 @@ Selection SteadySamples(const IdentifierInput& input, double distance) {
   return steady;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include "identification/identifier.h"
 #include "identification/nonlinear/lugre_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The problem of a law on a recording, its deviations at `scale` throughout.
 ///   used      from the first kept sample of each recording to its last one: those kept, and those
@@ -31,4 +31,4 @@ Selection SteadySamples(const IdentifierInput& input, double distance);
 
 inline constexpr Eigen::Index kSteadySamples = 4000;
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kDistances = 16;  // of the grids
@@ -239,4 +239,4 @@ Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point
   });
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 
 #include "identification/nonlinear/falling_law.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// tau = F + M a over the samples of `used`. The bristle runs over all samples; how it is bent as
 /// each recording begins is estimated beside x (lugre_course.h).
@@ -94,4 +94,4 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start);
 Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point,
                             const std::vector<double>& loads);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

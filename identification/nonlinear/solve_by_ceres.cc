@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 void QuietCeres() {
   // glog reads its level unguarded: set once, before the first fit of any thread
@@ -12,4 +12,4 @@ void QuietCeres() {
       (FLAGS_minloglevel = std::max(FLAGS_minloglevel, google::GLOG_FATAL));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Keeps what Ceres logs below fatal errors off stderr, from the first call on. A fit says in its
 /// status what became of it; Ceres would say it once more, and unasked.
@@ -87,4 +87,4 @@ CeresSolution<P> SolveByCeres(std::unique_ptr<ceres::CostFunction> cost,
   return solution;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "identification/warming/scan_time_constant.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kVelocities = 16;  // of the grid
@@ -135,7 +135,7 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
     // with warming: the time constant that explains most beside these columns
     const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
     const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
-    const WarmStart start = ScanTimeConstant(loop, level, weight);
+    const InitialGuess start = ScanTimeConstant(loop, level, weight);
     point.x.resize(columns.cols() + 3);
     point.x << start.parameters, 0, start.thermal.gain, std::log(start.thermal.time_constant);
     const Eigen::VectorXd force = loop.Simulate(start.parameters, start.thermal).force;
@@ -174,4 +174,4 @@ StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& 
   });
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/nonlinear/falling_law.h"
 #include "models/friction/intervals.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether E of Eqs. (19)-(22) is part of the fit.
 enum class FittedWarming { none, estimated };
@@ -69,4 +69,4 @@ struct StribeckFit {
 /// Minimises the sum of squares from a start by Levenberg-Marquardt.
 StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kImpreciseLogVs = 0.5;  // standard deviation: 95 % within a factor of e
@@ -70,4 +70,4 @@ std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
       SlowSpeeds(measurements, selection));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

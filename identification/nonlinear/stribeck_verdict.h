@@ -8,7 +8,7 @@
 #include "identification/identifier.h"
 #include "identification/nonlinear/falling_law.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What a fit says of its Stribeck effect.
 struct StribeckEvidence {
@@ -41,4 +41,4 @@ std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
                                                   const Measurements& measurements,
                                                   const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/online/kalman_step.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Filters side by side. Given tau, the law, the gain and the energy enter the measurement almost
 /// linearly, because the level g . p + E that feeds the losses is itself measured; ln tau does not.
@@ -102,4 +102,4 @@ KalmanState<D> Merge(const KalmanBank<D>& bank) {
   return all;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "identification/online/kalman_bank.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr Eigen::Index kMoments = 50;  // of the trace
@@ -157,4 +157,4 @@ std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most, std::vecto
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/fit.h"
 #include "identification/forward/closed_loop.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The recording as the filters read it, and what it tells beforehand.
 struct KalmanTrack {
@@ -39,4 +39,4 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track);
 /// moments of the last pass.
 std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most, std::vector<Iterate>& trace);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What is known of (p, k, ln tau, E): the d = D parameters of a linear law, the thermal gain and
 /// time constant, and the energy now. D may be Eigen::Dynamic; only then a step allocates.
@@ -88,4 +88,4 @@ KalmanOutcome<D> KalmanStep(const KalmanState<D>& state, const KalmanSample<D>& 
   return outcome;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

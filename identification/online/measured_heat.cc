@@ -1,6 +1,6 @@
 #include "identification/online/measured_heat.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 MeasuredHeat::MeasuredHeat(const Measurements& measurements, const Thermal& thermal)
     : thermal_(thermal),
@@ -28,4 +28,4 @@ Eigen::MatrixXd MeasuredHeat::Transposed(const Eigen::MatrixXd& columns) const {
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/forward/thermal_filter.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What a known warming takes off the torque, sign(v) E with E = H |F v|, Eqs. (19)-(22), where F is
 /// the torque itself. Friction brakes, so that |F v| = F v, and the map
@@ -39,4 +39,4 @@ class MeasuredHeat {
   Eigen::VectorXd direction_;  // [N] its sign
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

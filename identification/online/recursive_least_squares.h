@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What is known after some samples; d = D parameters, or any number for Eigen::Dynamic.
 template <int D>
@@ -35,4 +35,4 @@ void TakeIn(const Eigen::Matrix<double, D, 1>& a, double y, double forgetting,
   state.cofactor = (state.cofactor - scale * outer) * (1 / forgetting);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

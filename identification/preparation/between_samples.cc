@@ -4,7 +4,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -84,4 +84,4 @@ BetweenSamples MeansBetween(const Measurements& m, const std::vector<SampleRange
   return between;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

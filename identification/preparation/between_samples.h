@@ -6,7 +6,7 @@
 
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Means from each sample to the next of its piece; of the last one |v| and v. rad/s or m/s
 struct BetweenSamples {
@@ -24,4 +24,4 @@ struct BetweenSamples {
 BetweenSamples MeansBetween(const Measurements& measurements,
                             const std::vector<SampleRange>& pieces, double clear);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

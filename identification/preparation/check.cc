@@ -9,7 +9,7 @@
 #include "identification/preparation/velocity_scale.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -115,4 +115,4 @@ std::string WhyNotConverged(const Measurements& measurements, FrictionKind kind)
   return "does the torque column hold friction?";
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

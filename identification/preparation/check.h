@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What the motion can tell about each kind of friction. Part of CheckRecording.
 std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
@@ -24,4 +24,4 @@ std::string WhyNotConverged(const Measurements& measurements, FrictionKind kind)
 /// reason}]}, SI.
 nlohmann::json CheckToJson(const RecordingCheck& check);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/preparation/check.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using nlohmann::json;
@@ -146,4 +146,4 @@ json CheckToJson(const RecordingCheck& check) {
           {"excitation", excitation}};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

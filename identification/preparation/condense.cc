@@ -9,7 +9,7 @@
 #include "models/recording/measurements.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -103,4 +103,4 @@ CondensedLog Condense(const LogView& all, Index rows) {
   return {std::move(view), std::move(first)};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

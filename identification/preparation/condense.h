@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct CondensedLog {
   LogView view;
@@ -20,4 +20,4 @@ struct CondensedLog {
 /// those between samples, not between rows. The log itself where one sample makes a row.
 CondensedLog Condense(const LogView& all, Eigen::Index rows);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification::constant_speed {
+namespace warmjoint::constant_speed {
 
 // how far a sample may lie from a speed; the largest of noise, share and resolution counts (why: README.md)
 inline constexpr double kFar = 4;      // deviations of the noise: 1 in 16 000 lies further
@@ -37,4 +37,4 @@ inline constexpr Eigen::Index kOfTheRamp =
     10;  // one in as many of a ramp's samples is cut at each end
 inline constexpr Eigen::Index kMostCut = 4;  // but no more than one in as many of the hold
 
-}  // namespace warmjoint::inline identification::constant_speed
+}  // namespace warmjoint::constant_speed

@@ -10,7 +10,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 double SamplingRate(const Eigen::VectorXd& time) {
@@ -106,4 +106,4 @@ double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position
   return std::clamp(cutoff, std::min(lowest * rate, highest), highest);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

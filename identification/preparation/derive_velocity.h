@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Velocity of a sampled position: a zero-phase Butterworth low-pass (4th order, run forwards and
 /// backwards) and central differences. Pieces between gaps (more than three median steps) are
@@ -22,4 +22,4 @@ Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorX
 /// resolution (smallest step / sqrt(12)) where that is more.
 double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/preparation/check.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Speeds in one direction: how many levels, the slowest and the fastest.
@@ -194,4 +194,4 @@ std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
   return all;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

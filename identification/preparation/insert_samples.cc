@@ -4,7 +4,7 @@
 
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -60,4 +60,4 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, Measurements& lo
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A sample to be put in.
 struct InsertedSample {
@@ -21,4 +21,4 @@ struct InsertedSample {
 void InsertSamples(const std::vector<InsertedSample>& inserted, Measurements& log,
                    Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

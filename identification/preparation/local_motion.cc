@@ -8,7 +8,7 @@
 
 #include "identification/preparation/position_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -222,4 +222,4 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
   return motion;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;
@@ -60,4 +60,4 @@ double NoiseOfVelocity(const Eigen::VectorXd& velocity);
 LocalMotion FollowLocally(const Measurements& measurements, const std::vector<SampleRange>& pieces,
                           MotionSource source);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

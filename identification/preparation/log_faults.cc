@@ -1,6 +1,6 @@
 #include "identification/preparation/log_faults.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection,
                                     MotionSource source) {
@@ -20,4 +20,4 @@ std::vector<std::string> FindFaults(const Measurements& measurements, const Sele
   return faults;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

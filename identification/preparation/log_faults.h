@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The faults of a log, each one sentence: what, how many, where, the bound, the remedy. Looks at
 /// the kept samples, without those of absurd torque, which are named last; a velocity made of the
@@ -65,4 +65,4 @@ SampleFlags AbsurdTorque(const Measurements& measurements, const Selection& sele
 /// How many, when, and the worst.
 std::string DescribeAbsurd(const Measurements& measurements, const SampleFlags& absurd);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

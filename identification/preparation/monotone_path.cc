@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -90,4 +90,4 @@ VectorXd MonotonePath(const VectorXd& time, const VectorXd& position, double hys
   return path;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

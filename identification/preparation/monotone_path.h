@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Positions of a joint that turns round only where these lead back by more than `hysteresis`. Each
 /// stretch from one turning point to the next is replaced by the monotone sequence nearest to it in
@@ -15,4 +15,4 @@ namespace warmjoint::inline identification {
 Eigen::VectorXd MonotonePath(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                              double hysteresis);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/preparation/position_plateaus.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -185,4 +185,4 @@ PositionMotion MotionFromPositions(const Measurements& measurements, const Selec
   return motion;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <warmjoint/recording.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A log whose velocities follow from its positions.
 struct PositionMotion {
@@ -32,4 +32,4 @@ struct PositionMotion {
 PositionMotion MotionFromPositions(const Measurements& measurements, const Selection& selection,
                                    const std::vector<Segment>& rests);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/recording/measurements.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -167,4 +167,4 @@ bool HoldsSpeeds(const PreparedLog& log) {
       [&] { return HoldsSpeeds(log.taken().measurements, log.taken().selection); });
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

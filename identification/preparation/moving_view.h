@@ -3,7 +3,7 @@
 
 #include <warmjoint/prepared_log.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The speed from which on a sample moves clearly: 5 % of the velocity's root mean square, above its
 /// noise five times and above one and a half of its resolution. rad/s or m/s
@@ -26,4 +26,4 @@ const LogView& MovingView(const PreparedLog& log);
 bool HoldsSpeeds(const Measurements& measurements, const Selection& selection);
 bool HoldsSpeeds(const PreparedLog& log);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

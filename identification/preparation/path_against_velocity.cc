@@ -7,7 +7,7 @@
 
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -104,4 +104,4 @@ bool PositionsTellMore(const PathComparison& paths, double deviation) {
   return squares / n > least;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// By how much two tellings of a speed may differ, relative, and count as the same.
 inline constexpr double kSameSpeed = 0.02;
@@ -46,4 +46,4 @@ bool Contradicts(const PathComparison& paths);
 /// two differ by less than 0.01 % of a way, no interval is narrow enough to tell. deviation: s, rad or m
 bool PositionsTellMore(const PathComparison& paths, double deviation);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

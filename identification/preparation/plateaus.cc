@@ -5,7 +5,7 @@
 
 #include "identification/preparation/constant_speed_numbers.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -80,4 +80,4 @@ std::vector<Segment> CutIntoRuns(const Measurements& measurements, const Velocit
   return joined;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/preparation/velocity_scale.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Cuts the velocity into runs that stay within scale.Band of their mean: a run ends at a sample
 /// that leaves the band, at a jump between two steady speeds, or at a gap in time (more than three
@@ -15,4 +15,4 @@ namespace warmjoint::inline identification {
 /// sample, so ramps come as many short runs. One pass.
 std::vector<Segment> CutIntoRuns(const Measurements& measurements, const VelocityScale& scale);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -83,4 +83,4 @@ RelativePosition FromFirst(const VectorXd& position) {
   return {(moved / step).array().round(), step};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Noise and resolution of the positions of one recording.
 struct PositionNoise {
@@ -35,4 +35,4 @@ struct RelativePosition {
 /// rad or m, within one recording.
 RelativePosition FromFirst(const Eigen::VectorXd& position);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/preparation/share_acceleration.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -274,4 +274,4 @@ PositionPlateaus FindPlateaus(const Measurements& log, const Selection& selectio
   return PlateauSearch(log, selection, rests, range).Solve();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

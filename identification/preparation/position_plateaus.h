@@ -11,7 +11,7 @@
 #include "identification/preparation/speed_change.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A segment at one speed, or a rest.
 struct Plateau {
@@ -39,4 +39,4 @@ struct PositionPlateaus {
 PositionPlateaus FindPlateaus(const Measurements& log, const Selection& selection,
                               const std::vector<Segment>& rests, SampleRange range);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -15,7 +15,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kLargest = 1e30;  // of a velocity; beyond it squares and products overflow
@@ -248,4 +248,4 @@ PreparedLog Prepare(Measurements measurements, Selection known) {
   return PreparedLog(PreparedLog::Maker::OfColumn(std::move(measurements), std::move(known)));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "identification/preparation/log_faults.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 LogView Head(const LogView& all, double time) {
@@ -58,4 +58,4 @@ const PreparedLog& PreparedLog::WithoutAbsurd() const {
   return made ? *made : *this;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

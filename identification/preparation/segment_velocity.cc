@@ -6,7 +6,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -199,4 +199,4 @@ std::optional<double> CoarseStep(const Measurements& measurements, const Selecti
   return shows && matters && difference <= rounding ? std::optional(step) : std::nullopt;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A log whose kept samples have the velocity of their segment.
 struct SegmentVelocity {
@@ -34,4 +34,4 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
 /// such an error, since a constant speed is rounded in one way throughout. rad/s or m/s; nothing for other velocities.
 std::optional<double> CoarseStep(const Measurements& measurements, const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

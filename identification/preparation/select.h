@@ -4,7 +4,7 @@
 #include <warmjoint/field.h>
 #include <warmjoint/recording.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Leaves out what the options ask for.
 void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Selection& selection);
@@ -30,4 +30,4 @@ Selection SelectConstantSpeed(const Measurements& measurements);
 /// Keeps every sample with v != 0, for data that is known to satisfy Eq. (6) throughout.
 Selection SelectMoving(const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -298,4 +298,4 @@ Selection SelectConstantSpeed(const Measurements& measurements) {
   return FindConstantSpeed(measurements).selection;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -1,9 +1,9 @@
 #include "identification/preparation/select.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 Selection SelectMoving(const Measurements& measurements) {
   return {measurements.velocity.array() != 0, {}};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

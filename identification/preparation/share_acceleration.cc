@@ -4,7 +4,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr size_t kFewestRamps = 5;        // that tell the acceleration of others
@@ -44,4 +44,4 @@ void ShareAcceleration(const Eigen::VectorXd& time,
   }
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

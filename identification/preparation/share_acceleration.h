@@ -7,7 +7,7 @@
 
 #include "identification/preparation/speed_change.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Gives the changes of speed whose ramp no sample shows the acceleration of those that samples do
 /// show, where that is one: a drive has one limit. A ramp that would reach past a sample would have
@@ -15,4 +15,4 @@ namespace warmjoint::inline identification {
 void ShareAcceleration(const Eigen::VectorXd& time,
                        std::vector<std::optional<SpeedChange>>& changes);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

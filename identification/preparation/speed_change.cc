@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -154,4 +154,4 @@ std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd&
   return change;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/preparation/position_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A straight line through positions of one constant speed: p(t) = position + velocity (t - time).
 struct PositionLine {
@@ -62,4 +62,4 @@ std::optional<SpeedChange> FindSpeedChange(const Eigen::VectorXd& time,
                                            Eigen::Index first, Eigen::Index last,
                                            const PositionNoise& noise);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

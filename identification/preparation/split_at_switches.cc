@@ -7,7 +7,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -83,4 +83,4 @@ std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
   return split;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A log with samples put in where the speed switched.
 struct SplitLog {
@@ -27,4 +27,4 @@ struct SplitLog {
 std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
                                         const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/preparation/position_noise.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -92,4 +92,4 @@ std::vector<Stretch> FindStretches(const Measurements& m) {
   return longest;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Samples first to last, both included.
 struct Stretch {
@@ -21,4 +21,4 @@ struct Stretch {
 /// the way that the best shows. None spans a gap, a start, or turns that a sensor may hide between samples.
 std::vector<Stretch> FindStretches(const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

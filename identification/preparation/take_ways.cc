@@ -7,7 +7,7 @@
 #include "identification/preparation/insert_samples.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -90,4 +90,4 @@ LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
   return log;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "identification/preparation/path_against_velocity.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A log with samples put in, `by_velocity`, where the path of each of the ways becomes that of another one,
 /// `by_position`: on a way, the samples that are not kept have the velocity of the latter, and the samples put in are
@@ -18,4 +18,4 @@ namespace warmjoint::inline identification {
 LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
                  const Measurements& by_position, const std::vector<Way>& ways);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "identification/preparation/stretches.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -141,4 +141,4 @@ std::optional<std::string> TorqueDirections(const Measurements& m, const Selecti
       std::abs(mean), m.torque_unit, n, std::abs(difference), m.torque_unit);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,13 +11,11 @@
 #include "identification/preparation/torque_noise_statistics.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // ClippedTorque
 constexpr Index kPile = 10;            // samples at the extreme value
@@ -254,4 +252,4 @@ std::string DescribeAbsurd(const Measurements& m, const SampleFlags& absurd) {
       stretches > most ? ", ..." : "", m.torque[worst], m.torque_unit, m.time[worst], kFarOff);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -59,4 +59,4 @@ TorqueNoiseStatistics MeasureTorqueNoise(const Measurements& measurements,
   return noise;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

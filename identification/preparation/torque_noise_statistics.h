@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 inline constexpr Eigen::Index kLongRun =
     20;  // kept samples of one torque; why 20: noise gives none
@@ -29,4 +29,4 @@ struct TorqueNoiseStatistics {
 TorqueNoiseStatistics MeasureTorqueNoise(const Measurements& measurements,
                                          const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/units.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::ArrayXd;
@@ -240,4 +240,4 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
       Integral(measurements, typical) / typical.way, both.times);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "identification/preparation/constant_speed_numbers.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -102,4 +102,4 @@ VelocityScale MeasureVelocity(const Measurements& measurements) {
   return scale;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <warmjoint/recording.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Scales that tell a constant speed from an acceleration, read from the log, so that no threshold
 /// has a unit.
@@ -32,4 +32,4 @@ struct VelocityScale {
 /// count.
 VelocityScale MeasureVelocity(const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -52,4 +52,4 @@ std::optional<std::string> WrappedPosition(const Measurements& measurements, con
       most, m.joint == JointKind::rotary ? "rad" : "m", jumps.size(), most);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

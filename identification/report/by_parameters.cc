@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// An estimated row of the table: its place there, among the estimated ones, and among those of its role.
@@ -88,4 +88,4 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
   return errors;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/fit.h"
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Some figures of a friction and the start of its log. [q]
 using FiguresOf =
@@ -31,4 +31,4 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
                             const Eigen::MatrixXd& slopes);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

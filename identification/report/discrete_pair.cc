@@ -5,7 +5,7 @@
 #include "identification/uncertainty/tails.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Place of a row of the table among the estimated ones.
@@ -73,4 +73,4 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   return {gain, pole};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// thermal_gain_discrete (ke) and thermal_pole (te) for a sampling interval h (s). Their standard
 /// deviations follow those of (k, ln tau) to first order; the interval of te is that of ln tau, so
@@ -16,4 +16,4 @@ namespace warmjoint::inline identification {
 /// intervals where k and tau have none.
 std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& inference, double h);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   return state;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

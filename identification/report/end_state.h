@@ -9,7 +9,7 @@
 #include "identification/fit.h"
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// E at the log's last sample, N.m or N: `energy`, and `second_energy` of a second stage; before
 /// them the stamp of that sample, `time`, s, where the log is one recording. Along the
@@ -20,4 +20,4 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
                                          const Friction& friction,
                                          const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// All rows that have a name; the discrete pair stands behind gain and time constant.
@@ -131,4 +131,4 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   return estimate;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,11 +6,11 @@
 
 #include "identification/inference/inference.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The estimate: parameters by name with their intervals; beside the warming's gain and time
 /// constant the discrete pair of Eq. (22) for the median sampling interval; metrics, trace, friction,
 /// gravity, bands and the covariance of the values. measurements: what the fit saw.
 Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

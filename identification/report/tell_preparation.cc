@@ -8,7 +8,7 @@
 #include "identification/find_parameter.h"
 #include "models/friction/law.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kHarmless = 1e-3;    // attenuation
@@ -81,4 +81,4 @@ void TellPreparation(const PreparedLog& log, Estimate& estimate) {
   TellVelocity(*log.velocity_noise(), log.taken().measurements.joint, estimate);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

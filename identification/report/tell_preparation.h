@@ -4,7 +4,7 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/prepared_log.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Says what was done to the velocity; where more than 0.1 % of a slope's attenuation is left, the
 /// intervals of viscous and of the levels reach as far as that moves them, and a warning says so.
@@ -14,4 +14,4 @@ void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimat
 /// where reversals happen between two samples, unless that is below half a per cent.
 void TellPreparation(const PreparedLog& log, Estimate& estimate);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Graph = std::vector<std::vector<Eigen::Index>>;
@@ -148,4 +148,4 @@ Eigen::MatrixXd EnvelopeCholesky::Solve(const Eigen::MatrixXd& right) const {
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Factors A + shift I = L L^T for any number of shifts. Rows and columns are put into the reverse
 /// order of Cuthill and McKee (1969), which gathers what is not 0 around the diagonal; L keeps to
@@ -33,4 +33,4 @@ class EnvelopeCholesky {
   Eigen::MatrixXd factor_;           // [n x n] L below the diagonal
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -1,6 +1,6 @@
 #include "identification/ridge/kernel_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -55,4 +55,4 @@ Eigen::VectorXd KernelRows::Times(const Eigen::VectorXd& weights) const {
   return values;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

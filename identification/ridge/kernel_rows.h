@@ -6,7 +6,7 @@
 
 #include "identification/ridge/local_rows.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The rows of all samples, in contiguous spans of as many samples each.
 class KernelRows {
@@ -41,4 +41,4 @@ class KernelRows {
   std::vector<std::vector<RowGroup>> groups_;  // of each span
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 LocalRidge::LocalRidge(const NormalEquations& normal, Eigen::Index free)
     : free_(free),
@@ -37,4 +37,4 @@ double HeldOutPart::Squares(double strength) {
   return x ? part_.Squares(*x) : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

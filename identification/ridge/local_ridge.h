@@ -8,7 +8,7 @@
 #include "identification/ridge/envelope_cholesky.h"
 #include "identification/ridge/ridge.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// x(strength) of Ridge, for kernels most pairs of which never meet: the kernels' Gram matrix K is
 /// factored within its envelope, the p free columns F are its border,
@@ -45,4 +45,4 @@ class HeldOutPart {
   LocalRidge ridge_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr Eigen::Index kChunk = 16384;  // samples whose rows are held at once
@@ -103,4 +103,4 @@ double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& f
   return squares / static_cast<double>(normal.rows);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

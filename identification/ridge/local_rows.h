@@ -6,7 +6,7 @@
 #include "identification/ridge/ridge.h"
 #include "identification/ridge/row_groups.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Adds the rows [free columns, kernels] of the groups. free: [N x p]; y: [N]; both over the
 /// points' rows. normal: of size p + kernels.
@@ -32,4 +32,4 @@ Eigen::MatrixXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoi
 double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
                    const Eigen::VectorXd& y, const NormalEquations& normal, double strength);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

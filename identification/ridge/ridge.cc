@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 100000;
@@ -150,4 +150,4 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free) {
   return evidence;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

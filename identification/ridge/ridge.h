@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Normal equations of y = A x + e; sums over rows, so that those of parts add up and those of
 /// millions of samples fit into d^2 numbers.
@@ -72,4 +72,4 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free);
 double LogEvidence(const NormalEquations& normal, const Ridge& ridge, Eigen::Index free,
                    double alpha, double beta);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

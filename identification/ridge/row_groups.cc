@@ -8,7 +8,7 @@
 #include "models/friction/evaluate_map.h"
 #include "models/friction/prepared_map.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// The kernels of one axis that count: neighbours, on a circle across its end.
@@ -295,4 +295,4 @@ Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoin
   return rows;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

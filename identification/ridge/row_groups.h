@@ -8,7 +8,7 @@
 
 #include "identification/forward/map_points.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Samples at which about the same kernels count (PreparedAxis): the rest is below 3e-13 of the largest.
 struct RowGroup {
@@ -31,4 +31,4 @@ std::vector<RowGroup> GroupRows(const std::vector<FrictionMap>& maps, const MapP
 Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoints& points,
                              Eigen::Index first, Eigen::Index last);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

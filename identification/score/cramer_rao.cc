@@ -10,7 +10,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Rows W J with W R W^T = sigma^2 I, R the covariance of the noise at the kept samples: for coloured
@@ -99,4 +99,4 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
           kept.transpose() * kept / (sigma * sigma)};
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Cramer-Rao standard deviations in both parametrisations of the warming.
 struct CramerRao {
@@ -28,4 +28,4 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
                          const Truth& truth, KnownInitialEnergy initial_energy, double step,
                          const Eigen::MatrixXd& nuisance = {});
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -126,4 +126,4 @@ double NormalisedParameterError(const Eigen::VectorXd& estimate, const Eigen::Ve
   return ((estimate - truth).array() / truth.array().abs()).matrix().norm();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

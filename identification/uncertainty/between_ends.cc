@@ -2,7 +2,7 @@
 
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 // why: the normal quantiles of 95 and 97.5 %, rounded outwards
@@ -21,4 +21,4 @@ double ReachBeyondEnds(double range) {
   return high;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -1,7 +1,7 @@
 // Intervals of a value that is known up to a choice between two.
 #pragma once
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// How many deviations an interval reaches beyond both ends of a range, so that it holds the end that is true, or what
 /// lies between, with 95 %: C of
@@ -13,4 +13,4 @@ namespace warmjoint::inline identification {
 /// Identified Parameters, Econometrica 72 (2004), 1845.
 double ReachBeyondEnds(double range);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

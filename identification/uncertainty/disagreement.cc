@@ -7,7 +7,7 @@
 
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kBeyondDoubt = 5;   // deviations of a normal variable
@@ -41,4 +41,4 @@ std::string DescribeDisagreement(const Disagreement& found, const std::string& n
       name, found.deviations);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

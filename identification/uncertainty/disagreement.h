@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Parameters of one fit, with their covariance.
 struct FitOfRows {
@@ -33,4 +33,4 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
 /// Why no number has an interval: a clause.
 std::string DescribeDisagreement(const Disagreement& found, const std::string& name);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

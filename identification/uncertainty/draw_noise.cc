@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -40,4 +40,4 @@ Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index courses, Start
   return all;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

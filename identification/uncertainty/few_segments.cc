@@ -11,7 +11,7 @@
 
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -160,4 +160,4 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
   known.freedom = known.freedoms.minCoeff();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

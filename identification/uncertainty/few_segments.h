@@ -5,7 +5,7 @@
 
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether the kept samples stand in so few segments that how friction differs from one to the next
 /// cannot be seen beside p parameters: fewer than 8 segments beyond them, what the tests for lack of
@@ -32,4 +32,4 @@ double FewestFreedom(const Selection& selection, Eigen::Index p);
 void CountSegments(const Eigen::MatrixXd& X, const Eigen::MatrixXd& cofactor,
                    const Eigen::VectorXd& residual, const Selection& selection, Uncertainty& known);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr Eigen::Index kHighestOrder = 60;
@@ -255,4 +255,4 @@ Eigen::MatrixXd ScatterThrough(
   return noise.innovation * scatter;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Autoregressive noise e: e[i] + a_1 e[i-1] + ... + a_p e[i-p] = w[i], w white. White for p = 0.
 struct NoiseModel {
@@ -51,4 +51,4 @@ Eigen::MatrixXd ScatterThrough(
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
     Eigen::Index d, const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -71,4 +71,4 @@ Uncertainty JudgePenalised(
   return result;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/uncertainty/prior_of_weights.h"
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fit x = argmin |y - f(x)|^2 + s |w|^2 + x^T P x, w those of a run of entries of x that data tell of, P = diag(prior).
 struct PenalisedFit {
@@ -35,4 +35,4 @@ Uncertainty JudgePenalised(
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
     const Eigen::VectorXd& residual, const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

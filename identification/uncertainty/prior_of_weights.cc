@@ -9,7 +9,7 @@
 
 #include "identification/uncertainty/tails.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 // why: from kernels that hardly go together to a wave over the whole of a coarse map, doubled
@@ -92,4 +92,4 @@ Eigen::MatrixXd PriorOfWeights(const PulledWeights& weights, const CorrelationOv
   return chosen.variance * chosen.correlation;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

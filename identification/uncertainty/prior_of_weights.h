@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Weights that a prior pulls towards 0, w_found = L w + noise.
 struct PulledWeights {
@@ -32,4 +32,4 @@ using CorrelationOver = std::function<Eigen::MatrixXd(double length)>;
 /// A map that is smooth from kernel to kernel loses less to the prior than one that is not. Empty or null `correlation`: the identity.
 Eigen::MatrixXd PriorOfWeights(const PulledWeights& weights, const CorrelationOver& correlation);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What a fit does to its rows before it squares them: the same linear map for each column of the
 /// Jacobian and for the residual, over the kept samples in their order.
@@ -25,4 +25,4 @@ class RowTransform {
   }
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

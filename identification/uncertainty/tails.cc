@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 // double throughout: tails are good to some 1e-13 of themselves, and the same with every compiler
@@ -48,4 +48,4 @@ double PValueOfF(double f, double m, double n) {
   return cdf(complement(fisher, f));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 // last digit, shows nothing: its p is 1.
 #pragma once
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Share of the cases in which reported intervals hold the truth.
 inline constexpr double kIntervalLevel = 0.95;
@@ -32,4 +32,4 @@ double StudentQuantile(double freedom, double level);
 /// numerator and denominator.
 double PValueOfF(double f, double m, double n);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

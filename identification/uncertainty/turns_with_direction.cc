@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -30,4 +30,4 @@ std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
   return turns - changes / 2 > kSure * std::sqrt(changes) / 2;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether a residual turns with the direction of motion, as what a model of friction lacks does and
 /// noise of the torque does not: the means of runs of one direction differ in sign from run to run
@@ -13,4 +13,4 @@ namespace warmjoint::inline identification {
 std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
                                        const Eigen::VectorXd& velocity);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kUneven = 4;        // deviations
@@ -137,4 +137,4 @@ std::string NoiseOf(const Uncertainty& known) {
          ColourOf(known.noise);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "identification/uncertainty/noise_model.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct Uncertainty {
   Eigen::MatrixXd covariance;  // [d x d] of the parameters
@@ -66,4 +66,4 @@ std::string ColourOf(const NoiseModel& noise);
 /// The same, after one on noise that is not even: "; noise is uneven (...), which ...".
 std::string NoiseOf(const Uncertainty& known);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "identification/uncertainty/turns_with_direction.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -156,4 +156,4 @@ std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
   return std::make_shared<const Whitening>(noise, places);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/row_transform.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What a summary of a fit says of it.
 inline constexpr const char* kWhitened = ", whitened";
@@ -57,4 +57,4 @@ std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
                                               const Measurements& measurements,
                                               const Selection& selection);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/row_products.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Columns of [J r] for D law parameters and Q of warming; Dynamic where D is.
@@ -150,4 +150,4 @@ void CondensedProblem::AddKnown(Eigen::Index i, double w, double b) const {
   products_(last, last) += w * b * b;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

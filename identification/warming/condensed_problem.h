@@ -6,7 +6,7 @@
 
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What pulls E(0) to its expected value: weight (E(0) - mean)^2 beside the squared residuals.
 struct StartPull {
@@ -79,4 +79,4 @@ class CondensedProblem {
   mutable std::vector<WarmIterate> trace_;
 };
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 #include "identification/find_parameter.h"
 #include "identification/warming/gaps.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) {
   CourseStart start;
@@ -20,4 +20,4 @@ CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) 
   return start;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,11 +5,11 @@
 #include <warmjoint/friction_model.h>
 #include <warmjoint/recording.h>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// E(0) and the jumps of E at the recording's gaps (gaps.h), as far as the estimate has them: its
 /// parameters with Role::start and Role::jump. What is not estimated is 0.
 /// measurements: those that the estimate was fitted to.
 CourseStart StartOf(const Estimate& estimate, const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

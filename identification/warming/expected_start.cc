@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kBeyondDoubt = 4;  // deviations
@@ -64,4 +64,4 @@ std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
   return "";
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

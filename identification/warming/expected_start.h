@@ -10,7 +10,7 @@
 #include "identification/options.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// E(0), as options have it.
 enum class StartOfHeat { zero, estimated, expected };
@@ -58,4 +58,4 @@ std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                        const std::function<double(const WarmFit&)>& deviation, WarmFit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

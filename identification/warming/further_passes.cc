@@ -5,7 +5,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
@@ -33,7 +33,8 @@ Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
 
 Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, const WarmStart& scanned, WarmFit& fit) {
+                         const std::vector<LogGap>& gaps, const InitialGuess& scanned,
+                         WarmFit& fit) {
   const ClosedLoop without = std::exchange(loop, loop.WithJumps(Behind(gaps)));
   const Eigen::VectorXd spread = AddJumps(loop, level, offsets, kept, gaps, fit);
   if (!fit.estimates_initial_energy()) return spread;
@@ -78,4 +79,4 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
   return whitening;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/warming/gaps.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Fits once more, the jumps of E at the gaps too; from a fit without them, whose place it takes. A gap that a fit does
 /// not know may pass for a warm start that cools: where E(0) is free, the jumps are found beside a cold start as well,
@@ -19,7 +19,8 @@ namespace warmjoint::inline identification {
 /// the jumps may be. [J]
 Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, const WarmStart& scanned, WarmFit& fit);
+                         const std::vector<LogGap>& gaps, const InitialGuess& scanned,
+                         WarmFit& fit);
 
 /// Fits once more, the rows whitened by the colour of the residual that the fit leaves; from that
 /// fit, whose place it takes. Returns that whitening. Nothing, and the fit as it was, where the noise
@@ -32,4 +33,4 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
                                              const Eigen::VectorXd& spread,
                                              const LoopResponse& response, WarmFit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "models/friction/thermal.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr size_t kMostGaps = 50;
@@ -65,4 +65,4 @@ std::string LossesInGaps(const std::vector<LogGap>& gaps, const Measurements& me
                      DescribeGaps(gaps, measurements));
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Gaps (models/recording/sampling.h) in order of time; of more than 50 the longest. A joint that
 /// is at rest at one place on both sides of a gap rested in it, and one that is cold after it
@@ -27,4 +27,4 @@ std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& me
 /// The warning that jumps of E are estimated at them.
 std::string LossesInGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

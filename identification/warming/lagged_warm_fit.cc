@@ -7,16 +7,16 @@
 #include "identification/lagged/linear_lag.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
 /// A start from the level of friction that is left where what a lag adds to law and offsets alone is taken off
 /// the torque; nothing where that shows no lag.
-std::optional<WarmStart> StartBehindLag(const Measurements& m,
-                                        const std::shared_ptr<const KeptRuns>& runs,
-                                        const ClosedLoop& loop, const Eigen::MatrixXd& offsets,
-                                        const StartFromLevel& scan) {
+std::optional<InitialGuess> StartBehindLag(const Measurements& m,
+                                           const std::shared_ptr<const KeptRuns>& runs,
+                                           const ClosedLoop& loop, const Eigen::MatrixXd& offsets,
+                                           const StartFromLevel& scan) {
   const Eigen::MatrixXd columns = loop.direction().asDiagonal() * Beside(loop.levels(), offsets);
   const Eigen::MatrixXd A = columns(runs->samples, Eigen::all);
   const Eigen::VectorXd measured = m.torque(runs->samples);
@@ -51,7 +51,7 @@ std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Sele
 
   // each from where the latest ended; a fit without the lag may have gone astray
   WarmFit latest = fit;
-  WarmStart start = StartFrom(fit);
+  InitialGuess start = StartFrom(fit);
   if (!fit.converged) {
     const auto behind = StartBehindLag(m, runs, loop, offsets, scan);
     if (!behind) return nullptr;
@@ -84,4 +84,4 @@ std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Sele
   return rows;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -9,10 +9,10 @@
 #include "identification/lagged/lagged_rows.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A start from a level of friction, [N] sign(v) torque (ScanTimeConstant).
-using StartFromLevel = std::function<WarmStart(const Eigen::VectorXd& level)>;
+using StartFromLevel = std::function<InitialGuess(const Eigen::VectorXd& level)>;
 
 /// Fits once more, behind the lag of the torque that leaves the least squares; from a fit without
 /// one, whose place it takes. Returns the rows of that lag. Nothing, and the fit as it was, where the
@@ -26,4 +26,4 @@ std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Sele
                                                const Eigen::VectorXd& spread,
                                                const StartFromLevel& scan, WarmFit& fit);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

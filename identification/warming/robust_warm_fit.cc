@@ -4,7 +4,7 @@
 
 #include "identification/linear/robust.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 100;
@@ -66,4 +66,4 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
   return robust;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A fit and how much each sample counted in it.
 struct RobustWarmFit {
@@ -20,4 +20,4 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
                             const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                             WarmFit fit, const Eigen::VectorXd& spread = {});
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

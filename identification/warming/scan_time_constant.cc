@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kTaus = 16;
@@ -118,11 +118,11 @@ struct Parabola {
 
 }  // namespace
 
-WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                           const Eigen::VectorXd& kept) {
+InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                              const Eigen::VectorXd& kept) {
   const Blocks blocks = MakeBlocks(loop, level, kept);
   const double total = blocks.length.sum();
-  WarmStart start;
+  InitialGuess start;
   // time constants between those that the sampling and the duration can show, evenly in their logarithm
   start.shortest = std::max(2 * loop.intervals().typical, total / 500);
   start.longest = kScannedBeyond * total;
@@ -161,4 +161,4 @@ WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
   return start;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

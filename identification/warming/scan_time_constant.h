@@ -5,13 +5,13 @@
 
 #include "identification/forward/closed_loop.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The longest time constant that is scanned, in durations of the recording.
 inline constexpr double kScannedBeyond = 5;
 
 /// Law parameters and warming to start from.
-struct WarmStart {
+struct InitialGuess {
   Eigen::VectorXd parameters;  // [d] of the loop's columns
   Thermal thermal;
   double shortest = 0;  // range of time constants that was scanned, s
@@ -24,7 +24,7 @@ struct WarmStart {
 /// and Pereyra 1973); a parabola through the best and its neighbours refines it. Samples are taken
 /// together in at most a thousand blocks, since a start need not be exact.
 /// level: [N] sign(v) torque, N.m or N; kept: [N] 1 where a sample takes part in fits, else 0.
-WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                           const Eigen::VectorXd& kept);
+InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                              const Eigen::VectorXd& kept);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

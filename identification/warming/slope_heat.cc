@@ -10,7 +10,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr double kWidest = 4;   // factor on tau to both sides
@@ -67,4 +67,4 @@ Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal
   return std::isfinite(left) && std::isfinite(gain) ? Thermal{gain, best} : start;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Gain and time constant of Eq. (27), F = Fn(v) + k sign(v) x + c v x, with x the measured losses
 /// |tau v| filtered by 1 / (1 + s tau): linear in all but tau, which is searched for by golden
@@ -13,4 +13,4 @@ namespace warmjoint::inline identification {
 /// part of it.
 Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal& start);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -15,13 +15,13 @@
 #include "identification/uncertainty/tails.h"
 #include "identification/warming/warming_verdict.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 /// Why the warm-up cannot be told; nothing where it can. variance: of the noise; cofactor: of x;
 /// explained: by the warming, in variances of the noise; reach: of 95 % intervals in deviations, as a multiple
 /// of that of a known variance.
-std::optional<std::string> WhyNotIdentifiable(const WarmFit& fit, const WarmStart& scanned,
+std::optional<std::string> WhyNotIdentifiable(const WarmFit& fit, const InitialGuess& scanned,
                                               double variance, double explained,
                                               const Eigen::MatrixXd& cofactor, double reach) {
   if (!fit.converged) {
@@ -189,4 +189,4 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   return fit;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "identification/warming/robust_warm_fit.h"
 #include "identification/warming/scan_time_constant.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What a fit is made of.
 struct WarmTask {
@@ -21,7 +21,7 @@ struct WarmTask {
   const Law& law;
   const RigidPart& gravity;
   const ClosedLoop& loop;
-  const WarmStart& scanned;
+  const InitialGuess& scanned;
   const std::vector<LogGap>& gaps;
   const LoopResponse& response;  // of the loop by the fit
   std::shared_ptr<const Whitening> whitening;
@@ -46,4 +46,4 @@ EndEnergy WarmEnd(const ClosedLoop& loop, const WarmFit& fit);
 Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& robust,
                  double nominal_squares);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "identification/warming/warm_answer.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
@@ -39,7 +39,7 @@ WarmCourse::WarmCourse(const IdentifierInput& from, const LinearTask& linear)
       level(loop.direction().cwiseProduct(input.measurements.torque)),
       offsets(loop.direction().asDiagonal() * task.gravity.columns) {}
 
-WarmStart Scan(const WarmCourse& course, const Eigen::VectorXd& level) {
+InitialGuess Scan(const WarmCourse& course, const Eigen::VectorXd& level) {
   const RigidPart& gravity = course.task.gravity;
   if (gravity.count() == 0) return ScanTimeConstant(course.loop, level, course.kept);
 
@@ -47,7 +47,7 @@ WarmStart Scan(const WarmCourse& course, const Eigen::VectorXd& level) {
   const ClosedLoop together = ClosedLoop::Along(course.input.measurements, course.task.columns);
   const Eigen::VectorXd weight = course.nominal.solution.tail(gravity.count());
   const Eigen::VectorXd gravity_torque = gravity.columns * weight;
-  WarmStart start = ScanTimeConstant(
+  InitialGuess start = ScanTimeConstant(
       together, level - course.loop.direction().cwiseProduct(gravity_torque), course.kept);
   start.parameters.tail(gravity.count()) += weight;
   return start;
@@ -69,7 +69,7 @@ Uncertainty KnownOf(const WarmCourse& course, const WarmFit& plain) {
 namespace {
 
 /// By plain squares, with what is known of E(0) and a jump of E at each gap, both of which the course learns.
-RobustWarmFit FitBySquares(WarmCourse& course, const WarmStart& start) {
+RobustWarmFit FitBySquares(WarmCourse& course, const InitialGuess& start) {
   // first without gaps, with E(0) as the options have it
   const double scale =
       std::sqrt(course.nominal_squares / static_cast<double>(course.torque.size()));
@@ -109,11 +109,11 @@ Fit FitLawAndWarming(const char* name, const IdentifierInput& given, const Later
   }
 
   // scan tau, then refine everything over the closed loop
-  const WarmStart start = Scan(course, course.level);
+  const InitialGuess start = Scan(course, course.level);
   RobustWarmFit robust = FitBySquares(course, start);
   Fit fit = go_on(course, start, std::move(robust));
   if (!course.unlike_before.empty()) fit.warnings.push_back(course.unlike_before);
   return fit;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

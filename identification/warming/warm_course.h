@@ -13,7 +13,7 @@
 #include "identification/warming/robust_warm_fit.h"
 #include "identification/warming/scan_time_constant.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// A log and a law, as all passes see them, and what the first one learned.
 struct WarmCourse {
@@ -42,7 +42,7 @@ struct WarmCourse {
 
 /// A start for all linear parameters, law before gravity, and the warming: the scan over tau once
 /// gravity is out of the loss. level: [N] as WarmCourse::level
-WarmStart Scan(const WarmCourse& course, const Eigen::VectorXd& level);
+InitialGuess Scan(const WarmCourse& course, const Eigen::VectorXd& level);
 
 /// Squares that linear least squares leave; infinite where their columns are not told apart. A: [n x d]; y: [n]
 double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y);
@@ -52,10 +52,10 @@ Uncertainty KnownOf(const WarmCourse& course, const WarmFit& plain);
 
 /// What becomes of a fit by plain squares, which knows E(0) and the jumps at gaps as the course does.
 using LaterPasses =
-    std::function<Fit(const WarmCourse& course, const WarmStart& start, RobustWarmFit robust)>;
+    std::function<Fit(const WarmCourse& course, const InitialGuess& start, RobustWarmFit robust)>;
 
 /// Scans tau and fits by plain squares, then goes on; or says why nothing can be fitted. name: of the
 /// identifier.
 Fit FitLawAndWarming(const char* name, const IdentifierInput& given, const LaterPasses& go_on);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

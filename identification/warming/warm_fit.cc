@@ -6,7 +6,7 @@
 
 #include "identification/warming/condensed_problem.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 namespace {
 
 constexpr int kMostIterations = 50;
@@ -60,8 +60,8 @@ Eigen::VectorXd WarmFit::prior() const {
   return all;
 }
 
-WarmStart StartFrom(const WarmFit& fit) {
-  WarmStart start;
+InitialGuess StartFrom(const WarmFit& fit) {
+  InitialGuess start;
   start.parameters.resize(fit.law_parameters + fit.offsets);
   start.parameters << fit.parameters(), fit.offset_values();
   start.thermal = fit.thermal();
@@ -70,7 +70,7 @@ WarmStart StartFrom(const WarmFit& fit) {
 
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                        const WarmStart& start, const InitialEnergy& initial, double scale,
+                        const InitialGuess& start, const InitialEnergy& initial, double scale,
                         const Eigen::VectorXd& jump_weights, const RowTransform* transform) {
   const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
   // heat has gain and log(tau), and E(0) where that is not known for sure
@@ -95,4 +95,4 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
   return fit;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "identification/uncertainty/row_transform.h"
 #include "identification/warming/scan_time_constant.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// What is known of E(0) before the fit: it is normal about a mean. A spread of 0 holds it there, an
 /// infinite one says nothing.
@@ -60,7 +60,7 @@ struct WarmFit {
 };
 
 /// To begin where a fit ended: its law and offsets, and its warming.
-WarmStart StartFrom(const WarmFit& fit);
+InitialGuess StartFrom(const WarmFit& fit);
 
 /// Minimises the squared residuals of the kept samples by Ceres' Levenberg-Marquardt with exact
 /// derivatives. Each evaluation is condensed: [J r] is replaced by a square factor R of the same
@@ -74,7 +74,7 @@ WarmStart StartFrom(const WarmFit& fit);
 /// as torque; or none.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                        const WarmStart& start, const InitialEnergy& initial, double scale,
+                        const InitialGuess& start, const InitialEnergy& initial, double scale,
                         const Eigen::VectorXd& jump_weights = {},
                         const RowTransform* transform = nullptr);
 
@@ -90,4 +90,4 @@ inline Eigen::VectorXd JumpWeights(double scale, const Eigen::VectorXd& spread) 
   return (scale / spread.array().max(1e-9 * scale)).square();
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::optional<std::string> RunawayWarming(double time_constant, double duration)
       duration);
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

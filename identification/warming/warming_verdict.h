@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// The drop of |e|^2 / s^2 that warming must bring to count as seen: by chance it exceeds 20 about
 /// once in 5000 recordings, a chi-square of 2 freedoms at the best of about 5 independent time
@@ -49,4 +49,4 @@ std::optional<std::string> RunawayWarming(double time_constant, double duration)
 std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,
                                                  const WarmingContext& context = {});
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

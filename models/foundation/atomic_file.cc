@@ -13,7 +13,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/output_failed.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -215,4 +215,4 @@ std::string ReadWholeFile(const fs::path& path, std::size_t most) {
   return text;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// A file under construction: write to it, then Commit() renames it onto the target. Without Commit
 /// the destructor removes it, so a failure leaves nothing half-written behind.
@@ -84,4 +84,4 @@ std::string InputName(const std::filesystem::path& path);
 /// or pipe, or has more than `most` bytes.
 std::string ReadWholeFile(const std::filesystem::path& path, std::size_t most = kLargestFile);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Where a refused value stands: a file and, where it has one, its line (counted from 1; 0: none).
 struct Place {
@@ -24,4 +24,4 @@ template <typename... Args>
   throw BadInput(where + fmt::format(format, std::forward<Args>(args)...));
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// Whether terminals act on the character instead of showing it.
@@ -94,4 +94,4 @@ std::string ExcerptOfList(const std::vector<std::string>& texts) {
   return more == 0 ? list : fmt::format("{} and {} more", list, more);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// A character: its code and its number of bytes; 0 bytes for what is no UTF-8.
 struct Character {
@@ -40,4 +40,4 @@ std::string Excerpt(std::string_view text, std::size_t longest = kLongestValue);
 /// "a, b, c": excerpts of all, or of the first 24 and how many more there are.
 std::string ExcerptOfList(const std::vector<std::string>& texts);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

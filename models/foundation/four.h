@@ -5,7 +5,7 @@
 #include <cstdlib>  // tells whether the C library is glibc
 #include <cstring>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// One register of AVX, two of SSE2. Handed by reference: by value each processor would have a calling convention of its own.
 using Four = double __attribute__((vector_size(32)));
@@ -23,7 +23,7 @@ inline void Store(const Four& four, double* to) { std::memcpy(to, &four, sizeof(
 /// The sum of four numbers, always in the same order.
 inline double SumOf(const Four& four) { return (four[0] + four[1]) + (four[2] + four[3]); }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint
 
 // A function that is compiled twice, with all that it calls: for any x86-64 processor, and for those with AVX (since
 // 2011; asked for by FMA, since 2013), which take four numbers at once. The loader picks. Products are not joined with

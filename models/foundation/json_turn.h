@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Held while nlohmann's parser or writer works on a thread of several: both ask localeconv() for the decimal
 /// point, which glibc calls unsafe for threads.
@@ -12,4 +12,4 @@ inline std::unique_lock<std::mutex> JsonTurn() {
   return std::unique_lock(turn);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <malloc.h>
 #endif
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// For main functions: arrays of samples (some 100 kB each) come and go by the thousand. By default
 /// glibc asks the kernel for each and gives it back, which costs a quarter of a fit in page faults;
@@ -20,4 +20,4 @@ inline void KeepFreedMemory() {
 #endif
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// Samples after which the slowest mode of the sections has fallen to rounding.
@@ -113,4 +113,4 @@ Eigen::VectorXd FilterZeroPhase(const std::vector<Biquad>& sections, const Eigen
   return line + backwards.reverse().segment(pad, n);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// How much of a step a first-order low-pass has followed after `step` s: 1 - exp(-step / T).
 double ShareFollowed(double step, double time_constant);
@@ -44,4 +44,4 @@ class BiquadCascade {
 /// point reflection, which keeps their slope. x: [N]; returns [N].
 Eigen::VectorXd FilterZeroPhase(const std::vector<Biquad>& sections, const Eigen::VectorXd& x);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

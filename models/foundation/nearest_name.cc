@@ -7,7 +7,7 @@
 
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr std::size_t kShortList = 60;  // characters that stand beside a suggestion
@@ -77,4 +77,4 @@ std::string Suggestion(std::string_view given, const std::vector<std::string>& k
   return fmt::format("; did you mean '{}'? Known: {}", meant, all);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

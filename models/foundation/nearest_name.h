@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Number of single-character insertions, deletions, substitutions and swaps of neighbours
 /// between two words (optimal string alignment distance).
@@ -17,4 +17,4 @@ int EditDistance(std::string_view a, std::string_view b);
 /// beside a nearest name, and shortened without one.
 std::string Suggestion(std::string_view name, const std::vector<std::string>& known);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

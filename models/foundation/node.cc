@@ -9,7 +9,7 @@
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 std::string NameOrDocument(const std::string& key) { return key.empty() ? "the document" : key; }
@@ -198,4 +198,4 @@ Node ParseJsonNode(const std::string& text, const std::string& file) {
   return {ParseJson<Tree>(text, file), file};
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

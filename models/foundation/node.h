@@ -16,7 +16,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// What a document holds; keys keep their order.
 using Tree = nlohmann::ordered_json;
@@ -113,4 +113,4 @@ Node ReadJsonNode(const std::filesystem::path& path);
 /// The root of a JSON text. file: what refusals name.
 Node ParseJsonNode(const std::string& text, const std::string& file);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

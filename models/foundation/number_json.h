@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The number; null where it is not finite.
 inline nlohmann::json NumberOrNull(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 const char* Remedy(int error) {
@@ -34,4 +34,4 @@ std::string Version() {
                      WARMJOINT_VERSION_PATCH);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Throws OutputFailed: "target: output could not be written: ...". error: an errno.
 [[noreturn]] void FailOutput(const std::string& target, int error);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 std::string_view Trimmed(std::string_view text) {
@@ -60,4 +60,4 @@ std::optional<std::int64_t> ParseInteger(std::string_view text) {
   return Parse<std::int64_t>(text);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 RandomStream::RandomStream(RandomKey key, Stream stream)
     : key_{{static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)}},
@@ -58,4 +58,4 @@ double StartStream::Uniform(double lower, double upper) {
   return lower + (upper - lower) * 0x1p-53 * static_cast<double>(bits >> 11);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

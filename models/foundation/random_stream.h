@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// What a stream of random numbers is for. Streams of one realization are independent, so that
 /// drawing more of one leaves the others as they are.
@@ -79,4 +79,4 @@ class StartStream {
   std::uint64_t drawn_ = 0;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

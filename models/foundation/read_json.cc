@@ -8,7 +8,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/json_turn.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 Place PlaceOf(const std::string& text, std::size_t byte, const std::string& file) {
@@ -80,4 +80,4 @@ template nlohmann::ordered_json ReadJsonFile(const std::filesystem::path&);
 template nlohmann::json ParseJson(const std::string&, const std::string&);
 template nlohmann::ordered_json ParseJson(const std::string&, const std::string&);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

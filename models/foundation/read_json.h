@@ -7,7 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Bounds of a JSON file: bytes, and levels of brackets within brackets.
 inline constexpr std::size_t kLargestJson = std::size_t{512} << 20;
@@ -23,4 +23,4 @@ Json ReadJsonFile(const std::filesystem::path& path);
 template <typename Json = nlohmann::json>
 Json ParseJson(const std::string& text, const std::string& file);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

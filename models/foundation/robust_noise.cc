@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 }  // namespace
@@ -73,4 +73,4 @@ double Resolution(const Eigen::VectorXd& x) {
   return fewest < most - 0.5 ? smallest : 0;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Standard deviation of the white part of x, untouched by what is smooth over five samples: the
 /// median of |fourth differences| / (0.6745 sqrt(70)). Jumps in less than half of the samples do
@@ -34,4 +34,4 @@ inline double MedianInPlace(Eigen::VectorXd& x) { return QuantileInPlace(x, 0.5)
 /// Median of the steps between sample times. time: [N] s, N at least 2; s.
 double MedianStep(const Eigen::VectorXd& time);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -32,7 +32,7 @@
 
 #include "models/foundation/node.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The choice of a word; refuses others, with the nearest.
 template <typename E>
@@ -389,4 +389,4 @@ Tree WriteFields(T value) {
   return writer.Take();
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 using Bits32 = std::uint32_t;
@@ -71,4 +71,4 @@ std::string Sha256(std::string_view bytes) {
   return fmt::format("{:08x}", fmt::join(state, ""));
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

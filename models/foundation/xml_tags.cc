@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -97,4 +97,4 @@ std::string_view XmlTagReader::Take(std::size_t size) {
   return taken;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// One <...> of a text. What is no tag (comments, declarations, character data) is passed over.
 struct XmlTag {
@@ -34,4 +34,4 @@ class XmlTagReader {
   int line_ = 1;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "models/friction/intervals.h"
 #include "models/friction/law_list.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -212,4 +212,4 @@ Prediction AlongMotion::Predict(const JointCourse& course, const CourseStart& st
   return RunLaw(AllLaws{}, friction_, joint_, course, start);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

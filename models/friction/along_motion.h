@@ -5,7 +5,7 @@
 
 #include "models/friction/joint_friction.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// One joint's friction as a model of its torque. Laws without a bristle of their own slide
 /// steadily wherever the joint moves, by JointFriction::SlidingForce,
@@ -29,4 +29,4 @@ class AlongMotion {
   JointFriction joint_;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

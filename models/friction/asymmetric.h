@@ -8,7 +8,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// F(v) = kv v + kc+ sign(max(0, v)) + kc- sign(min(0, v)), Eq. (3). F(0) = 0.
 /// sign(min(0, v)) is -1 for v < 0, so kc- is positive for friction that opposes the motion.
@@ -37,4 +37,4 @@ struct Asymmetric {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/friction/sliding_force.h"
 #include "models/friction/stribeck.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// LuGre's bristle (lugre.h), whose level g is that of AsymmetricStribeck with exponent 2 on the
 /// side of motion; in steady sliding F(v) = kv v + g sign(v).
@@ -49,4 +49,4 @@ struct AsymmetricLuGre {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

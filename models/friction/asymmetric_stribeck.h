@@ -10,7 +10,7 @@
 #include "models/friction/sliding_force.h"
 #include "models/friction/stribeck.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// F(v) = kv v + g sign(v),  g = kc + kr exp(-(|v| / vs)^delta) with kc of the direction of motion
 /// as in Eq. (3), and the same rise kr = ks - kc and fall of it in both. F(0) = 0.
@@ -39,4 +39,4 @@ struct AsymmetricStribeck {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Spring and damper that carry the friction of a joint at rest.
 struct Bristle {
@@ -66,4 +66,4 @@ BristleStep StepBristle(const Bristle& bristle, double load, double v, double h,
   return {force, next, yields && side * v > 0};
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/friction/sign.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The bristle that a law brings, and the slope beside it.
 template <typename T>
@@ -97,4 +97,4 @@ class BristleCourse {
   T load_{0};
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/friction/survey_work.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 void CheckPositive(double value, std::string_view axis, const char* what, const Place& place) {
@@ -202,4 +202,4 @@ void CheckFriction(const Friction& friction, const Place& place) {
 
 void CheckFriction(const Friction& friction) { CheckFriction(friction, {"friction"}); }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

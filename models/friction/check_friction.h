@@ -5,7 +5,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Refuses, from `place`, sizes that do not fit, widths or periods that are not positive, centres
 /// that do not ascend, an axis with its sides apart that has a centre at 0, numbers not finite.
@@ -14,4 +14,4 @@ void CheckMap(const FrictionMap& map, const Place& place);
 /// The same as CheckFriction of the public header, refusing from `place`.
 void CheckFriction(const Friction& friction, const Place& place);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

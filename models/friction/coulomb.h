@@ -8,7 +8,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// F(v) = kc sign(v), Eq. (1). F(0) = 0.
 struct Coulomb {
@@ -33,4 +33,4 @@ struct Coulomb {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

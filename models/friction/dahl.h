@@ -9,7 +9,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// dF/dt = sigma0 (v - |v| F / kc), which is LuGre without damping, Stribeck effect and slope; in
 /// steady sliding F(v) = kc sign(v). Source: Dahl, Aerospace Corp. TOR-158 (1968), exponent 1.
@@ -43,4 +43,4 @@ struct Dahl {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Below it exp(x) is 0 in double precision, and need not be computed.
 inline constexpr double kUnderflow = -746;
@@ -100,4 +100,4 @@ T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
   return EvaluateFactor(map.factor, velocity) * contraction.template Sum<0>(0);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Spacing of the centres from `begin` to before `end`, which are two at least.
 inline double SpacingOf(const GaussianAxis& axis, size_t begin, size_t end) {
@@ -31,4 +31,4 @@ inline bool IsEvenGrid(const GaussianAxis& axis, size_t begin, size_t end) {
   return !axis.period || near(static_cast<double>(end - begin) * spacing, *axis.period);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// A level beyond so many times the load is a number that slipped.
@@ -109,4 +109,4 @@ std::vector<double> LawValues(const Friction& friction) {
   return values;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

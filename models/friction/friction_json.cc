@@ -5,7 +5,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/check_friction.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 Tree FrictionToTree(const Friction& friction) { return WriteFields(friction); }
 
@@ -56,4 +56,4 @@ Friction ReadFriction(const std::filesystem::path& path) {
   return friction;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

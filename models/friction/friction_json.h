@@ -9,7 +9,7 @@
 
 #include "models/foundation/node.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// {law, parameters{}, gear, thermal{thermal_gain, thermal_time_constant, ambient, second{thermal_gain,
 /// thermal_time_constant}}, level_per_temperature, viscous_per_energy, load_gain, torque_unit, maps[]};
@@ -27,4 +27,4 @@ std::vector<FrictionMap> MapsFrom(const Node& node);
 /// Throws BadInput where a friction is in amperes, which no simulator can use.
 void RefuseAmperes(const Friction& friction, const Place& place);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

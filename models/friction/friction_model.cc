@@ -8,7 +8,7 @@
 #include "models/friction/along_motion.h"
 #include "models/friction/check_friction.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// Positions at which maps are averaged; a smooth periodic function needs far fewer.
@@ -171,4 +171,4 @@ Prediction FrictionModel::Along(const JointCourse& motion, const CourseStart& st
   return state_->along.Predict(motion, start);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

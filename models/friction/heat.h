@@ -7,7 +7,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// What heats and cools a joint over a step, constant meanwhile.
 struct Heating {
@@ -50,4 +50,4 @@ inline Heat DiscretiseHeat(const Friction& friction, double h) {
   return heat;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr double kSame = 1e-6;  // relative
@@ -77,4 +77,4 @@ std::vector<IntervalHold> Holds(const Intervals& intervals, const Thermal& therm
   return holds;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Intervals of a recording. Lengths that differ by less than a millionth count as one.
 struct Intervals {
@@ -37,4 +37,4 @@ struct IntervalHold {
 /// One for each distinct interval. After an infinite one nothing is left of energy or loss.
 std::vector<IntervalHold> Holds(const Intervals& intervals, const Thermal& thermal);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/friction/lugre_bristle.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// What a bristle lost during a step, W: what it took less what it stores.
@@ -221,4 +221,4 @@ FrictionStep JointFriction::Step(const FrictionState& state, const JointMotion& 
   return Complete(state, motion, StepBristle(spring, state.bristle, v, h_, level));
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "models/friction/heat.h"
 #include "models/friction/level_terms.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 template <typename... L>
 struct LawList;
@@ -228,4 +228,4 @@ inline void JointFriction::Store(const FrictionState& state, double* values) con
   if (slips_) *values = state.slip;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 
 #include "models/friction/law_list.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 template <typename L>
@@ -65,4 +65,4 @@ void Regressor(const Law& law, double v, double* row) {
   }
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

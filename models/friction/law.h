@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// What the parameter of that name is in the laws that have it, for what was read from a file;
 /// LawPart::other where none has.
@@ -20,4 +20,4 @@ std::optional<size_t> PlaceOf(LawPart part, const Law& law);
 /// Exact for laws that are linear in their parameters: the force for each unit vector.
 void Regressor(const Law& law, double v, double* row);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/friction/stribeck.h"
 #include "models/friction/viscous_coulomb.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// What a joint at rest bears before it slides, in N.m or N: the static level of laws that break
 /// away, and the level of sliding of all others. side: 1 or -1; speed: rad/s or m/s.
@@ -47,4 +47,4 @@ struct LawList {
 using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, AsymmetricStribeck,
                         Dahl, LuGre, AsymmetricLuGre>;
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

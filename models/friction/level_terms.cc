@@ -7,7 +7,7 @@
 
 #include "models/friction/survey_work.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// A speed that is on its side of 0 and changes nothing else.
@@ -76,4 +76,4 @@ void LevelTerms::Survey(const Friction& friction) {
   }
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "models/friction/prepared_map.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Whether friction depends on the load that the joint transmits.
 bool NeedsLoad(const Friction& friction);
@@ -40,4 +40,4 @@ class LevelTerms {
   double largest_at_rest_ = 0;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/friction/sliding_force.h"
 #include "models/friction/stribeck.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// dz/dt = v - sigma0 |v| z / g(|v|),  F = sigma0 z + sigma1 dz/dt + kv v, with g of StribeckLevel
 /// and exponent 2; in steady sliding F(v) = kv v + g sign(v).
@@ -46,4 +46,4 @@ struct LuGre {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

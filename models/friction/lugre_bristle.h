@@ -6,7 +6,7 @@
 
 #include "models/friction/bristle.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The same bristle, weakened so far that an explicit step carries it: its stiffness and damping
 /// together are at most what MakeBristle gives. inertia: M, kg.m^2 or kg; h: s.
@@ -41,4 +41,4 @@ BristleStep StepLugreBristle(const Bristle& bristle, double load, double v, doub
   return {force, next, side * next > 0};
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

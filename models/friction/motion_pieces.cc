@@ -5,7 +5,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr double kConstant = 0.02;  // change of the speed below which it counts as constant
@@ -60,4 +60,4 @@ void MotionPieces::Cut(double step, double begin, double end, double from, doubl
   }
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// A part of the way between two samples, all in one direction.
 struct MotionPiece {
@@ -50,4 +50,4 @@ class MotionPieces {
   std::vector<size_t> end_;  // [N] one past the last piece before each sample
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 
 #include <warmjoint/friction.h>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 inline constexpr ParameterInfo kViscousRow{
     .name = "viscous",
@@ -113,4 +113,4 @@ inline constexpr ParameterInfo kBristleDampingRow{
     .meaning = "damping of the bristle's motion",
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/friction/even_grid.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// exp(-x^2 / 2) is 3e-13 of its peak here.
@@ -208,4 +208,4 @@ void PreparedAxis::FreeKernels(const Segment& segment, double x, ActiveKernels& 
   active.sum = normalised ? sum : 1;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

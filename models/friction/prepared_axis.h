@@ -9,7 +9,7 @@
 
 #include "models/friction/row_table.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Neighbouring kernels of one axis, those that count at a point, before they are normalised.
 struct ActiveKernels {
@@ -113,4 +113,4 @@ inline void PreparedAxis::Kernels(double x, ActiveKernels& active) const {
   std::fill_n(active.value.data() + active.count, 3, 0.0);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "models/friction/evaluate_map.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 using Numbers = Eigen::Map<const Eigen::VectorXd>;
@@ -198,4 +198,4 @@ double PreparedMap::Value(const MapPoint<double>& point) const {
   return Evaluate(point);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/friction/prepared_axis.h"
 #include "models/friction/row_table.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The same map as FrictionMap, to 1e-12 of its largest weight; allocates nothing in Value.
 class PreparedMap {
@@ -47,4 +47,4 @@ class PreparedMap {
   size_t length_ = 0;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

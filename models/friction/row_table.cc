@@ -11,7 +11,7 @@
 #include "models/friction/evaluate_map.h"
 #include "models/friction/even_grid.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr double kBound = 3e-13;         // of the largest weight
@@ -107,4 +107,4 @@ bool RowTable::LocateEnd(double place, Spot& spot) const {
   return true;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

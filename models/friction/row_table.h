@@ -11,7 +11,7 @@
 
 #include "models/foundation/four.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The functions sum_j kappa_j(x) w_(row, j), one for each row of weights, where they are smooth
 /// and their centres even: polynomials of degree 9 in cells of a half, a quarter or an eighth of a
@@ -92,4 +92,4 @@ class RowTable {
   std::vector<Polynomials> coefficients_;  // [quads of rows x cells]
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

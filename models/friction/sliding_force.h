@@ -5,7 +5,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// F(v) = kv v + g sign(v) with the law's level g on the side of motion; F(0) = 0.
 /// L: a law with Level whose first parameter is kv; v: rad/s or m/s; returns N.m or N.
@@ -14,4 +14,4 @@ T SlidingForceOf(double v, const T* p) {
   return p[0] * v + T(Sign(v)) * L::Level(Sign(v), std::abs(v), p);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Sliding, F(v) = kv v + kc sign(v). At rest F equals the load up to ks >= kc, Eq. (4); beyond it
 /// the joint breaks away and slides until it stops again. The stop alone restores ks.
@@ -42,4 +42,4 @@ struct Stiction {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

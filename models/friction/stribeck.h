@@ -9,7 +9,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sliding_force.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// StribeckLevel with delta = 2, without a power.
 template <typename T>
@@ -68,4 +68,4 @@ struct Stribeck {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

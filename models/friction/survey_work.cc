@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// The most kernels of an axis that lie within reach of one point.
@@ -55,4 +55,4 @@ double SurveyWork(const FrictionMap& map) {
   return samples * kernels / longest;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Values of one quantity at which a map is surveyed for its slope over speed and its size at rest: its centres; speeds from 0 to three widths
 /// beyond the centres, four to a width and 500 at most; 0 alone, or speeds 0 and 1, where the map does not depend on it.
@@ -18,4 +18,4 @@ double SurveyWork(const FrictionMap& map);
 /// The most that a friction's maps may need together; some 10 s.
 inline constexpr double kMostSurveyWork = 2e9;
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

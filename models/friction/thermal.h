@@ -8,7 +8,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// In size, N.m/W or N/W; joints show some 1 N.m/W, and a larger number is one that slipped.
 inline constexpr double kLargestThermalGain = 1e6;
@@ -98,4 +98,4 @@ T Loss(double v, const T& force) {
 /// From there on the losses feed themselves and the model has left its domain.
 inline bool FeedsItself(double v, double force) { return force * v < 0; }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

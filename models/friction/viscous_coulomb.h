@@ -8,7 +8,7 @@
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// F(v) = kv v + kc sign(v), Eq. (2). F(0) = 0.
 struct ViscousCoulomb {
@@ -34,4 +34,4 @@ struct ViscousCoulomb {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/foundation/parse_number.h"
 #include "models/recording/unwrap.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr double kLargest = 1e30;       // of any value; beyond it squares and products overflow
@@ -170,4 +170,4 @@ Measurements AssembleContent(const FileContent& content, const std::string& path
   return AssembleMeasurements(std::move(raw), sources, layout);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

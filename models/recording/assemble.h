@@ -8,7 +8,7 @@
 
 #include "models/recording/recording_columns.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The numbers of a file as they stand there.
 struct RawColumns {
@@ -52,4 +52,4 @@ std::vector<std::string> NamesOf(const FileContent& content);
 Measurements AssembleContent(const FileContent& content, const std::string& path,
                              const ReadSettings& layout);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -1,6 +1,6 @@
 #include "models/recording/course_of.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
   const Measurements& m = measurements;
@@ -23,4 +23,4 @@ Prediction PredictFriction(const Friction& friction, const Measurements& measure
   return AlongMotion(friction).Predict(CourseOf(measurements, bristle), start);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/friction/along_motion.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// How a law's own bristle is bent at the start of each recording: as in steady sliding, or as the
 /// measured torque tells.
@@ -21,4 +21,4 @@ Prediction PredictFriction(const Friction& friction, const Measurements& measure
                            const CourseStart& start = {},
                            BristleStart bristle = BristleStart::sliding);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
@@ -204,4 +204,4 @@ std::string RecordingToCsv(const Measurements& measurements) {
   return fmt::to_string(text);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

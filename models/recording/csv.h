@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Reads columns time, position, velocity, torque and optional motor_position, load, temperature.
 /// A missing velocity stays empty. Throws BadInput with file:line for: an empty
@@ -21,4 +21,4 @@ Measurements ParseCsv(std::string_view text, const std::string& name,
 /// The text of a file with the columns that are present, SI, numbers that read back bit for bit.
 std::string RecordingToCsv(const Measurements& measurements);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/recording/recording_columns.h"
 #include "models/recording/units.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 const H5::StrType& Text() {
@@ -143,4 +143,4 @@ std::string RecordingToHdf5(const Measurements& measurements) {
   }
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/recording/assemble.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The one-dimensional datasets at the root of an HDF5 file, as far as the layout asks for them, with their attribute
 /// `unit`, and the root's `joint` ("rotary" or "linear") and `gear`. Throws BadInput, also where the layout's columns are
@@ -17,4 +17,4 @@ FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout)
 /// which wait for each other: the library serves one at a time.
 std::string RecordingToHdf5(const Measurements& measurements);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

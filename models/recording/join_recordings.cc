@@ -5,7 +5,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 using Column = std::optional<Eigen::VectorXd>;
@@ -76,4 +76,4 @@ Measurements JoinRecordings(std::vector<Measurements> recordings) {
   return joined;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/recording/assemble.h"
 #include "models/recording/recording_columns.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kUnits = "unit";  // struct of texts
@@ -211,4 +211,4 @@ FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layou
   return content;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/recording/assemble.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Vectors of real numbers, as far as the layout asks for them. Those of a struct are named with a dot,
 /// log.time; names without one may leave out the struct where the file holds one alone. A variable
@@ -15,4 +15,4 @@ namespace warmjoint::inline models {
 /// crashes on some damaged files: ReadRecording calls this in a child process.
 FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

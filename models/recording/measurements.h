@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Calls use(column) for every column that the log has: the one list of them, for what is done to
 /// all alike.
@@ -58,4 +58,4 @@ inline Selection WithoutRest(const Selection& selection, const Measurements& mea
   return {selection.keep && measurements.velocity.array() != 0, selection.segments};
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -22,7 +22,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 constexpr std::size_t kMemory = std::size_t{8} << 30;       // bytes, of the child alone
@@ -229,4 +229,4 @@ FileContent ReadApart(const FileFormat& format, const std::string& path, const R
   return Unpacked(reader);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/recording/assemble.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// A format that a library reads.
 struct FileFormat {
@@ -18,4 +18,4 @@ struct FileFormat {
 FileContent ReadApart(const FileFormat& format, const std::string& path, const ReadSettings& layout,
                       double patience);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

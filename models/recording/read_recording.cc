@@ -10,7 +10,7 @@
 #include "models/recording/matlab.h"
 #include "models/recording/read_apart.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// A format of recordings.
@@ -63,4 +63,4 @@ void WriteRecording(const Measurements& measurements, const std::filesystem::pat
          Extension(path));
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

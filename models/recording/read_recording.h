@@ -7,7 +7,7 @@
 
 #include "models/recording/csv.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Reads .h5 and .hdf5 as HDF5, .mat as MATLAB files, anything else as CSV, as ReadCsv does; attributes of a file count
 /// where the layout has its defaults. Libraries for HDF5 and MATLAB work in a child process with limits on memory and time
@@ -16,4 +16,4 @@ namespace warmjoint::inline models {
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout = {},
                                double patience = 30);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

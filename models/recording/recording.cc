@@ -10,7 +10,7 @@
 #include "models/recording/measurements.h"
 #include "models/recording/read_recording.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// Makes torque of a current, by the motor's constant seen at the joint.
@@ -109,4 +109,4 @@ Measurements FirstSamples(Measurements log, Eigen::Index n) {
   return log;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

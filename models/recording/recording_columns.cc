@@ -11,7 +11,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 using Values = Eigen::VectorXd;
@@ -229,4 +229,4 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
   return sources;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/recording/csv.h"
 #include "models/recording/units.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// One column that a recording may have.
 struct RecordingColumn {
@@ -50,4 +50,4 @@ struct ColumnSource {
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const ReadSettings& layout, const Place& place);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "models/foundation/robust_noise.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 // The sampling interval of a recording is its median step throughout (MedianStep): gaps and jitter
 // leave that as it is.
@@ -35,4 +35,4 @@ inline std::vector<LogGap> GapsOf(const Eigen::VectorXd& time) {
   return gaps;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 const std::vector<Unit>& Units() {
   constexpr double turn = 2 * std::numbers::pi;  // rad
@@ -69,4 +69,4 @@ const Unit& FindUnit(std::string_view name, const std::vector<std::string>& base
   Refuse(place, "{} cannot be in '{}'{}", column, Excerpt(name), Suggestion(name, fitting));
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// value in `base` = factor * (value in this unit) + offset.
 struct Unit {
@@ -25,4 +25,4 @@ const std::vector<Unit>& Units();
 const Unit& FindUnit(std::string_view name, const std::vector<std::string>& bases,
                      std::string_view column, const Place& place);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

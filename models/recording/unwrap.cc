@@ -6,7 +6,7 @@
 
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// Jumps that were undone, and how many of them lie at a gap of the log.
@@ -63,4 +63,4 @@ int UnwrapRange(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, do
   return Undo(time, velocity, range, position).jumps;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

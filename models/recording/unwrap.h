@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Undoes the jumps of a whole turn in the position of a rotary joint, so that it goes on where the
 /// sensor starts its turn again. It is taken as wrapped when it stays within one turn and jumps by
@@ -20,4 +20,4 @@ int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
 int UnwrapRange(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
                 Eigen::VectorXd& position);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/xml_tags.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 /// Keeps what urdfdom would print.
@@ -59,4 +59,4 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   return robot;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

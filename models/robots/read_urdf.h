@@ -6,10 +6,10 @@
 
 #include <filesystem>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The robot that a URDF file describes. Throws BadInput with the file's name and what urdfdom
 /// refuses.
 urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace fs = std::filesystem;
 
 fs::path DataFolder() {
@@ -66,4 +66,4 @@ fs::path FindRobot(const std::string& name_or_path, const std::string& asked_by)
          fs::path(name_or_path).replace_extension(".xml");
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// The folder that holds models/ and scenarios/: the environment variable WARMJOINT_DATA, else
 /// ../share/warmjoint beside the running program, else the source folder. Throws BadInput, naming
@@ -19,4 +19,4 @@ std::vector<std::string> RobotNames();
 /// Throws BadInput, from the given place, with the nearest name.
 std::filesystem::path FindRobot(const std::string& name_or_path, const std::string& asked_by);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

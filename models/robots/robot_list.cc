@@ -11,7 +11,7 @@
 #include "models/robots/read_urdf.h"
 #include "models/robots/robot_folder.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ std::vector<RobotInfo> Robots() {
   return robots;
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// One movable joint, as the robot's URDF gives it.
 struct RobotJoint {
@@ -34,4 +34,4 @@ struct RobotInfo {
 /// Throws BadInput that names the file that is missing or wrong.
 std::vector<RobotInfo> Robots();
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Gives an actuator the range of its joint, in the actuator's own force, cut to what it had.
@@ -272,4 +272,4 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
   return attached;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/register.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// A model of the section alone. MuJoCo's map of attributes belongs to the C++ library that it was
@@ -139,4 +139,4 @@ bool ClearOwnFriction(mjsJoint& joint) {
   return any;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/bad_input.h"
 #include "sim/model/friction_sections.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Throws BadInput from `place` for an unknown joint, one that is neither hinge nor slide, one that
 /// is named twice, and a friction that makes no sense (CheckFriction).
@@ -28,4 +28,4 @@ void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 /// Returns whether there was any.
 bool ClearOwnFriction(mjsJoint& joint);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/friction/thermal.h"
 #include "sim/plugin/register.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 using nlohmann::json;
@@ -144,4 +144,4 @@ std::string MinimalModel(const Friction& friction, JointKind kind) {
                      inertia, inertia, inertia, FrictionSections({"joint", friction}));
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
 /// attributes inline, as MJCF text. The actuator is named "JOINT_friction".
@@ -29,4 +29,4 @@ std::string MinimalModel(const Friction& friction, JointKind kind);
 /// The text with &, <, > and " written as entities.
 std::string EscapeXml(std::string_view text);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

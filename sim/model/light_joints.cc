@@ -9,7 +9,7 @@
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/stability.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// A give that is small beside the backlash of gears, as a share of the largest: 5 mrad, 0.5 mm.
@@ -98,4 +98,4 @@ std::vector<std::string> NoticesOfHolding(const mjModel* m,
   return notices;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "models/foundation/bad_input.h"
 #include "sim/model/friction_sections.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Refuses, from `place` and with one remedy for all, joints whose inertia cannot carry their
 /// friction at the model's step: the armature to set on each of them (`attach --armature`), and the
@@ -25,4 +25,4 @@ void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& fr
 std::vector<std::string> NoticesOfHolding(const mjModel* m,
                                           const std::vector<FrictionForJoint>& frictions);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

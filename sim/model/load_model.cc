@@ -15,7 +15,7 @@
 #include "sim/plugin/attributes.h"
 #include "sim/plugin/register.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ std::string ModelToXml(mjSpec& spec, const Place& place) {
   Refuse(place, "MuJoCo cannot write it as MJCF: {}", error.data());
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "sim/model/spec_elements.h"
 #include "sim/model/urdf_meshes.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// A model as read, open to changes, with what was left out so that it loads.
 struct ParsedModel {
@@ -45,4 +45,4 @@ LoadedModel LoadModel(const std::filesystem::path& path);
 /// Throws BadInput from `place` where MuJoCo cannot write it.
 std::string ModelToXml(mjSpec& spec, const Place& place);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Whether the text holds more than letters that stand for themselves.
@@ -67,4 +67,4 @@ int NamelessJoints(mjSpec& spec) {
   return nameless;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 struct DeleteMujoco {
   void operator()(mjSpec* spec) const { mj_deleteSpec(spec); }
@@ -55,4 +55,4 @@ std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, c
 /// Number of hinges and slides without a name, which no pattern can mean.
 int NamelessJoints(mjSpec& spec);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/foundation/xml_tags.h"
 #include "sim/model/spec_elements.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ std::vector<std::string> ResolveMeshes(mjSpec& spec, const PackageFolders& packa
   return sorter.Finish();
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

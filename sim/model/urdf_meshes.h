@@ -11,7 +11,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// The text of a URDF with MuJoCo told to keep what is only to be seen, unless the text itself says
 /// what to do with that (`discardvisual`); by default MuJoCo leaves it out of a URDF.
@@ -26,4 +26,4 @@ std::string KeepVisuals(std::string urdf);
 std::vector<std::string> ResolveMeshes(mjSpec& spec, const PackageFolders& packages,
                                        const std::filesystem::path& urdf, const Place& place);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 using Eigen::Index;
@@ -318,4 +318,4 @@ void DisturbLog(const Scenario& scenario, std::uint64_t realization, Simulation&
   LoseSamples(disturbances.faults.lost_samples, {key, Stream::lost_samples}, recording);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "scenarios/scenario.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Adds to the logged torque what the scenario disturbs it by: a lag, forces that no model holds, outliers, coloured and
 /// uneven noise, a periodic torque; makes of the motion what poorer sensors log; and spoils what is left as faulty
@@ -18,4 +18,4 @@ namespace warmjoint::inline sim {
 void DisturbLog(const Scenario& scenario, std::uint64_t realization, Simulation& recording,
                 const Eigen::VectorXd& position, const Eigen::VectorXd& acceleration = {});
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

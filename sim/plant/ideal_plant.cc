@@ -8,7 +8,7 @@
 #include "sim/plant/plant.h"
 #include "sim/plant/velocity_drive.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Planned motion at samples.
@@ -288,4 +288,4 @@ std::unique_ptr<Plant> MakeIdealPlant(const Scenario& scenario) {
   return std::make_unique<IdealPlant>(scenario);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 constexpr Eigen::Index kMostCorners = 8;  // between two segments
@@ -103,4 +103,4 @@ Motion MotionOf(const Measurements& measurements, const Selection& selection) {
   return motion;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

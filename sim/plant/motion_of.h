@@ -5,7 +5,7 @@
 
 #include "scenarios/motion.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// A velocity by its corners that follows the recording: the segments at constant speed exactly;
 /// between them up to eight corners at the recorded mean velocities, moved together so that the way
@@ -13,4 +13,4 @@ namespace warmjoint::inline sim {
 /// Throws BadInput where the recording has no segment at constant speed.
 Motion MotionOf(const Measurements& measurements, const Selection& selection);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

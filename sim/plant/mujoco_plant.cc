@@ -10,7 +10,7 @@
 #include "sim/plant/single_joint_model.h"
 #include "sim/plant/velocity_drive.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Times of the closed loop in units of 1 / bandwidth: of the largest ramp, and until an error has
@@ -281,4 +281,4 @@ std::unique_ptr<Plant> MakeMujocoPlant(const Scenario& scenario) {
   return std::make_unique<MujocoPlant>(scenario);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -1,14 +1,13 @@
 #include "sim/plant/plant.h"
 
 #include <fmt/format.h>
-
 #include <warmjoint/recording.h>
 
 #include "models/foundation/bad_input.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/realize.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 std::unique_ptr<Plant> MakeFixedPlant(const Scenario& scenario) {
@@ -70,4 +69,4 @@ Simulation Simulate(const std::filesystem::path& scenario, const SimulateSetting
   return MakePlant(read)->Run(settings.realization, settings.watch);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

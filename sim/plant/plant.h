@@ -9,7 +9,7 @@
 
 #include "scenarios/scenario.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Is told now and then which share of a run is done, 0 to 1.
 using RunWatch = std::function<void(double share)>;
@@ -52,4 +52,4 @@ std::unique_ptr<Plant> MakeIdealPlant(const Scenario& scenario);
 /// Throws BadInput for a robot, joint, step or sampling that cannot be.
 std::unique_ptr<Plant> MakeMujocoPlant(const Scenario& scenario);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

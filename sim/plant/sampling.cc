@@ -4,7 +4,7 @@
 
 #include "models/friction/level_terms.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Where a stored sample lies among the readings.
@@ -121,4 +121,4 @@ void SensorLog::WriteTo(Measurements& measurements) const {
   if (load_) measurements.load = load_->samples();
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/foundation/random_stream.h"
 #include "scenarios/scenario.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Order of the causal Butterworth low-pass on the sensor readings.
 inline constexpr int kSensorFilterOrder = 4;
@@ -77,4 +77,4 @@ class SensorLog {
   std::optional<LoggedSignal> load_;
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "sim/plugin/friction_instance.h"
 #include "sim/plugin/stability.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Removes all that acts on the robot, and every joint but one.
@@ -128,4 +128,4 @@ void CheckReach(const JointRoom& room, const std::vector<VelocityCorner>& corner
   CheckPosition(room, position + std::max(end - last.time, 0.0) * last.velocity);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "scenarios/scenario.h"
 #include "sim/model/spec_elements.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// A compiled model in which one joint moves, and where its numbers stand.
 struct SingleJointModel {
@@ -46,4 +46,4 @@ struct JointRoom {
 void CheckReach(const JointRoom& room, const std::vector<MotionSegment>& plan, double position);
 void CheckReach(const JointRoom& room, const std::vector<VelocityCorner>& corners, double position);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Of the time that a motion moves, for which a bandwidth has to do: one slow piece does not make the
@@ -120,4 +120,4 @@ double VelocityReference::Velocity(double time) {
   return from.velocity + slope_ * (time - from.time);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

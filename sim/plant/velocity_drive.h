@@ -6,7 +6,7 @@
 
 #include "scenarios/motion.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// PI control of velocity with feedforward of the inertia:
 ///   torque = M a_ref + kp e + ki integral(e),  e = v_ref - v,  kp = 2 M w,  ki = M w^2,
@@ -110,4 +110,4 @@ class SpeedWatch {
   long reached_ = 0;
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/friction/friction_json.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -238,4 +238,4 @@ std::string FileStamp(const AttributeTexts& texts) {
   return fmt::format("{} {} {}", path.string(), size, time);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

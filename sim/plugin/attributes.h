@@ -13,7 +13,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/serialize.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// A number among the attributes: a parameter of laws, of the heat's stages, or a friction's option.
 struct NumberAttribute {
@@ -96,4 +96,4 @@ inline std::filesystem::path& ModelFolder() {
   return folder;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/stability.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// others: the other instances on each kinematic tree.
@@ -162,4 +162,4 @@ int SensorSize(const mjModel* m, int instance) {
   return kSensed * static_cast<int>(std::count(begin, end, instance));
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/prepared_instances.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// One joint and where its numbers stand in the model's data.
 struct BoundJoint {
@@ -97,4 +97,4 @@ inline constexpr int kSensed = 5;
 /// Numbers of sensordata that a sensor of the instance needs: kSensed for each of its joints.
 int SensorSize(const mjModel* m, int instance);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

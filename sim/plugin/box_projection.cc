@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// How far a force may be beyond its bound by rounding.
@@ -118,4 +118,4 @@ void SearchTree::Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLe
   for (const int i : joints) rows.row(i)[kFriction] = box_.force[i];
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "sim/plugin/inertia_block.h"
 #include "sim/plugin/row_pairs.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Projection of forces onto a box, in the metric of the inverse inertia matrix of one tree:
 ///   force = argmin (x - aim)' M^-1 (x - aim),  -lower <= x <= upper
@@ -66,4 +66,4 @@ class SearchTree {
   std::vector<BoxProjection::Status> last_;  // at the end of a step's first projection
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

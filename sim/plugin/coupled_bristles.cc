@@ -6,7 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "sim/plugin/stability.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// A slope of friction over speed that the step can carry takes at most so much of the damping.
@@ -222,4 +222,4 @@ bool BristleTree::SlideButFew(const mjData* d, Rows rows) {
   return true;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

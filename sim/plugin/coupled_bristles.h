@@ -11,7 +11,7 @@
 #include "sim/plugin/inertia_block.h"
 #include "sim/plugin/row_pairs.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// A joint that CoupledBristles hold.
 struct CoupledJoint {
@@ -126,4 +126,4 @@ class CoupledBristles {
   size_t size_ = 0;
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Turns until a block of M is factorised instead; most end after two.
@@ -219,4 +219,4 @@ void InverseColumns::Keep(int joint, int lane) {
   joints_[count_++] = joint;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

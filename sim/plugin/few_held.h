@@ -11,7 +11,7 @@
 #include "sim/plugin/inertia_block.h"
 #include "sim/plugin/row_pairs.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// What M^-1 makes of one vector of forces, and of forces of 1 at single joints, by the engine's own
 /// factors of M, which take two vectors at once.
@@ -130,4 +130,4 @@ class FewHeld {
   bool missing_ = false;  // a column of one that is apart
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

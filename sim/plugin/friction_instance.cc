@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Whether a group of actuators is switched off.
@@ -231,4 +231,4 @@ void FrictionInstance::CorrectActs(const mjModel* m, mjData* d) const {
   }
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

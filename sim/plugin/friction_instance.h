@@ -10,7 +10,7 @@
 #include "sim/plugin/joint_rows.h"
 #include "sim/plugin/joint_states.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Friction of the joints of one plugin instance, in two forms:
 ///   actuator: actuators refer to the instance; states in mjData.act, forces in actuator_force
@@ -88,4 +88,4 @@ class FrictionInstance {
   std::vector<mjtNum> load_;    // [nv] where a joint of the passive form needs it
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

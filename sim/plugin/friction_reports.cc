@@ -8,7 +8,7 @@
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/stability.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
                    const std::vector<BoundJoint>& joints) {
@@ -87,4 +87,4 @@ void FrictionSensors::Write(const mjModel* m, mjData* d, const BoundJoints& boun
   }
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

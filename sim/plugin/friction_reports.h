@@ -9,7 +9,7 @@
 #include "sim/plugin/joint_rows.h"
 #include "sim/plugin/register.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints. One
 /// more stands behind those: the mark of the attributes with which the state was stepped or reset
@@ -62,4 +62,4 @@ class FrictionSensors {
   std::vector<double> sensed_;  // [joints x kSensed] of the last step
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Products for two vectors at once with a symmetric matrix of n rows, of which all elements up to
@@ -153,4 +153,4 @@ void InertiaBlock::Factorise(const mjData* d, const std::vector<char>& takes) {
   }
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// The rows of the inertia matrix M that belong to one kinematic tree, as MuJoCo holds them: of each
 /// degree of freedom the elements of those before it on its way to the root, then its own.
@@ -82,4 +82,4 @@ void InertiaBlock::SolveBy(const double* value, const double* inverse, const int
   }
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "sim/plugin/stability.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
   // joints that the inertia matrix couples, apart from those with a bristle of their own
@@ -193,4 +193,4 @@ void JointRows::TakeDeficits() {
   }
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "sim/plugin/coupled_bristles.h"
 #include "sim/plugin/joint_states.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Steps the friction of joints as JointFriction says, with bristles that the inertia matrix
 /// couples. A row is a degree of freedom of a tree on which the joints act, or a joint by itself;
@@ -105,4 +105,4 @@ class JointRows : private LevelSource {
   std::vector<size_t> pushed_;
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "sim/plugin/row_pairs.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 using One = Eigen::Array<double, 1, 1>;
@@ -198,4 +198,4 @@ bool LeftStates::FindRates(const std::vector<double>& next, const mjtNum* act, d
   return finite[0] == 0 && finite[1] == 0;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

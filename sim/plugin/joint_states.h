@@ -10,7 +10,7 @@
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/row_pairs.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Loads speeds and states of joints into rows, and stores the next states in the order of each joint's
 /// state(), one joint after the other. What is no number counts as 0 (JointFriction::Load).
@@ -108,4 +108,4 @@ class LeftStates {
   double time_ = std::numeric_limits<double>::quiet_NaN();  // s; matches none before the first step
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 std::string NameOf(const mjModel* m, mjtObj type, const char* what, int id) {
@@ -269,4 +269,4 @@ OtherInstances FindOthers(const mjModel* m, int instance) {
   return others;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/prepared_instances.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// The name of an object of the model; empty where it has none.
 std::string NameIn(const mjModel* m, mjtObj type, int id);
@@ -62,4 +62,4 @@ void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction
 /// is stiffer than the step can carry.
 void CheckAlone(const mjModel* m, int instance, int joint);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "sim/plugin/attributes.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Attribute text that is kept at most, bytes. A map's tables take some twenty times its text.
@@ -104,4 +104,4 @@ bool AttributeWatch::SameBlocks(std::string_view text) const {
   return same;
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

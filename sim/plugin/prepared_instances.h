@@ -14,7 +14,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// One joint's friction as it was described, and ready for a timestep.
 struct PreparedJoint {
@@ -74,4 +74,4 @@ class AttributeWatch {
   uint64_t prepared_ = 0;  // count of calls when all of it was compared
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

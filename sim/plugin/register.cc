@@ -16,7 +16,7 @@
 #include "sim/plugin/friction_reports.h"
 #include "sim/plugin/plugin_instances.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 // Read from 4.0's source; of a later engine read how its mj_makeData frees data after a plugin's -1.
@@ -174,4 +174,4 @@ void RegisterFrictionPlugin() {
   static_cast<void>(slot);
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -1,7 +1,7 @@
 // Making the plugin `warmjoint.friction` known to MuJoCo.
 #pragma once
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Name under which MuJoCo knows the plugin.
 inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
@@ -10,4 +10,4 @@ inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
 /// they load a model; the shared library calls it when it is loaded.
 void RegisterFrictionPlugin();
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Two neighbours, which a processor steps at once.
 using Two = Eigen::Array2d;
@@ -150,4 +150,4 @@ class AskedLevels {
   Rows rows_{nullptr};
 };
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

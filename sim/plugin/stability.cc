@@ -9,7 +9,7 @@
 #include "models/friction/bristle.h"
 #include "sim/plugin/plugin_instances.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 namespace {
 
 /// Eigenvalues up to this change no BristlesOf. Why: 3.6 of instances that share a tree + 0.3 = kCarried.
@@ -175,4 +175,4 @@ void CheckDrive(const mjModel* m, int joint, double drive, const Place& place) {
       RoundDown(h * kStiffestDrive / drive));
 }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

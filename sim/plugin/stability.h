@@ -12,7 +12,7 @@
 #include "models/friction/bristle.h"
 #include "models/friction/joint_friction.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// Stiffness A and damping B of the bristles, in units of M/h^2 and M/h.
 struct BristleShape {
@@ -108,4 +108,4 @@ void CheckDrive(const mjModel* m, int joint, double drive, const Place& place);
 /// where all is so soft that BristlesOf does not change.
 std::vector<double> StiffestDrives(const mjModel* m, int integrator);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 void WriteTruth(const Truth& truth, const std::filesystem::path& path) {
   const Tree tree = WriteFields(truth);
@@ -21,4 +21,4 @@ void WriteTruth(const Truth& truth, const std::filesystem::path& path) {
 
 Truth ReadTruth(const std::filesystem::path& path) { return ReadAs<Truth>(ReadJsonNode(path)); }
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   const int realizations = std::atoi(argv[2]), shards = std::atoi(argv[3]);
   std::vector<Realization> real;
   small.ForEachResult([&](Result result) {
-    const Unit unit{result.variant, result.realization};
+    const RunUnit unit{result.variant, result.realization};
     result.trace = small.ReadTrace(unit, result.identifier);
     if (real.empty() || real.back().unit != unit) real.push_back({unit, 0.001, {}});
     real.back().results.push_back(std::move(result));

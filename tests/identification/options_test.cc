@@ -45,7 +45,7 @@ struct ShareOption {
 
 const Options kDefaults = OptionGroups<ShareOption, LoopOptions>{};
 
-Options Given(const std::map<std::string, std::string>& given) {
+Options Read(const std::map<std::string, std::string>& given) {
   return kDefaults.Read(given, {"suite.yaml", 7});
 }
 
@@ -63,7 +63,7 @@ TEST(Options, AreListedGroupByGroup) {
 }
 
 TEST(Options, AreReadAndToldWhereTheyAreNotAtTheirDefault) {
-  const Options options = Given(
+  const Options options = Read(
       {{"fraction", "1"}, {"iterations", "50"}, {"gain_range", "-1e2:2.5"}, {"start", "guess"}});
   EXPECT_EQ(options.Get<ShareOption>().fraction, 1);
   EXPECT_EQ(options.Get<LoopOptions>().start, Start::guess);
@@ -106,7 +106,7 @@ TEST(Options, AreRefusedWithPlaceNameAndValue) {
   };
   for (const auto& [name, value, besides] : wrong) {
     try {
-      Given({{name, value}});
+      Read({{name, value}});
       ADD_FAILURE() << name << '=' << value;
     } catch (const BadInput& refusal) {
       EXPECT_THAT(refusal.what(),

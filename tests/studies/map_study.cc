@@ -34,7 +34,7 @@
 namespace warmjoint {
 namespace {
 
-using Given = std::map<std::string, std::string>;
+using Texts = std::map<std::string, std::string>;
 
 /// What bands make of the truth at their places.
 struct Cover {
@@ -106,7 +106,7 @@ struct Outcomes {
   Cover seen, holes;
 };
 
-Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Given& given) {
+Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Texts& given) {
   const IdentifierInput input{log, identifier.options.Read(given), {}};
   return identifier.fit(Seen(identifier, input));
 }
@@ -171,7 +171,7 @@ void CountBands(const Fit& fit, const Simulation& recording, const LogView& view
   outcomes.holes.EndLog();
 }
 
-void Count(const Identifier& identifier, Given given, const Simulation& recording,
+void Count(const Identifier& identifier, Texts given, const Simulation& recording,
            const Simulation& unseen, Outcomes& outcomes) {
   const PreparedLog log = Prepare(recording.measurements), other = Prepare(unseen.measurements);
   const Fit fit = FitTo(identifier, log, given);

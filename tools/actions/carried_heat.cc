@@ -20,7 +20,7 @@
 #include "models/foundation/read_json.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kStages[] = {"energy", "second_energy"};
@@ -56,7 +56,7 @@ double PauseByStamps(const LeftHeat& left, const Measurements& next) {
 constexpr std::string_view kSettled = "settled:";
 
 /// The heat at the end of a recording: {energy, second_energy} of state_end.
-std::vector<double> EndEnergy(const Friction& friction, const std::string& file) {
+std::vector<double> EnergiesAtEnd(const Friction& friction, const std::string& file) {
   if (!friction.thermal) return {};
   const Place place{file};
   // only estimates of a warming joint tell the heat at the end
@@ -112,10 +112,10 @@ std::string WarningOf(const std::string& path) {
 
 }  // namespace
 
-std::vector<double> InitialEnergy(const std::string& initial, const Friction& friction,
-                                  const std::string& file) {
+std::vector<double> InitialEnergies(const std::string& initial, const Friction& friction,
+                                    const std::string& file) {
   if (initial == "cold") return {};
-  if (initial == "end") return EndEnergy(friction, file);
+  if (initial == "end") return EnergiesAtEnd(friction, file);
   if (initial.starts_with(kSettled)) {
     return Settled(initial.substr(kSettled.size()), friction, file);
   }
@@ -223,8 +223,8 @@ FrictionForJoint ReadFrictionForJoint(const std::string& joint, const std::strin
   std::string warning = WarningOf(file);
   if (!warning.empty()) warnings.push_back(std::move(warning));
   FrictionForJoint friction{joint, ReadFriction(file)};
-  friction.initial_energy = InitialEnergy(initial, friction.friction, file);
+  friction.initial_energy = InitialEnergies(initial, friction.friction, file);
   return friction;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

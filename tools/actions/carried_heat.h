@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// E1 and E2, N.m or N, for `initial` (--initial) and the friction of one file:
 ///   cold            empty
@@ -18,8 +18,8 @@ namespace warmjoint::inline tools {
 ///   settled:SPEED   what sliding at SPEED, rad/s or m/s, settles at (SettledEnergy)
 /// Throws BadInput for another text, a file without `state_end`, and a speed at which the losses
 /// grow for ever.
-std::vector<double> InitialEnergy(const std::string& initial, const Friction& friction,
-                                  const std::string& file);
+std::vector<double> InitialEnergies(const std::string& initial, const Friction& friction,
+                                    const std::string& file);
 
 /// An earlier recording of the same joint, --follows and --pause.
 struct EarlierRecording {
@@ -39,4 +39,4 @@ bool IsJsonFile(const std::string& file);
 /// "E(0) is expected at -4.21 +- 0.3 N.m: what day1.csv left, after a pause of 300 s (given) at rest"
 std::string Describe(const CarriedHeat& carried);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

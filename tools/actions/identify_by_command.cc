@@ -7,7 +7,7 @@
 #include "identification/warming/estimated_start.h"
 #include "tools/suite/external_identifier.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Figures of a second answer, to the part of the log before the held-out share.
@@ -74,4 +74,4 @@ Estimate IdentifyByCommand(const CheckedCommand& task, const PreparedLog& log,
   return estimate;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include "tools/actions/identify_recording.h"
 #include "tools/suite/external_identifier.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A command that was checked: settings.identifier is name=command, settings.options are its own, as time_limit.
 struct CheckedCommand {
@@ -22,4 +22,4 @@ CheckedCommand CheckCommand(const IdentifySettings& settings, Confinement confin
 Estimate IdentifyByCommand(const CheckedCommand& task, const PreparedLog& log,
                            const HoldOutSource& holdout);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "models/foundation/read_json.h"
 #include "models/foundation/serialize.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kStartOption = "initial_energy";
@@ -211,4 +211,4 @@ Estimate Identify(const PreparedLog& log, IdentifySettings settings, const HoldO
   return estimate;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Settings that were checked and looked up.
 struct IdentifyTask {
@@ -54,4 +54,4 @@ CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& r
 /// it; an empty text where nothing was done.
 std::string MarkAmperes(const Measurements& measurements, Estimate& estimate);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

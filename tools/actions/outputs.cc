@@ -8,7 +8,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/recording/read_recording.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -56,4 +56,4 @@ void WriteSimulated(const Simulation& recording, const std::string& scenario,
   WriteWholeFile(folder / "scenario.yaml", scenario);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Where a command's words go: stdout, or stderr where one of its outputs is standard output.
 std::FILE* WordsBeside(const std::vector<std::filesystem::path>& outputs);
@@ -25,4 +25,4 @@ const std::vector<std::string>& SimulatedFiles();
 void WriteSimulated(const Simulation& recording, const std::string& scenario,
                     const std::string& format, const std::filesystem::path& folder);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_json.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// The samples that a model is compared with: all that move, where it has an inertia.
@@ -93,7 +93,7 @@ WarmStart StartOf(const StoredModel& stored, const std::string& file, const std:
   WarmStart begin;
   if (earlier.is_given()) begin.follows = HeatBefore(stored, earlier, recording, next);
   const std::vector<double> energies =
-      begin.follows ? begin.follows->energy : InitialEnergy(initial, stored.model.friction, file);
+      begin.follows ? begin.follows->energy : InitialEnergies(initial, stored.model.friction, file);
   // E1 and E2; without warming there is none
   if (!energies.empty()) begin.start.energy = energies[0];
   if (energies.size() > 1) begin.start.second_energy = energies[1];
@@ -157,4 +157,4 @@ std::string PredictedToCsv(const Predicted& predicted) {
   return csv;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// What an estimate file knows of the joint. The log's acceleration is used where it holds an inertia.
 struct StoredModel {
@@ -36,7 +36,7 @@ struct WarmStart {
   std::optional<CarriedHeat> follows;  // where an earlier recording says so
 };
 
-/// As `initial` says (InitialEnergy), or, where there is an earlier recording, with the heat that it left: of an
+/// As `initial` says (InitialEnergies), or, where there is an earlier recording, with the heat that it left: of an
 /// estimate.json its state_end; of a recording, read as `recording` says, what the model makes of its motion from a
 /// cold start. file: of the model. Throws BadInput.
 WarmStart StartOf(const StoredModel& stored, const std::string& file, const std::string& initial,
@@ -63,4 +63,4 @@ nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predi
 /// SI.
 std::string PredictedToCsv(const Predicted& predicted);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/recording/recording_columns.h"
 #include "scenarios/yaml.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Entries by which a file could choose what runs.
@@ -62,4 +62,4 @@ Project ParseProject(const std::string& text, const std::string& file) {
   return project;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 
 #include <string>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Its name.
 inline constexpr const char* kProjectFile = "warmjoint.yaml";
@@ -24,4 +24,4 @@ inline constexpr const char* kProjectFile = "warmjoint.yaml";
 /// identifier: a file that lies beside a log from elsewhere must not choose what runs.
 Project ParseProject(const std::string& text, const std::string& file);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
                                              const std::string& option) {
@@ -60,4 +60,4 @@ PreparedLog ReadAndPrepare(const RecordingSource& source) {
   return Prepare(ReadRecording(source), source.prepare);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Files and options as they are typed on a command line, what is at its default left out.
 std::vector<std::string> WordsOf(const RecordingSource& source);
@@ -26,4 +26,4 @@ std::optional<RecordingSource> RecordingOf(const Estimate& estimate, const std::
 std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
                                              const std::string& option);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,9 +8,9 @@
 #include "tools/suite/start_key.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
-Replayed ReplayUnit(const Suite& suite, Unit unit, const SuiteIdentifier& identifier) {
+Replayed ReplayUnit(const Suite& suite, RunUnit unit, const SuiteIdentifier& identifier) {
   if (identifier.name == kExternal) {
     Refuse({identifier.label}, "is a command from outside; a replay runs none");
   }
@@ -22,14 +22,14 @@ Replayed ReplayUnit(const Suite& suite, Unit unit, const SuiteIdentifier& identi
   return {std::move(log), std::move(estimate)};
 }
 
-std::string NameOf(const Suite& suite, Unit unit) {
+std::string NameOf(const Suite& suite, RunUnit unit) {
   std::string name = fmt::format("realization {}", unit.realization);
   if (!suite.ladder) return name;
   const auto& variants = suite.ladder->variants;
   return fmt::format("{} of {}", name, variants.at(static_cast<std::size_t>(unit.variant)).name);
 }
 
-std::string ReplayCommand(const Suite& suite, Unit unit, const std::string& run) {
+std::string ReplayCommand(const Suite& suite, RunUnit unit, const std::string& run) {
   std::vector<std::string> words{"warmjoint", "simulate", "--from", run};
   if (suite.ladder) {
     const auto& variants = suite.ladder->variants;
@@ -40,4 +40,4 @@ std::string ReplayCommand(const Suite& suite, Unit unit, const std::string& run)
   return JoinCommand(words);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "scenarios/suite.h"
 #include "tools/store/result.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A realization with what an identifier makes of it.
 struct Replayed {
@@ -17,12 +17,12 @@ struct Replayed {
 
 /// Simulates `unit` as the run did and identifies it with the same start. identifier: an entry of the suite
 /// that is no command from outside. Throws BadInput where the plant or the identifier cannot be made here.
-Replayed ReplayUnit(const Suite& suite, Unit unit, const SuiteIdentifier& identifier);
+Replayed ReplayUnit(const Suite& suite, RunUnit unit, const SuiteIdentifier& identifier);
 
 /// "realization 17", with its variant where the suite has any.
-std::string NameOf(const Suite& suite, Unit unit);
+std::string NameOf(const Suite& suite, RunUnit unit);
 
 /// The command that simulates it again. run: the directory, as a reader calls it.
-std::string ReplayCommand(const Suite& suite, Unit unit, const std::string& run);
+std::string ReplayCommand(const Suite& suite, RunUnit unit, const std::string& run);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

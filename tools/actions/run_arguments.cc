@@ -7,7 +7,7 @@
 #include "tools/suite/external_identifier.h"
 #include "tools/suite/prepare_identifiers.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Refuses a command that a suite brings along and nobody has agreed to: a suite from elsewhere would be
@@ -43,4 +43,4 @@ Suite ResolveSuite(const RunArguments& arguments) {
   return suite;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,10 +5,10 @@
 
 #include "scenarios/suite.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The suite with what the command line changes. Throws BadInput for a command that the suite brings
 /// along and nobody has agreed to.
 Suite ResolveSuite(const RunArguments& arguments);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

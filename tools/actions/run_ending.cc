@@ -6,7 +6,7 @@
 
 #include "tools/store/database.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// What an identifier said first.
@@ -59,4 +59,4 @@ std::string CountsInWords(const RunEnding& ending) {
   return words;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

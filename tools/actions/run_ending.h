@@ -7,7 +7,7 @@
 
 #include "tools/store/run_store.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Sums up a store.
 RunEnding EndingOf(const RunStore& store);
@@ -15,4 +15,4 @@ RunEnding EndingOf(const RunStore& store);
 /// "200 results, 99 refused by their own verdict, 1 without an answer".
 std::string CountsInWords(const RunEnding& ending);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

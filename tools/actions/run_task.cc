@@ -10,7 +10,7 @@
 #include "tools/suite/engine.h"
 #include "tools/suite/prepare_identifiers.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// A resumed run takes its own copy of the suite; one with a person's changes is left as it is.
@@ -85,4 +85,4 @@ RunEnding Run(const RunArguments& arguments, const std::function<void(int, int)>
   return ending;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

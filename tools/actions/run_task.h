@@ -9,7 +9,7 @@
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/shard.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A run that was asked for and checked.
 struct RunTask {
@@ -26,4 +26,4 @@ RunTask PrepareRun(const RunArguments& arguments);
 /// Writes results.csv and summary.csv, and sums up.
 RunEnding EndRun(RunStore& store);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "tools/board/format_board.h"
 #include "tools/store/export_csv.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 std::string Cell(double value) {
@@ -76,4 +76,4 @@ void WriteTables(const RunStore& store) {
   WriteWholeFile(store.directory() / "summary.csv", SummaryToCsv(ReadBoard(store)));
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "models/foundation/number_json.h"
 #include "tools/board/format_board.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 using nlohmann::ordered_json;
@@ -102,4 +102,4 @@ std::string BoardsToJson(const std::vector<NamedBoard>& boards) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kUnknown = "-";
@@ -254,4 +254,4 @@ std::vector<std::string> Notes(const Leaderboard& board) {
   return notes;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

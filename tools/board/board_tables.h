@@ -7,7 +7,7 @@
 #include "tools/board/leaderboard.h"
 #include "tools/terminal/table.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Who wins: a row for each identifier, best first, and one for the Cramer-Rao bound.
 Table RankingTable(const Leaderboard& board);
@@ -33,4 +33,4 @@ std::string PercentText(double share);
 /// Three digits; "-" of NaN.
 std::string NumberText(double value);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

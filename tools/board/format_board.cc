@@ -6,7 +6,7 @@
 #include "models/foundation/nearest_name.h"
 #include "tools/board/board_tables.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 std::string Head(const Leaderboard& board) {
@@ -116,4 +116,4 @@ std::string FormatLeaderboard(const std::filesystem::path& directory, const std:
   Refuse({"--format"}, "is '{}'{}", Excerpt(format), Suggestion(format, known));
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "tools/board/leaderboard.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A leaderboard and the run directory that it comes from.
 struct NamedBoard {
@@ -51,4 +51,4 @@ std::string BoardToCsv(const Leaderboard& board);
 /// together, then each of a ladder. Wall times stay out of both, so that equal results are equal bytes.
 void WriteTables(const RunStore& store);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "tools/board/statistics.h"
 #include "tools/store/database.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -256,4 +256,4 @@ Leaderboard ReadBoard(const RunStore& store) {
   });
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

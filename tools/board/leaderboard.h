@@ -5,10 +5,10 @@
 
 #include "tools/store/run_store.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Sums up what the store holds over all variants of its suite, and for each of them. Memory: some 70
 /// bytes for each result of one identifier at a time. Throws BadInput where the database is damaged.
 Leaderboard ReadBoard(const RunStore& store);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

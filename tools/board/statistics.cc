@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// The numbers in ascending order, NaN left out.
@@ -72,4 +72,4 @@ Difference MedianDifference(std::vector<double> differences) {
   return {median, end(0.025), end(0.975)};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

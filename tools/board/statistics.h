@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The quantile of `sorted` (ascending) at `share` in [0, 1], linear between neighbours; NaN where
 /// it is empty.
@@ -25,4 +25,4 @@ Summary Summarise(std::vector<double> values);
 /// NaN of none.
 Difference MedianDifference(std::vector<double> differences);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -15,7 +15,7 @@
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 const std::map<std::string, mjtIntegrator> kIntegrators{{"Euler", mjINT_EULER},
@@ -155,4 +155,4 @@ Command AddAttachCommand(CLI::App& program) {
   return {parser, [arguments] { return Attach(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

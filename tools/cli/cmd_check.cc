@@ -19,7 +19,7 @@
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct CheckArguments {
@@ -202,4 +202,4 @@ Command AddCheckCommand(CLI::App& program) {
           }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

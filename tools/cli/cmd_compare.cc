@@ -8,7 +8,7 @@
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct CompareArguments {
@@ -51,4 +51,4 @@ Command AddCompareCommand(CLI::App& program) {
   return {parser, [arguments] { return Compare(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

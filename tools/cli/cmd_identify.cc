@@ -23,7 +23,7 @@
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct IdentifyArguments {
@@ -333,4 +333,4 @@ Command AddIdentifyCommand(CLI::App& program) {
           }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

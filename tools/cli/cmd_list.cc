@@ -11,7 +11,7 @@
 #include "tools/cli/families.h"
 #include "tools/cli/typed_options.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct ListArguments {
@@ -83,4 +83,4 @@ Command AddListCommand(CLI::App& program) {
   return {parser, [arguments] { return List(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "tools/store/merge_runs.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct MergeArguments {
@@ -20,11 +20,11 @@ struct MergeArguments {
 };
 
 /// Says which realizations no shard holds.
-void NoticeMissing(const std::set<Unit>& missing) {
+void NoticeMissing(const std::set<RunUnit>& missing) {
   // a few of them show where the hole is
   constexpr std::size_t most = 10;
   std::vector<std::string> shown;
-  for (const Unit& unit : missing) {
+  for (const RunUnit& unit : missing) {
     if (shown.size() == most) break;
     shown.push_back(unit.variant == 0
                         ? std::to_string(unit.realization)
@@ -76,4 +76,4 @@ Command AddMergeCommand(CLI::App& program) {
   return {parser, [arguments] { return Merge(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ Command AddNewCommand(CLI::App& program) {
   return {parser, [arguments] { return MakeNew(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -19,7 +19,7 @@
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +179,4 @@ Command AddPlotCommand(CLI::App& program) {
           }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -16,7 +16,7 @@
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct PredictArguments {
@@ -136,4 +136,4 @@ Command AddPredictCommand(CLI::App& program) {
           }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -23,7 +23,7 @@
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ Command AddReportCommand(CLI::App& program) {
           }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

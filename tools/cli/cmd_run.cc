@@ -17,7 +17,7 @@
 #include "tools/suite/interrupt.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
@@ -91,4 +91,4 @@ Command AddRunCommand(CLI::App& program) {
   return {parser, [arguments] { return RunCommand(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -24,7 +24,7 @@
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct SimulateArguments {
@@ -169,4 +169,4 @@ Command AddSimulateCommand(CLI::App& program) {
           }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "tools/cluster/run_status.h"
 #include "tools/store/folders.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 struct StatusArguments {
@@ -49,4 +49,4 @@ Command AddStatusCommand(CLI::App& program) {
   return {parser, [arguments] { return ShowStatus(*arguments); }};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -1,6 +1,6 @@
 #include "tools/cli/command.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 std::vector<Command> AddCommands(CLI::App& program) {
   return {
@@ -12,4 +12,4 @@ std::vector<Command> AddCommands(CLI::App& program) {
   };
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

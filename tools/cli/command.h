@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Exit status of the program, as the contract has it.
 enum class ExitStatus {
@@ -45,4 +45,4 @@ Command AddStatusCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "models/foundation/excerpt.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 ExitStatus PrintEnding(const std::filesystem::path& directory, const RunEnding& ending,
                        RunPart part) {
@@ -28,4 +28,4 @@ void NoticeNotFollowing(const FollowingTally& following, const Suite& suite) {
   if (!words.empty()) SayNotice("notice: {}\n", words);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include "tools/cli/command.h"
 #include "tools/suite/following_tally.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Whether a store holds all of a run, or a part of it that says little by itself.
 enum class RunPart { whole, shard };
@@ -19,4 +19,4 @@ ExitStatus PrintEnding(const std::filesystem::path& directory, const RunEnding& 
 /// Says on stderr in how many realizations the simulated joint did not follow its motion, if in any.
 void NoticeNotFollowing(const FollowingTally& following, const Suite& suite);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

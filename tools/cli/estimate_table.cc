@@ -12,7 +12,7 @@
 #include "tools/report/estimate/shown_parameters.h"
 #include "tools/terminal/table.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 std::string Interval(const std::array<double, 2>& interval) {
@@ -188,4 +188,4 @@ std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::str
   return TableToText(table, 2);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

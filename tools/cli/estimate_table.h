@@ -9,7 +9,7 @@
 
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// How much is said of a verdict.
 enum class Detail { brief, full };
@@ -31,4 +31,4 @@ struct EstimateRow {
 /// unit: of the torque.
 std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "tools/cli/suite_names.h"
 #include "tools/terminal/table.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 using nlohmann::ordered_json;
@@ -253,4 +253,4 @@ const std::vector<Family>& Families() {
   return families;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

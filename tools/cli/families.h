@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A family. Each member is an object with `name`; its text is made from that object alone.
 struct Family {
@@ -19,4 +19,4 @@ struct Family {
 /// laws, identifiers, robots, suites.
 const std::vector<Family>& Families();
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -19,7 +19,7 @@
 #include "tools/report/simulation/warm_robot.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -240,4 +240,4 @@ std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std:
   return figures;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "tools/report/draw/page_setting.h"
 #include "tools/report/estimate/estimate_view.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The name by which `plot` draws the figure of normalised and plain kernels.
 inline constexpr const char* kKernelsSource = "kernels";
@@ -54,4 +54,4 @@ report::PageSetting SettingOf(const PictureArguments& arguments);
 std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
                                    const SourcePictures& pictures);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr const char* kHelp =
@@ -81,4 +81,4 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
   return chosen->run();
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

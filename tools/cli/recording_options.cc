@@ -16,7 +16,7 @@
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ void TakeProject(const CLI::App& parser, RecordingSource& arguments) {
                                    : taking.words() + " (--no-project leaves it out)");
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Adds RECORDING... and the options of AddLayoutOptions.
 void AddRecordingOptions(CLI::App& parser, RecordingSource& source);
@@ -27,4 +27,4 @@ void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier);
 /// and for recordings that lie beside different files.
 void TakeProject(const CLI::App& parser, RecordingSource& arguments);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

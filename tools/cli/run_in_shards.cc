@@ -20,7 +20,7 @@
 #include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -199,4 +199,4 @@ ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task) {
   return say("done");
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The options of a run in shards.
 void AddShardOptions(CLI::App& parser, RunArguments& arguments);
@@ -21,4 +21,4 @@ ExitStatus RunInShards(const RunArguments& arguments);
 /// it is finished. One that is interrupted or killed leaves nothing and begins anew.
 ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

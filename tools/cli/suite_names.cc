@@ -7,7 +7,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/robots/robot_folder.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -46,4 +46,4 @@ std::string FindSuite(const std::string& name_or_path) {
   Refuse({name_or_path}, "is neither a file nor a shipped suite{}", Suggestion(stem, names));
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

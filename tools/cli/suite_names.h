@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Names of the project's suites, sorted: each is a file of scenarios/suites.
 std::vector<std::string> SuiteNames();
@@ -17,4 +17,4 @@ std::filesystem::path SuiteFile(const std::string& name);
 /// this name. Throws BadInput with the nearest name.
 std::string FindSuite(const std::string& name_or_path);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 CLI::Option* AddChoice(CLI::App& parser, const std::string& name, const ChoiceTarget& target,
                        const std::vector<std::string>& choices, const std::string& description,
@@ -63,4 +63,4 @@ CLI::Option* AddWholeNumber(CLI::App& parser, const std::string& name,
   return parser.add_option_function<std::string>(name, read, description)->type_name("INTEGER");
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Where a choice goes: its default, and what takes one that is given.
 struct ChoiceTarget {
@@ -64,4 +64,4 @@ CLI::Option* AddWholeNumber(CLI::App& parser, const std::string& name,
                             std::optional<std::uint64_t>& number, std::uint64_t lowest,
                             std::uint64_t highest, const std::string& description);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "scenarios/suite.h"
 #include "tools/suite/shard.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -96,4 +96,4 @@ std::string Ranges(const std::vector<int>& ascending, const char* comma) {
   return fmt::format("{}", fmt::join(ranges, comma));
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "scenarios/suite.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// RUN/slurm holds the plan: plan.json (the number of shards), suite.yaml (fully resolved), array.sbatch
 /// and log. RUN/shards/NUMBER/results.sqlite is a finished shard.
@@ -50,4 +50,4 @@ std::vector<std::string> ShardCommand(const Plan& plan, const std::string& numbe
 /// "1-3, 7" of 1, 2, 3, 7. comma: what parts them.
 std::string Ranges(const std::vector<int>& ascending, const char* comma = ", ");
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

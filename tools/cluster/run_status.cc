@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 RunStatus StatusOf(const Plan& plan, const std::optional<QueuedShards>& queue) {
   RunStatus status;
@@ -57,4 +57,4 @@ nlohmann::json StatusJson(const RunStatus& status) {
             {"missing", status.missing}}}};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "tools/cluster/plan.h"
 #include "tools/cluster/slurm.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 struct RunStatus {
   std::string suite;
@@ -25,4 +25,4 @@ RunStatus StatusOf(const Plan& plan, const std::optional<QueuedShards>& queue);
 std::string StatusText(const Plan& plan, const RunStatus& status);
 nlohmann::json StatusJson(const RunStatus& status);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

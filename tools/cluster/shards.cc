@@ -23,7 +23,7 @@
 #include "tools/suite/progress.h"
 #include "tools/terminal/exec_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -140,4 +140,4 @@ void MergePlanned(const Plan& plan) {
   }
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

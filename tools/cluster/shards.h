@@ -8,7 +8,7 @@
 #include "tools/cluster/plan.h"
 #include "tools/store/merge_runs.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Copies a finished shard's results beside their place in the run and gives them their name there by one
 /// rename, on disk before.
@@ -29,4 +29,4 @@ LocalEnd RunLocally(const Plan& plan, int at_once, const std::vector<std::string
 /// made on this machine's own disk. Throws BadInput where shards are missing, naming them.
 void MergePlanned(const Plan& plan);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "models/foundation/parse_number.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr int kDefaultArraySize = 1001;  // Slurm's own
@@ -203,4 +203,4 @@ std::vector<int> SubmitOpen(const Plan& plan) {
   return open;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

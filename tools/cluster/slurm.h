@@ -7,7 +7,7 @@
 
 #include "tools/cluster/plan.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Refuses --sbatch entries that are no key=value, or that the script sets itself.
 void CheckSbatch(const std::vector<std::string>& entries);
@@ -33,4 +33,4 @@ std::optional<QueuedShards> AskQueue(const Plan& plan);
 /// their numbers. Throws BadInput with Slurm's own words where it refuses.
 std::vector<int> SubmitOpen(const Plan& plan);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

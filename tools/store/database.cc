@@ -9,7 +9,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/output_failed.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -158,4 +158,4 @@ void RethrowStoreError(const fs::path& path, const SQLite::Exception& error) {
   }
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 
 #include "tools/store/run_description.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Opens a database so that its schema can do nothing: no triggers, views or functions of its own, no
 /// value beyond 64 MiB. Waits up to 10 s for another process's batch. Throws BadInput for a file that
@@ -41,4 +41,4 @@ auto Guarded(const std::filesystem::path& path, Work work) {
   }
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Shortest text that reads back bit for bit; empty for NaN.
@@ -137,4 +137,4 @@ void ExportResults(const RunStore& store) {
   file.Commit();
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include "tools/store/result.h"
 #include "tools/store/run_store.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A text for one cell: quoted where it holds a comma, a quote or a line break; an apostrophe stands
 /// before what a spreadsheet would take for a formula.
@@ -36,4 +36,4 @@ std::string CsvRow(const Result& result, const std::vector<std::string>& names, 
 /// identifier) in that order. Memory does not grow with the run.
 void ExportResults(const RunStore& store);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -11,7 +11,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/output_failed.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / ".lock";
@@ -37,4 +37,4 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// One writer for each run directory: holds DIR/.lock while it lives. The system releases it when the
 /// process ends, however it ends.
@@ -36,4 +36,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -3,16 +3,16 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Units of the run that `merged` lacks.
-std::set<Unit> MissingUnits(const RunStore& merged) {
-  const std::set<Unit> finished = merged.Finished();
-  std::set<Unit> missing;
+std::set<RunUnit> MissingUnits(const RunStore& merged) {
+  const std::set<RunUnit> finished = merged.Finished();
+  std::set<RunUnit> missing;
   for (int variant = 0; variant < merged.suite().variants(); ++variant) {
     for (int realization = 0; realization < merged.suite().realizations; ++realization) {
-      const Unit unit{variant, realization};
+      const RunUnit unit{variant, realization};
       if (!finished.contains(unit)) missing.insert(missing.end(), unit);
     }
   }
@@ -47,4 +47,4 @@ MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
   return outcome;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -9,12 +9,12 @@
 #include "tools/store/result.h"
 #include "tools/store/run_store.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// What a merged run holds.
 struct MergedRun {
-  std::size_t units = 0;   // that the run has, of all variants
-  std::set<Unit> missing;  // those of them that no shard holds
+  std::size_t units = 0;      // that the run has, of all variants
+  std::set<RunUnit> missing;  // those of them that no shard holds
 };
 
 /// Makes a run directory, new or empty before, with the results of all shards, and lets write_tables add
@@ -24,4 +24,4 @@ MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
                     const std::filesystem::path& directory,
                     const std::function<void(const RunStore&)>& write_tables);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

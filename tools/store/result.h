@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The course of an iterative identifier, for pictures: single precision, one row an iteration.
 struct TraceTable {
@@ -33,18 +33,18 @@ struct Result {
 };
 
 /// One realization of one variant of a suite: the unit of work.
-struct Unit {
+struct RunUnit {
   int variant = 0;      // position in the suite's ladder; 0 without one
   int realization = 0;  // from 0
 
-  auto operator<=>(const Unit&) const = default;
+  auto operator<=>(const RunUnit&) const = default;
 };
 
 /// A finished unit: it enters the store as a whole or not at all.
 struct Realization {
-  Unit unit;
+  RunUnit unit;
   double simulation_seconds = 0;  // wall time of the plant
   std::vector<Result> results;    // one for each identifier of the suite, in its order
 };
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,13 +8,13 @@
 #include "models/foundation/excerpt.h"
 #include "scenarios/yaml.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Values of a YAML document by their dotted paths.
-using Scalars = std::map<std::string, std::string>;
+using ScalarsByPath = std::map<std::string, std::string>;
 
-void Flatten(const Tree& tree, const std::string& path, Scalars& scalars) {
+void Flatten(const Tree& tree, const std::string& path, ScalarsByPath& scalars) {
   const std::string prefix = path.empty() ? "" : path + ".";
   if (!tree.is_structured()) scalars[path] = tree.is_null() ? "nothing" : tree.get<std::string>();
   for (const auto& [name, value] : tree.items()) {
@@ -22,21 +22,21 @@ void Flatten(const Tree& tree, const std::string& path, Scalars& scalars) {
   }
 }
 
-Scalars ScalarsOf(const std::string& yaml, const char* what) {
-  Scalars scalars;
+ScalarsByPath ScalarsOf(const std::string& yaml, const char* what) {
+  ScalarsByPath scalars;
   Flatten(ParseYaml(yaml, what).tree(), "", scalars);
   return scalars;
 }
 
-std::string ValueOrNothing(const Scalars& scalars, const std::string& path) {
+std::string ValueOrNothing(const ScalarsByPath& scalars, const std::string& path) {
   const auto found = scalars.find(path);
   return found == scalars.end() ? "nothing" : found->second;
 }
 
 /// What differs, one "path: old in the directory, new asked" each.
-std::vector<std::string> Differences(const Scalars& before, const Scalars& after) {
+std::vector<std::string> Differences(const ScalarsByPath& before, const ScalarsByPath& after) {
   // paths of either suite, since both may lack some
-  Scalars paths = before;
+  ScalarsByPath paths = before;
   paths.insert(after.begin(), after.end());
   std::vector<std::string> differences;
   for (const auto& [path, value] : paths) {
@@ -59,13 +59,13 @@ void RefuseDifferentRun(const RunDescription& stored, const RunDescription& aske
     for (const auto& [name, value] : stored.versions) made += fmt::format(" {} {}", name, value);
     Refuse(place, "was made with{}, which does not mix with this; run in another directory", made);
   }
-  Scalars before;
+  ScalarsByPath before;
   try {
     before = ScalarsOf(stored.suite_yaml, "the stored suite");
   } catch (const BadInput& unreadable) {
     Refuse(place, "holds no suite that can be read ({})", unreadable.what());
   }
-  const Scalars after = ScalarsOf(asked.suite_yaml, "the suite");
+  const ScalarsByPath after = ScalarsOf(asked.suite_yaml, "the suite");
   std::vector<std::string> differences = Differences(before, after);
   if (differences.empty()) return;
 
@@ -85,4 +85,4 @@ void RefuseDifferentRun(const RunDescription& stored, const RunDescription& aske
          fmt::join(differences, "; "), more);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

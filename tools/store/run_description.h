@@ -7,7 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Two runs with equal descriptions have equal results on one kind of machine.
 struct RunDescription {
@@ -19,4 +19,4 @@ struct RunDescription {
 void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
                         const Place& place);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

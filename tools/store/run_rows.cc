@@ -9,7 +9,7 @@
 #include "tools/store/database.h"
 #include "tools/store/run_store.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// The columns of a result from its metrics on.
@@ -137,9 +137,9 @@ void RunStore::Write(std::span<const Realization> realizations) {
   });
 }
 
-std::set<Unit> RunStore::Finished() const {
+std::set<RunUnit> RunStore::Finished() const {
   return Guarded(results_file(), [&] {
-    std::set<Unit> finished;
+    std::set<RunUnit> finished;
     SQLite::Statement row(
         database_, "SELECT variant, realization FROM realization ORDER BY variant, realization");
     while (row.executeStep()) {
@@ -189,7 +189,7 @@ void RunStore::ForEachResult(const std::function<void(Result)>& work) const {
   });
 }
 
-TraceTable RunStore::ReadTrace(Unit unit, int identifier) const {
+TraceTable RunStore::ReadTrace(RunUnit unit, int identifier) const {
   return Guarded(results_file(), [&] {
     SQLite::Statement row(database_,
                           "SELECT columns, float32 FROM trace WHERE variant = ? AND realization = "
@@ -215,4 +215,4 @@ TraceTable RunStore::ReadTrace(Unit unit, int identifier) const {
   });
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include "tools/store/database.h"
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 namespace fs = std::filesystem;
 
@@ -162,4 +162,4 @@ void NoticeEditedSuite(const RunStore& store) {
             store.suite_file().string());
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

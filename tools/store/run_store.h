@@ -16,7 +16,7 @@
 #include "tools/store/result.h"
 #include "tools/store/run_description.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// How many results of one identifier have one status.
 struct StatusCount {
@@ -56,7 +56,7 @@ class RunStore {
   void Gather(const std::vector<std::filesystem::path>& shards);
 
   /// What is in.
-  std::set<Unit> Finished() const;
+  std::set<RunUnit> Finished() const;
 
   /// In the order of identifiers.
   std::vector<StatusCount> CountStatuses() const;
@@ -66,7 +66,7 @@ class RunStore {
   void ForEachResult(const std::function<void(Result)>& work) const;
 
   /// The trace of one result; empty where there is none.
-  TraceTable ReadTrace(Unit unit, int identifier) const;
+  TraceTable ReadTrace(RunUnit unit, int identifier) const;
 
   /// For questions of others; see database.cc for its tables.
   const SQLite::Database& database() const { return database_; }
@@ -89,4 +89,4 @@ std::vector<std::filesystem::path> ShardsOf(const std::filesystem::path& run);
 /// Says on stderr where RUN/suite.yaml is not the stored suite any more.
 void NoticeEditedSuite(const RunStore& store);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

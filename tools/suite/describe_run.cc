@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 RunDescription Describe(const Suite& suite) {
   RunDescription description;
@@ -22,4 +22,4 @@ RunDescription Describe(const Suite& suite) {
   return description;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

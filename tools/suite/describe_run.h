@@ -4,9 +4,9 @@
 #include "scenarios/suite.h"
 #include "tools/store/run_description.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The description of running `suite`, fully resolved, with this program and its libraries.
 RunDescription Describe(const Suite& suite);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "tools/suite/progress.h"
 #include "tools/suite/run_realization.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Longest time that finished realizations wait for the store, and so what a kill can cost.
@@ -22,8 +22,8 @@ constexpr std::chrono::milliseconds kBatchTime{200};
 
 /// Units of the shard, each realization in every variant before the next, so that an early look at
 /// the leaderboard compares the variants.
-std::vector<Unit> UnitsOf(const Suite& suite, const Shard& shard) {
-  std::vector<Unit> units;
+std::vector<RunUnit> UnitsOf(const Suite& suite, const Shard& shard) {
+  std::vector<RunUnit> units;
   const int end = shard.End(suite.realizations);
   for (int realization = shard.First(suite.realizations); realization < end; ++realization) {
     for (int variant = 0; variant < suite.variants(); ++variant) {
@@ -86,7 +86,7 @@ std::map<std::string, int> FailuresIn(const RunStore& store) {
 struct Work {
   const Suite& suite;
   const std::vector<PreparedIdentifier>& identifiers;
-  const std::vector<Unit>& units;
+  const std::vector<RunUnit>& units;
   const std::filesystem::path recordings;  // where to keep them; empty: nowhere
   std::atomic<size_t> next{0};
   std::atomic<bool> stop{false};
@@ -96,7 +96,7 @@ struct Work {
 
   bool Open() const { return !stop && !Interrupted(); }
 
-  void Count(Unit unit, const Following& joint) {
+  void Count(RunUnit unit, const Following& joint) {
     const std::lock_guard lock(counting);
     following.Add(unit, joint);
   }
@@ -112,7 +112,7 @@ void RunUnits(Work& work) {
     while (work.Open()) {
       const size_t i = work.next++;
       if (i >= work.units.size()) break;
-      const Unit unit = work.units[i];
+      const RunUnit unit = work.units[i];
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
       // simulated and identified; the results wait for the thread that stores
@@ -162,10 +162,10 @@ int Store(Work& work, RunStore& store,
 RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
                     const RunOptions& options, RunStore& store) {
   // units of this shard that are not stored yet
-  std::vector<Unit> units = UnitsOf(suite, options.shard);
+  std::vector<RunUnit> units = UnitsOf(suite, options.shard);
   const auto total = static_cast<int>(units.size());
-  const std::set<Unit> stored = store.Finished();
-  std::erase_if(units, [&](const Unit& unit) { return stored.count(unit) > 0; });
+  const std::set<RunUnit> stored = store.Finished();
+  std::erase_if(units, [&](const RunUnit& unit) { return stored.count(unit) > 0; });
   const int already = total - static_cast<int>(units.size());
 
   // no more threads than units
@@ -188,4 +188,4 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   return {finished, total, Interrupted() && finished < total, work.following};
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/shard.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// How much of a suite is run, and how.
 struct RunOptions {
@@ -35,4 +35,4 @@ struct RunOutcome {
 RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
                     const RunOptions& options, RunStore& store);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

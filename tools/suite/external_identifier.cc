@@ -26,7 +26,7 @@
 #include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -330,4 +330,4 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
   return [command](const PreparedLog& log, StartKey) { return Ask(command, log); };
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

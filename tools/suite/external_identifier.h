@@ -16,7 +16,7 @@
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/sandbox.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The suite's entry for an argument name=command. Files that the command names relative to the current directory are
 /// made absolute, for it runs in one of its own. Throws BadInput where the name or a placeholder is missing.
@@ -51,4 +51,4 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
                                    const Judging& judging = {},
                                    Confinement confinement = Confinement::sandbox);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

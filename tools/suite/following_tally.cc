@@ -4,9 +4,9 @@
 
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
-void FollowingTally::Add(Unit unit, const Following& following) {
+void FollowingTally::Add(RunUnit unit, const Following& following) {
   ++realizations_;
   if (following.Follows()) return;
   // the same one whatever order threads finish in
@@ -28,4 +28,4 @@ std::string FollowingTally::Words(const Suite& suite) const {
       astray_, realizations_, worst_unit_.realization, rung, worst_.Words());
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -8,12 +8,12 @@
 #include "scenarios/suite.h"
 #include "tools/store/result.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Counts the realizations whose joint did not follow.
 class FollowingTally {
  public:
-  void Add(Unit unit, const Following& following);
+  void Add(RunUnit unit, const Following& following);
 
   /// What is to be said of them, with the worst; empty where every joint followed.
   std::string Words(const Suite& suite) const;
@@ -21,8 +21,8 @@ class FollowingTally {
  private:
   int realizations_ = 0;
   int astray_ = 0;
-  Unit worst_unit_;
+  RunUnit worst_unit_;
   Following worst_;
 };
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 std::atomic<bool> interrupted = false;  // lock-free, so that a handler may set it
@@ -22,4 +22,4 @@ void CatchInterrupts() {
 
 bool Interrupted() { return interrupted; }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

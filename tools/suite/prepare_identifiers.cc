@@ -7,7 +7,7 @@
 #include "models/foundation/excerpt.h"
 #include "tools/suite/external_identifier.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 bool Contains(const std::vector<SuiteIdentifier>& identifiers, const std::string& label) {
@@ -72,4 +72,4 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
   return prepared;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

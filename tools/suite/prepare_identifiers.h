@@ -9,7 +9,7 @@
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/sandbox.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The suite's identifiers whose label or name is among `names`, in the order of `names`; all of them
 /// where each name begins with '+' or there is none. +NAME adds to them. A name that the suite lacks is
@@ -23,4 +23,4 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
                                                    const Place& place,
                                                    Confinement confinement = Confinement::sandbox);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 
 #include "models/foundation/random_stream.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// An identifier that gave no answer: `status` says how (crashed, timeout, ...), what() why.
 class NoAnswer : public std::runtime_error {
@@ -23,4 +23,4 @@ class NoAnswer : public std::runtime_error {
 /// An identifier with its name looked up and its options checked. Safe to call from many threads.
 using PreparedIdentifier = std::function<Estimate(const PreparedLog&, StartKey)>;
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 void Progress::Add(int finished) {
   finished_ += finished;
@@ -26,4 +26,4 @@ std::string Progress::Line(double seconds) const {
   return line;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 
 #include "tools/terminal/progress_line.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Realizations with their rate, failures so far and time left, as ProgressLine shows them. One thread at a time.
 class Progress {
@@ -31,4 +31,4 @@ class Progress {
   ProgressLine line_;
 };
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

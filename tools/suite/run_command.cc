@@ -20,7 +20,7 @@
 #include "tools/terminal/exec_words.h"
 #include "tools/terminal/shell_words.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -172,4 +172,4 @@ CommandEnd RunCommand(const CommandTask& task) {
   return end;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

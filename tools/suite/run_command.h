@@ -8,7 +8,7 @@
 
 #include "tools/suite/sandbox.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// What a command may use.
 struct CommandLimits {
@@ -59,4 +59,4 @@ std::string FindProgram(const std::string& name);
 /// where no process can be made, OutputFailed where the directory cannot be filled. Safe on many threads.
 CommandEnd RunCommand(const CommandTask& task);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -14,7 +14,7 @@
 #include "tools/suite/start_key.h"
 #include "tools/suite/trace_table.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 class Stopwatch {
@@ -85,7 +85,7 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 
 }  // namespace
 
-void RecordingKeeper::Keep(const Simulation& recording, Unit unit) const {
+void RecordingKeeper::Keep(const Simulation& recording, RunUnit unit) const {
   if (folder_.empty()) return;
   const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
   std::filesystem::create_directories(folder);
@@ -97,7 +97,7 @@ void RecordingKeeper::Keep(const Simulation& recording, Unit unit) const {
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
 RealizationResult RunRealization(const Bench& bench,
-                                 const std::vector<PreparedIdentifier>& identifiers, Unit unit,
+                                 const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
                                  const RecordingKeeper& keeper) {
   const auto realized = static_cast<std::uint64_t>(unit.realization);
   RealizationResult done;
@@ -134,4 +134,4 @@ RealizationResult RunRealization(const Bench& bench,
   return done;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include "tools/store/result.h"
 #include "tools/suite/prepared_identifier.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A scenario with its plant, for one thread.
 struct Bench {
@@ -31,7 +31,7 @@ class RecordingKeeper {
   explicit RecordingKeeper(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Writes variant-V/realization-R.h5 and beside it realization-R.truth.json.
-  void Keep(const Simulation& recording, Unit unit) const;
+  void Keep(const Simulation& recording, RunUnit unit) const;
 
  private:
   std::filesystem::path folder_;
@@ -47,7 +47,7 @@ struct RealizationResult {
 /// identifier on it. Never throws for what happens in a plant or an identifier: it becomes the
 /// status and message of the results concerned.
 RealizationResult RunRealization(const Bench& bench,
-                                 const std::vector<PreparedIdentifier>& identifiers, Unit unit,
+                                 const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
                                  const RecordingKeeper& keeper);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

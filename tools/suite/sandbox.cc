@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <system_error>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
@@ -143,4 +143,4 @@ bool Sandbox::Enter(const char* own) const noexcept {
          syscall(SYS_landlock_restrict_self, ruleset_, 0) == 0;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Version of the kernel's Landlock: 0 where there is none; from 3 on it keeps files elsewhere from being emptied, from 4
 /// on it closes the network (TCP), from 6 on it stops signals to processes outside.
@@ -46,4 +46,4 @@ class Sandbox {
   int ruleset_ = -1;
 };
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 Shard ReadShard(const std::string& text) {
   // whole numbers on both sides of the stroke
@@ -18,4 +18,4 @@ Shard ReadShard(const std::string& text) {
   Refuse({"--shard"}, "is '{}'; give i/n with 1 <= i <= n, for example 1/4", Excerpt(text));
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

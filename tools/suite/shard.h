@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 inline constexpr int kMostShards = 1'000'000;
 
@@ -26,4 +26,4 @@ struct Shard {
 /// Reads "i/n", 1 <= i <= n. Throws BadInput for anything else.
 Shard ReadShard(const std::string& text);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

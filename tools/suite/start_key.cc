@@ -6,7 +6,7 @@
 
 #include "models/foundation/sha256.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 StartKey StartKeyOf(std::uint64_t seed, std::uint64_t realization) {
   const std::string digits =
@@ -18,4 +18,4 @@ StartKey StartKeyOf(std::uint64_t seed, std::uint64_t realization) {
   return key;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr int kNotExecutable = 126, kNoStart = 127;  // exit statuses, as shells have them
@@ -232,4 +232,4 @@ void Supervise(const Supervision& supervision, pid_t parent) noexcept {
   _exit(0);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "tools/suite/run_command.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// What the supervisor tells, in memory that it shares with this program.
 struct Verdict {
@@ -34,4 +34,4 @@ struct Supervision {
 /// losing its parent; a command whose `parent` ended is ended, too.
 [[noreturn]] void Supervise(const Supervision& supervision, pid_t parent) noexcept;
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

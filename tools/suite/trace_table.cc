@@ -7,7 +7,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 using Values = std::map<std::string, double>;
@@ -75,4 +75,4 @@ TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& sco
   return table;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

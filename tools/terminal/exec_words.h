@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Pointers to the words, which must outlive them, with a null pointer behind.
 inline std::vector<char*> ExecWords(std::vector<std::string>& words) {
@@ -14,4 +14,4 @@ inline std::vector<char*> ExecWords(std::vector<std::string>& words) {
   return pointers;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr std::chrono::milliseconds kOnTerminal{100};
@@ -103,4 +103,4 @@ void Activity::Aside(const std::function<void()>& print) {
   print();
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

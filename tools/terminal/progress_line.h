@@ -10,7 +10,7 @@
 
 #include "tools/terminal/say.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// On a terminal one line, cut to its width, drawn anew at most ten times a second and gone at the end; into a pipe or
 /// a file a line every ten seconds, so that a log shows that the job lives. One thread at a time.
@@ -66,4 +66,4 @@ class Activity {
   std::jthread thread_;  // last: it uses all of the above
 };
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

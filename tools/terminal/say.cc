@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdlib>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 std::atomic<bool> quiet{false};  // progress is drawn by a thread of its own
@@ -44,4 +44,4 @@ void BeQuiet() { quiet = true; }
 
 bool IsQuiet() { return quiet; }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

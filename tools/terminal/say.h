@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// A stream as its reader sees it.
 struct Page {
@@ -42,4 +42,4 @@ void SayNotice(fmt::format_string<Args...> format, Args&&... args) {
   if (!IsQuiet()) fmt::print(stderr, format, std::forward<Args>(args)...);
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -5,7 +5,7 @@
 
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -78,4 +78,4 @@ std::string JoinCommand(const std::vector<std::string>& words) {
   return command;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// The words of a command: blanks part them, '...' and "..." hold them together, a backslash takes the
 /// next character as it is. Nothing is expanded. Throws BadInput from `place` for a quote without
@@ -19,4 +19,4 @@ std::string JoinCommand(const std::vector<std::string>& words);
 /// The text with every `from` replaced.
 std::string Replaced(std::string text, const std::string& from, const std::string& to);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Columns that a cell takes: its characters, each of which has one byte that continues no other.
@@ -74,4 +74,4 @@ std::string TableToMarkdown(const Table& given, size_t left) {
   return text;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

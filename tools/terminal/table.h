@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Cells as text: a header and rows of as many cells.
 struct Table {
@@ -18,4 +18,4 @@ std::string TableToText(const Table& table, size_t left);
 /// The same as a Markdown table.
 std::string TableToMarkdown(const Table& table, size_t left);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// Whether the numbers can be trusted, and if not, why.
 enum class Status { ok, not_converged, not_identifiable, inadequate_model, bad_data };
@@ -412,4 +412,4 @@ Estimate ReadEstimate(const std::filesystem::path& file);
 /// moved together. Throws BadInput and OutputFailed.
 void WriteEstimate(const Estimate& estimate, const std::filesystem::path& file);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 struct LogView {
   Measurements measurements;
@@ -197,4 +197,4 @@ RecordingCheck CheckRecording(const Measurements& measurements);
 /// Lines for people: sampling, motion, speeds in each direction, faults, and what can be identified.
 std::string CheckToText(const RecordingCheck& check);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline identification {
+namespace warmjoint {
 
 /// One parameter of the truth.
 struct ParameterScore {
@@ -59,4 +59,4 @@ Score ScoreEstimate(const Estimate& estimate, const PreparedLog& log, const Trut
 /// estimate, truth: [d], the same parameters in the same order. Throws BadInput for unlike lengths and a truth of 0.
 double NormalisedParameterError(const Eigen::VectorXd& estimate, const Eigen::VectorXd& truth);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint

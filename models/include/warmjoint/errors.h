@@ -8,7 +8,7 @@
 #define WARMJOINT_VERSION_MINOR 1
 #define WARMJOINT_VERSION_PATCH 0
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Version of the library that is linked, "0.1.0"; the macros above are those of the headers.
 std::string Version();
@@ -27,4 +27,4 @@ class OutputFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 class Node;  // a value of a file (models/foundation/node.h)
 
@@ -61,4 +61,4 @@ std::string_view NameOf(E value) {
   return "";
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 enum class JointKind { rotary, linear };
 
@@ -339,4 +339,4 @@ Friction FrictionFromJson(const std::string& text, const std::string& name = "fr
 /// A friction in a file is read so.
 void ReadValue(const Node& node, Friction* value, const FieldInfo& info);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Where a joint is, besides its direction and speed.
 struct JointPlace {
@@ -129,4 +129,4 @@ class FrictionModel {
   std::shared_ptr<const State> state_;
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// Covariance of some of an estimate's values.
 struct ParameterCovariance {
@@ -24,4 +24,4 @@ struct ParameterCovariance {
   }
 };
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline models {
+namespace warmjoint {
 
 /// A time without samples.
 struct LogGap {
@@ -201,4 +201,4 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
 /// OutputFailed; nothing half-written stays.
 void WriteRecording(const Measurements& measurements, const std::filesystem::path& file);
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint

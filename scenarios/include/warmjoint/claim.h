@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace warmjoint::inline scenarios {
+namespace warmjoint {
 
 /// Figures that a claim can name: relative errors (0.05 is 5 %), N.m or N, N.m or N, %, (N.m)^2.
 inline constexpr std::array<const char*, 6> kClaimFigures{
@@ -33,4 +33,4 @@ struct Claim {
   bool operator==(const Claim&) const = default;
 };
 
-}  // namespace warmjoint::inline scenarios
+}  // namespace warmjoint

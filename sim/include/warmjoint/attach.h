@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// How friction acts in a model.
 enum class FrictionForm {
@@ -81,4 +81,4 @@ Attached AttachFriction(const std::filesystem::path& model,
 /// friction looks like in MuJoCo, to try out or to copy from.
 std::string MinimalModel(const Friction& friction, JointKind kind);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

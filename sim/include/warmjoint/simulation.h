@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace warmjoint::inline sim {
+namespace warmjoint {
 
 /// The truth behind Measurements of the same N samples.
 struct Truth {
@@ -98,4 +98,4 @@ Simulation Simulate(const std::filesystem::path& scenario, const SimulateSetting
 Truth ReadTruth(const std::filesystem::path& file);
 void WriteTruth(const Truth& truth, const std::filesystem::path& file);
 
-}  // namespace warmjoint::inline sim
+}  // namespace warmjoint

@@ -51,7 +51,7 @@ class Run {
   const std::string& bytes() const { return bytes_; }
 
  private:
-  static Realization Whole(Unit unit) {
+  static Realization Whole(RunUnit unit) {
     Realization whole{unit, 0.5, {}};
     for (int identifier = 0; identifier < 2; ++identifier) {
       Result result;
@@ -107,7 +107,7 @@ void Read(std::string_view bytes) {
   const RunStore store = RunStore::OpenToRead(run.folder());
   const Suite& suite = store.suite();
   store.ForEachResult([&](const Result& result) {
-    const Unit unit{result.variant, result.realization};
+    const RunUnit unit{result.variant, result.realization};
     fuzz::Require(0 <= result.variant && result.variant < suite.variants());
     fuzz::Require(0 <= result.realization && result.realization < suite.realizations);
     fuzz::Require(result.identifier >= 0 &&

@@ -10,9 +10,9 @@ namespace warmjoint {
 namespace {
 
 using ::testing::HasSubstr;
-using Given = std::map<std::string, std::string>;
+using Texts = std::map<std::string, std::string>;
 
-Estimate Identify(const Measurements& measurements, const Given& given = {}, StartKey key = {}) {
+Estimate Identify(const Measurements& measurements, const Texts& given = {}, StartKey key = {}) {
   return test::Fitted("energy-als", measurements, given, key);
 }
 
@@ -98,8 +98,8 @@ TEST(EnergyAls, SaysThatFiftyIterationsAreTooFewForSteadyMotion) {
 TEST(EnergyAls, ExtrapolatesItsDistanceToTheEnd) {
   // the message's distance after 100 iterations is what 1000 more then move, to its two digits
   const Measurements recording = TableOneRecording(3);
-  const Given start{{"start", "options"}, {"start_gain", "-1"}, {"start_time_constant", "300"}};
-  Given hundred = start, many = start;
+  const Texts start{{"start", "options"}, {"start_gain", "-1"}, {"start_time_constant", "300"}};
+  Texts hundred = start, many = start;
   hundred["iterations"] = "100";
   hundred["tolerance"] = "1e-9";
   many["iterations"] = "1500";
@@ -143,7 +143,7 @@ TEST(EnergyAls, TracesTheStartAndEveryIteration) {
 
 TEST(EnergyAls, DrawsItsStartFromItsKeyAlone) {
   const Measurements recording = TableOneRecording(5);
-  const Given given{{"start", "random"}, {"iterations", "1"}};
+  const Texts given{{"start", "random"}, {"iterations", "1"}};
   const auto first = Identify(recording, given, {7, 1}).trace[0].parameters;
   EXPECT_EQ(Identify(recording, given, {7, 1}).trace[0].parameters, first);
   EXPECT_NE(Identify(recording, given, StartKey{{7, 2}}).trace[0].parameters, first);
@@ -170,7 +170,7 @@ TEST(EnergyAls, FitsAMapOverPositionBesideTheLaw) {
   truth.maps = {test::PositionLevel(1.5, 0.06)};
   const Eigen::VectorXd motion = test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5, 2});
   const Measurements m = test::RecordFriction(truth, 0.2, motion, 0.01, 11);
-  const Given given{{"position", "map"},
+  const Texts given{{"position", "map"},
                     {"kernels", "30"},
                     {"width", "1"},
                     {"iterations", "500"},

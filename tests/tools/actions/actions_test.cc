@@ -44,22 +44,22 @@ class InitialEnergyOfAFile : public testing::Test {
 };
 
 TEST_F(InitialEnergyOfAFile, IsNoneWhereCold) {
-  EXPECT_TRUE(InitialEnergy("cold", Warm(true), "no such file").empty());
+  EXPECT_TRUE(InitialEnergies("cold", Warm(true), "no such file").empty());
 }
 
 TEST_F(InitialEnergyOfAFile, IsThatAtTheEndAsANumberOrWithItsInterval) {
   const std::string number = Estimate(R"(, "state_end": {"energy": -2.5})");
-  EXPECT_THAT(InitialEnergy("end", Warm(false), number), ElementsAre(-2.5));
+  EXPECT_THAT(InitialEnergies("end", Warm(false), number), ElementsAre(-2.5));
   const std::string interval = Estimate(
       R"(, "state_end": {"energy": {"value": -2.5, "std": 0.1, "interval95": [-2.7, -2.3]},
                          "second_energy": -0.5})");
-  EXPECT_THAT(InitialEnergy("end", Warm(true), interval), ElementsAre(-2.5, -0.5));
+  EXPECT_THAT(InitialEnergies("end", Warm(true), interval), ElementsAre(-2.5, -0.5));
 }
 
 TEST_F(InitialEnergyOfAFile, AtTheEndIsRefusedWhereTheFileHasNone) {
   const auto refuses = [&](const std::string& end, bool two_stages, const char* says) {
     const std::string file = Estimate(end);
-    EXPECT_THAT([&] { InitialEnergy("end", Warm(two_stages), file); },
+    EXPECT_THAT([&] { InitialEnergies("end", Warm(two_stages), file); },
                 ThrowsMessage<BadInput>(AllOf(HasSubstr("estimate.json"), HasSubstr(says))));
   };
   refuses("", false, "has no state_end");
@@ -71,12 +71,12 @@ TEST_F(InitialEnergyOfAFile, AtTheEndIsRefusedWhereTheFileHasNone) {
 TEST_F(InitialEnergyOfAFile, SettledIsTheClosedForm) {
   // E = k v F0 / (1 - k v), F0 = 5 v + 15
   const double v = 0.2, settled = -3 * v * (5 * v + 15) / (1 + 3 * v);
-  const std::vector<double> energies = InitialEnergy("settled:0.2", Warm(false), "a file");
+  const std::vector<double> energies = InitialEnergies("settled:0.2", Warm(false), "a file");
   ASSERT_EQ(energies.size(), 1U);
   EXPECT_NEAR(energies[0], settled, 1e-9);
-  EXPECT_THAT([&] { InitialEnergy("settled:fast", Warm(false), "a file"); },
+  EXPECT_THAT([&] { InitialEnergies("settled:fast", Warm(false), "a file"); },
               ThrowsMessage<BadInput>(HasSubstr("rad/s")));
-  EXPECT_THAT([&] { InitialEnergy("warm", Warm(false), "a file"); },
+  EXPECT_THAT([&] { InitialEnergies("warm", Warm(false), "a file"); },
               ThrowsMessage<BadInput>(HasSubstr("cold, end or settled:SPEED")));
 }
 
@@ -132,7 +132,7 @@ identifiers: [{name: energy-ml}, {name: external, label: mine, options: {command
 
 TEST(ReplayUnit, GivesTheAnswerThatTheRunHad) {
   const Suite suite = ParseSuite(kSuite, "little.yaml");
-  const Unit unit{1, 2};
+  const RunUnit unit{1, 2};
   const Replayed replayed = ReplayUnit(suite, unit, suite.identifiers[0]);
   const auto identifiers = PrepareIdentifiers({suite.identifiers[0]}, {"little.yaml"});
   const RealizationResult run =

@@ -52,7 +52,7 @@ Leaderboard BoardOf(const std::vector<Result>& results, const std::string& more 
   RunStore store = RunStore::CreateOrResume(scratch.path() / "run", LittleRun(more));
   std::vector<Realization> units;
   for (const Result& result : results) {
-    const Unit unit{result.variant, result.realization};
+    const RunUnit unit{result.variant, result.realization};
     if (units.empty() || units.back().unit != unit) units.push_back({unit, 0.1, {}});
     units.back().results.push_back(result);
   }

@@ -70,7 +70,7 @@ TEST_F(RunStoreTest, ReadsBackWhatWasWritten) {
   EXPECT_EQ(store.description().suite_yaml, LittleRun().suite_yaml);
   EXPECT_EQ(store.description().versions, LittleRun().versions);
   EXPECT_EQ(store.suite().identifiers.at(1).label, "b");
-  EXPECT_THAT(store.Finished(), ElementsAre(Unit{0, 1}, Unit{0, 3}));
+  EXPECT_THAT(store.Finished(), ElementsAre(RunUnit{0, 1}, RunUnit{0, 3}));
 
   // rows come in the order of (realization, identifier), numbers bit for bit
   const std::vector<Result> results = ResultsOf(store);
@@ -101,7 +101,7 @@ TEST_F(RunStoreTest, ReadsBackWhatWasWritten) {
 TEST_F(RunStoreTest, ABatchIsInAsAWholeOrNotAtAll) {
   RunStore store = Make("run", {0});
   EXPECT_ANY_THROW(store.Write(std::vector{TwoResults(1), TwoResults(0)}));
-  EXPECT_THAT(store.Finished(), ElementsAre(Unit{0, 0}));
+  EXPECT_THAT(store.Finished(), ElementsAre(RunUnit{0, 0}));
   EXPECT_EQ(ResultsOf(store).size(), 2u);
 }
 

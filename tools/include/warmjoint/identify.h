@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// What becomes of the numbers of a model that the verdict finds inadequate.
 enum class VoidNumbers { withhold, show };
@@ -80,4 +80,4 @@ FrictionForJoint ReadFrictionForJoint(const std::string& joint, const std::strin
                                       const std::string& initial,
                                       std::vector<std::string>& warnings);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

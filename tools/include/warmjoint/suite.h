@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// Whether commands run within a sandbox, or with all that the user may do.
 enum class Confinement { sandbox, none };
@@ -138,4 +138,4 @@ Leaderboard ReadLeaderboard(const std::filesystem::path& directory);
 std::string FormatLeaderboard(const std::filesystem::path& directory,
                               const std::string& format = "text");
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string_view>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 constexpr std::size_t kBriefly = 3;  // remarks
@@ -82,4 +82,4 @@ std::vector<std::string> BriefRemarks(const Estimate& estimate) {
   return brief;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 
 /// All that an estimate says beside its status, a sentence each: its message, then its warnings.
 std::vector<std::string> Remarks(const Estimate& estimate);
@@ -15,4 +15,4 @@ std::vector<std::string> Remarks(const Estimate& estimate);
 /// and what must be known before numbers that pass are used, each warning by its first clause and its last.
 std::vector<std::string> BriefRemarks(const Estimate& estimate);
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

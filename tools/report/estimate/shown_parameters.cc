@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint::inline tools {
+namespace warmjoint {
 namespace {
 
 /// Whether only the prior of a map tells this parameter.
@@ -42,4 +42,4 @@ std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate) {
   return shown;
 }
 
-}  // namespace warmjoint::inline tools
+}  // namespace warmjoint

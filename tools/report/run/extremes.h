@@ -12,7 +12,7 @@ namespace warmjoint::report {
 /// A realization by its rank in parameter error.
 struct Extreme {
   std::string rank;  // "best", "median", "worst"
-  Unit unit;
+  RunUnit unit;
   double npe = 0;  // continuous, 0.01 is 1 %
 };
 

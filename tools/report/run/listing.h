@@ -11,7 +11,7 @@ namespace warmjoint::report {
 
 /// What one identifier made of one realization.
 struct ListedAnswer {
-  Unit unit;
+  RunUnit unit;
   int identifier = 0;  // position in the suite's list
   std::string status;
   double npe = 0, rmse = 0, fit = 0;  // 0.01 is 1 %; N.m or N; %; NaN without an answer

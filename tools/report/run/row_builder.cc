@@ -59,11 +59,11 @@ void Fill(Course& course, Index row, const TraceTable& trace) {
   }
 }
 
-Course ReadCourse(const RunStore& store, const std::vector<Unit>& units, int identifier) {
+Course ReadCourse(const RunStore& store, const std::vector<RunUnit>& units, int identifier) {
   std::vector<TraceTable> traces;
   const TraceTable* longest = nullptr;
   // the longest trace says how many iterations there are
-  for (const Unit& unit : units) traces.push_back(store.ReadTrace(unit, identifier));
+  for (const RunUnit& unit : units) traces.push_back(store.ReadTrace(unit, identifier));
   for (const TraceTable& trace : traces) {
     if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
   }

@@ -30,7 +30,7 @@ class RowBuilder {
     Numbers estimate, truth, bound;
   };
 
-  std::vector<Unit> units_;  // the first ones, for courses
+  std::vector<RunUnit> units_;  // the first ones, for courses
   int runs_ = 0;
   int identifier_ = 0;
   std::map<std::string, int> failures_;
