@@ -18,7 +18,7 @@ inline constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "to
 /// kind of gravity: heat (gain, time constant), start, jump, inertia and lag.
 std::string NameOf(Role role, int which = 0);
 
-/// A parameter of any table (parameter_info.h) with its value.
+/// A parameter of any table with its value.
 FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
                             const Measurements& measurements);
 

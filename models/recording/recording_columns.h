@@ -45,8 +45,8 @@ struct ColumnSource {
 
 /// Finds our columns among the names that a file has. Throws BadInput for a missing column (naming
 /// what is there and the --map that would help), one that stands there twice, and unknown names
-/// and units in the layout. A temperature that nothing names is found by its unit
-/// (temperature_column.h). place: of the header.
+/// and units in the layout. A temperature that nothing names is found by its unit.
+/// place: of the header.
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const ReadSettings& layout, const Place& place);
 

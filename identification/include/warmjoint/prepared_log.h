@@ -50,7 +50,7 @@ class MadeOnce {
 /// that happens between two samples (split_at_switches.h), the speed between segments from the
 /// positions where they tell more of it (take_ways.h), and the faults of the log. Where the log
 /// has no velocity, its positions tell it (motion_from_positions.h). Only Prepare
-/// (prepare.h) makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
+/// makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
 /// copies share the samples.
 class PreparedLog {
  public:

@@ -62,7 +62,7 @@ struct Following {
   /// joint moved within 5 % of it; 1 where it asks for none.
   double share = 1;
   double bandwidth = 0;   // of the drive, rad/s; 0: the plant has none, and follows exactly
-  double sufficient = 0;  // bandwidth that does (drive_bandwidth.h), rad/s
+  double sufficient = 0;  // bandwidth that does, rad/s
   double timestep = 0;    // s, whole part of the scenario's that allows it; 0: the scenario's does
 
   /// Whether the recording holds the motion that was asked for.
