@@ -5,7 +5,7 @@
 
 #include "sim/plant/plant.h"
 #include "tools/suite/prepare_identifiers.h"
-#include "tools/suite/start_key.h"
+#include "tools/suite/run_realization.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {

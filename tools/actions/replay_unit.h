@@ -5,7 +5,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include "scenarios/suite.h"
-#include "tools/store/result.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint {
 

@@ -1,13 +1,20 @@
 #include "tools/actions/run_task.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
 #include <thread>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "sim/plant/plant.h"
 #include "tools/board/format_board.h"
+#include "tools/store/database.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
+#include "tools/suite/external_identifier.h"
 #include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint {
@@ -42,6 +49,29 @@ void RefuseTooMany(const Suite& suite, const Shard& shard, const Place& place) {
          "{:g} at most: give fewer realizations, or more shards",
          results, suite.realizations, suite.variants(), suite.identifiers.size(), shard.count,
          most);
+}
+
+/// Refuses a command that a suite brings along and nobody has agreed to: a suite from elsewhere would be
+/// a program.
+void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& arguments) {
+  const auto command = identifier.options.find("command");
+  if (identifier.name != kExternal || command == identifier.options.end()) return;
+  // commands of a suite run only where the user trusts them
+  if (arguments.allow_commands) return;
+  Refuse({arguments.suite},
+         "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
+         Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
+}
+
+/// What an identifier said first.
+std::string FirstWords(const RunStore& store, int identifier) {
+  return Guarded(store.results_file(), [&] {
+    SQLite::Statement first(store.database(),
+                            "SELECT status || ': ' || message FROM result WHERE identifier = ? "
+                            "ORDER BY variant, realization LIMIT 1");
+    first.bind(1, identifier);
+    return first.executeStep() ? first.getColumn(0).getString() : "";
+  });
 }
 
 }  // namespace
@@ -83,6 +113,62 @@ RunEnding Run(const RunArguments& arguments, const std::function<void(int, int)>
   ending.realizations = outcome.finished;
   ending.not_following = outcome.following.Words(task.suite);
   return ending;
+}
+
+Suite ResolveSuite(const RunArguments& arguments) {
+  Suite suite = ReadSuite(arguments.suite);
+  // what the command line says goes over the suite
+  if (arguments.realizations) suite.realizations = static_cast<int>(*arguments.realizations);
+  if (arguments.seed) suite.scenario.seed = *arguments.seed;
+  // commands find their files wherever the run is started from
+  for (SuiteIdentifier& identifier : suite.identifiers) {
+    identifier = WithFilesOfSuite(std::move(identifier), arguments.suite);
+  }
+  const std::vector<SuiteIdentifier> own = suite.identifiers;
+  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers);
+  for (const SuiteIdentifier& identifier : suite.identifiers) {
+    // what the command line itself names was agreed to by naming it
+    const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();
+    if (brought) RefuseCommand(identifier, arguments);
+  }
+  return suite;
+}
+
+RunEnding EndingOf(const RunStore& store) {
+  static const std::set<std::string> unanswered{"crashed", "timeout", "bad_answer"};
+  RunEnding ending;
+  std::set<int> all, answered;
+  for (const StatusCount& count : store.CountStatuses()) {
+    // no answer, no log to answer on, or an answer that the tests refuse
+    const bool silent = unanswered.contains(count.status);
+    const bool absent = count.status == "not_simulated";
+    ending.results += count.results;
+    if (silent) ending.unanswered += count.results;
+    if (absent) ending.not_simulated += count.results;
+    if (!silent && !absent && count.status != "ok") ending.refused += count.results;
+    // a refusal is an answer, silence is none
+    all.insert(count.identifier);
+    if (!silent && !absent) answered.insert(count.identifier);
+  }
+
+  // identifiers that never answered, each with its first reason
+  for (std::size_t i = 0; i < store.suite().identifiers.size(); ++i) {
+    const auto identifier = static_cast<int>(i);
+    if (!all.contains(identifier) || answered.contains(identifier)) continue;
+    ending.silent.emplace_back(store.suite().identifiers[i].label, FirstWords(store, identifier));
+  }
+  return ending;
+}
+
+std::string CountsInWords(const RunEnding& ending) {
+  std::string words = fmt::format("{} results", ending.results);
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) words += fmt::format(", {} {}", count, what);
+  };
+  add(ending.refused, "refused by their own verdict");
+  add(ending.unanswered, "without an answer");
+  add(ending.not_simulated, "not simulated");
+  return words;
 }
 
 }  // namespace warmjoint

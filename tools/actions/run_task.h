@@ -1,15 +1,27 @@
 // What `run` does before and after the realizations of a suite.
 #pragma once
 
+#include <warmjoint/suite.h>
+
+#include <string>
 #include <vector>
 
-#include "tools/actions/run_arguments.h"
-#include "tools/actions/run_ending.h"
+#include "scenarios/suite.h"
 #include "tools/store/run_store.h"
+#include "tools/suite/engine.h"
 #include "tools/suite/prepared_identifier.h"
-#include "tools/suite/shard.h"
 
 namespace warmjoint {
+
+/// The suite with what the command line changes. Throws BadInput for a command that the suite brings
+/// along and nobody has agreed to.
+Suite ResolveSuite(const RunArguments& arguments);
+
+/// Sums up a store.
+RunEnding EndingOf(const RunStore& store);
+
+/// "200 results, 99 refused by their own verdict, 1 without an answer".
+std::string CountsInWords(const RunEnding& ending);
 
 /// A run that was asked for and checked.
 struct RunTask {

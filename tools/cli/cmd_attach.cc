@@ -109,7 +109,8 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
   std::vector<std::string> names;
   for (const auto& [name, unused] : kIntegrators) names.push_back(name);
   const auto take = [&arguments](const std::string& given) {
-    arguments.options.integrator = kIntegrators.at(given);
+    const auto found = kIntegrators.find(given);
+    if (found != kIntegrators.end()) arguments.options.integrator = found->second;
   };
   AddChoice(parser, "--integrator", ChoiceTarget{"", take}, names, "integrator of the result");
   parser.add_option("--timestep", arguments.options.timestep, "step of the result, s")

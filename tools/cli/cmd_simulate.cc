@@ -20,7 +20,7 @@
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
 #include "tools/store/run_store.h"
-#include "tools/suite/following_tally.h"
+#include "tools/suite/engine.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 

@@ -1,9 +1,9 @@
 // What `run` and `merge` say of a run.
 #pragma once
 
-#include "tools/actions/run_ending.h"
+#include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
-#include "tools/suite/following_tally.h"
+#include "tools/suite/engine.h"
 
 namespace warmjoint {
 

@@ -12,7 +12,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "scenarios/yaml.h"
-#include "tools/actions/project_file.h"
+#include "tools/actions/recording_source.h"
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 

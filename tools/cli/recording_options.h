@@ -20,7 +20,7 @@ void AddHoldOptions(CLI::App& parser, PrepareSettings& holds);
 /// Adds --follows and --pause.
 void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier);
 
-/// Takes what the project file (project_file.h) beside the recordings says where the command line does not
+/// Takes what the project file beside the recordings says where the command line does not
 /// say it itself: single columns of map, unit and scale, and whole values of the others. Tells on
 /// stderr, in a line, what it took, and puts it into arguments.project. Does nothing with --no-project,
 /// or where no file is. parser: the subcommand's, after parsing. Throws BadInput as ParseProject does,

@@ -11,7 +11,7 @@
 #include "models/foundation/node.h"
 #include "models/foundation/read_json.h"
 #include "scenarios/suite.h"
-#include "tools/suite/shard.h"
+#include "tools/suite/engine.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;

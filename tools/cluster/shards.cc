@@ -21,7 +21,7 @@
 #include "tools/store/folders.h"
 #include "tools/suite/interrupt.h"
 #include "tools/suite/progress.h"
-#include "tools/terminal/exec_words.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;

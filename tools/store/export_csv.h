@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "tools/store/result.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint {

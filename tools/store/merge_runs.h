@@ -6,7 +6,6 @@
 #include <set>
 #include <vector>
 
-#include "tools/store/result.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint {

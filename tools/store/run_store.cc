@@ -10,6 +10,7 @@
 
 namespace warmjoint {
 namespace {
+
 namespace fs = std::filesystem;
 
 constexpr const char* kResultsFile = "results.sqlite";

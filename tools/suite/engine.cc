@@ -1,5 +1,7 @@
 #include "tools/suite/engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -9,6 +11,9 @@
 #include <thread>
 #include <utility>
 
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
 #include "sim/plant/plant.h"
 #include "tools/suite/interrupt.h"
 #include "tools/suite/progress.h"
@@ -186,6 +191,40 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   for (int i = 0; i < workers; ++i) threads.emplace_back(RunUnits, std::ref(work));
   const int finished = already + Store(work, store, tell);
   return {finished, total, Interrupted() && finished < total, work.following};
+}
+
+void FollowingTally::Add(RunUnit unit, const Following& following) {
+  ++realizations_;
+  if (following.Follows()) return;
+  // the same one whatever order threads finish in
+  const bool worse =
+      following.share < worst_.share || (following.share == worst_.share && unit < worst_unit_);
+  if (astray_++ > 0 && !worse) return;
+  worst_ = following;
+  worst_unit_ = unit;
+}
+
+std::string FollowingTally::Words(const Suite& suite) const {
+  if (astray_ == 0) return "";
+  const auto variant = static_cast<std::size_t>(worst_unit_.variant);
+  const std::string rung =
+      suite.ladder ? " of " + Excerpt(suite.ladder->variants[variant].name) : "";
+  return fmt::format(
+      "in {} of {} simulated realizations the joint did not follow its motion. In "
+      "realization {}{} {}",
+      astray_, realizations_, worst_unit_.realization, rung, worst_.Words());
+}
+
+Shard ReadShard(const std::string& text) {
+  // whole numbers on both sides of the stroke
+  if (const size_t stroke = text.find('/'); stroke != std::string::npos) {
+    const auto index = ParseInteger(text.substr(0, stroke));
+    const auto count = ParseInteger(text.substr(stroke + 1));
+    if (index && count && 1 <= *index && *index <= *count && *count <= kMostShards) {
+      return {static_cast<int>(*index), static_cast<int>(*count)};
+    }
+  }
+  Refuse({"--shard"}, "is '{}'; give i/n with 1 <= i <= n, for example 1/4", Excerpt(text));
 }
 
 }  // namespace warmjoint

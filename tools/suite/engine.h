@@ -1,15 +1,52 @@
 // All realizations of a suite on all cores.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
+#include <cstdint>
 #include <functional>
+#include <string>
 
 #include "scenarios/suite.h"
 #include "tools/store/run_store.h"
-#include "tools/suite/following_tally.h"
 #include "tools/suite/prepared_identifier.h"
-#include "tools/suite/shard.h"
 
 namespace warmjoint {
+
+/// Counts the realizations whose joint did not follow.
+class FollowingTally {
+ public:
+  void Add(RunUnit unit, const Following& following);
+
+  /// What is to be said of them, with the worst; empty where every joint followed.
+  std::string Words(const Suite& suite) const;
+
+ private:
+  int realizations_ = 0;
+  int astray_ = 0;
+  RunUnit worst_unit_;
+  Following worst_;
+};
+
+inline constexpr int kMostShards = 1'000'000;
+
+/// Part `index` (from 1) of `count`: a block of realizations, in all variants; the blocks follow one
+/// another, and their sizes differ by 1 at most. The default is the whole.
+struct Shard {
+  int index = 1;
+  int count = 1;
+
+  /// Its first realization, and one beyond its last.
+  int First(int realizations) const { return Shard{index - 1, count}.End(realizations); }
+  int End(int realizations) const {
+    return static_cast<int>(std::int64_t{index} * realizations / count);
+  }
+
+  bool IsWhole() const { return count == 1; }
+};
+
+/// Reads "i/n", 1 <= i <= n. Throws BadInput for anything else.
+Shard ReadShard(const std::string& text);
 
 /// How much of a suite is run, and how.
 struct RunOptions {

@@ -17,7 +17,6 @@
 
 #include "models/foundation/output_failed.h"
 #include "tools/suite/supervisor.h"
-#include "tools/terminal/exec_words.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {

@@ -1,16 +1,20 @@
 // One realization from plant to scores.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/score.h>
 #include <warmjoint/simulation.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "models/foundation/random_stream.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "tools/store/result.h"
+#include "tools/store/run_store.h"
 #include "tools/suite/prepared_identifier.h"
 
 namespace warmjoint {
@@ -49,5 +53,14 @@ struct RealizationResult {
 RealizationResult RunRealization(const Bench& bench,
                                  const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
                                  const RecordingKeeper& keeper);
+
+/// Each iteration's fit, its NPE in both parametrisations, Eq. (26), and its parameters. Where a
+/// trace has one thermal pair alone, the other follows by Eq. (22). `score` holds the truth.
+/// step: sampling interval, s.
+TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& score, double step);
+
+/// SHA-256 of the suite's seed and the realization: the same for every run of the suite, and no way
+/// back to the random numbers of truth, motion and noise.
+StartKey StartKeyOf(std::uint64_t seed, std::uint64_t realization);
 
 }  // namespace warmjoint

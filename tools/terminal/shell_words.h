@@ -19,4 +19,12 @@ std::string JoinCommand(const std::vector<std::string>& words);
 /// The text with every `from` replaced.
 std::string Replaced(std::string text, const std::string& from, const std::string& to);
 
+/// Pointers to the words, which must outlive them, with a null pointer behind.
+inline std::vector<char*> ExecWords(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 }  // namespace warmjoint

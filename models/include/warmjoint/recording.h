@@ -172,9 +172,9 @@ struct TakenProject {
 /// The files of a recording, and how they are read: the `recording` member of an estimate file, by which its pictures find
 /// the data again.
 struct RecordingSource {
-  std::vector<std::string> files;
-  ReadSettings read;
-  PrepareSettings prepare;
+  std::vector<std::string> files{};
+  ReadSettings read{};
+  PrepareSettings prepare{};
   std::optional<TakenProject> project{};  // whose values stand above; a member `project` of its own
 
   template <class A>

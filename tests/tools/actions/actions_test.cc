@@ -10,7 +10,7 @@
 #include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/actions/carried_heat.h"
-#include "tools/actions/project_file.h"
+#include "tools/actions/recording_source.h"
 #include "tools/actions/replay_unit.h"
 #include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/run_realization.h"

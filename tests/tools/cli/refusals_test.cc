@@ -116,7 +116,8 @@ const std::vector<WrongUsage>& WrongUsages() {
        "state_end"},
       {{"attach", "pendulum", "--joint", Pendulum(), "--joint", Pendulum(), "-o", "d.xml"},
        "twice"},
-      {{"predict", "estimate.json", "log.csv", "--initial", "warm"}, "settled:SPEED"},
+      {{"predict", Pendulum().substr(Pendulum().find('=') + 1), "log.csv", "--initial", "warm"},
+       "settled:SPEED"},
       // templates
       {{"new", "scenari", "mine"}, "'scenario'"},
       {{"new", "scenario", "a/b"}, "letters"},

@@ -242,7 +242,7 @@ TEST(AttachFriction, RefusesAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(Run, HasTheLeaderboardOfTheCommandAndItsScores) {
+TEST(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
   const ScratchDirectory scratch;
   const std::string suite = scratch.path() / "little.yaml";
   const auto theirs = scratch.path() / "theirs", ours = scratch.path() / "ours";
@@ -280,7 +280,7 @@ TEST(Run, HasTheLeaderboardOfTheCommandAndItsScores) {
   EXPECT_THAT(Refusal([&] { warmjoint::Run(arguments); }), HasSubstr("from 1 to 1024"));
 }
 
-TEST(Score, IsThatOfTheLeaderboard) {
+TEST(Library, HasTheScoreOfTheLeaderboard) {
   const ScratchDirectory scratch;
   RunArguments arguments;
   arguments.suite = scratch.path() / "little.yaml";

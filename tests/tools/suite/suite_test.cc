@@ -6,10 +6,9 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/friction/thermal.h"
+#include "tools/suite/engine.h"
 #include "tools/suite/prepare_identifiers.h"
-#include "tools/suite/shard.h"
-#include "tools/suite/start_key.h"
-#include "tools/suite/trace_table.h"
+#include "tools/suite/run_realization.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {

@@ -36,7 +36,7 @@ struct IdentifySettings {
 /// Samples for figures on unseen data: a share of the recording's end, 0 for none, or another one.
 struct HoldOutSource {
   double fraction = 0.3;
-  std::optional<PreparedLog> other;
+  std::optional<PreparedLog> other{};
 };
 
 /// Throws BadInput for a share that is not at least 0 and below 1.

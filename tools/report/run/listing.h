@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/store/result.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint::report {
 
