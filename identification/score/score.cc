@@ -123,6 +123,10 @@ Score ScoreEstimate(const Estimate& estimate, const PreparedLog& log, const Trut
 }
 
 double NormalisedParameterError(const Eigen::VectorXd& estimate, const Eigen::VectorXd& truth) {
+  if (estimate.size() != truth.size() || (truth.array() == 0).any()) {
+    Refuse({"truth"}, "has {} values for {} of the estimate; give as many, none of them 0",
+           truth.size(), estimate.size());
+  }
   return ((estimate - truth).array() / truth.array().abs()).matrix().norm();
 }
 

@@ -10,8 +10,7 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
 set(rooms models recording robots scenarios truth plugin sim identification score store terminal board actions)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
 foreach(folder models scenarios sim identification tools)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
@@ -20,7 +19,7 @@ endforeach()
 
 # warmjoint::warmjoint is all of them
 set_target_properties(warmjoint_library PROPERTIES EXPORT_NAME warmjoint)
-install(TARGETS warmjoint_library EXPORT warmjointTargets)
+install(TARGETS warmjoint_library EXPORT warmjointTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # program and plugin find MuJoCo beside them
 if(WARMJOINT_PROGRAM)
