@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "models/friction/sign.h"
+
 namespace warmjoint {
 namespace {
 

@@ -1,5 +1,6 @@
 // warmjoint check RECORDING: what a log holds, and what can be identified from it.
 #include <fmt/format.h>
+#include <warmjoint/errors.h>
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
