@@ -33,6 +33,15 @@ std::string Found(const fs::path& name, const fs::path& other) {
   return name;
 }
 
+/// Calls each file that an estimate tells of as `name` does, beside the estimate's own.
+void NameFiles(std::string (*name)(const fs::path& file, const fs::path& own), const fs::path& own,
+               Estimate& estimate) {
+  if (!estimate.recording) return;
+  for (std::string& file : estimate.recording->files) file = name(file, own);
+  auto& project = estimate.recording->project;
+  if (project) project->file = name(project->file, own);
+}
+
 }  // namespace
 
 const EstimatedParameter* Estimate::Find(std::string_view name) const {
@@ -81,27 +90,19 @@ Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& f
   return metrics;
 }
 
-Tree EstimateToTree(const Estimate& estimate, const fs::path& target) {
-  if (!estimate.recording) return WriteFields(estimate);
-  Estimate seen = estimate;
-  RecordingSource& source = *seen.recording;
-  for (std::string& file : source.files) file = SeenFrom(file, target);
-  if (source.project) source.project->file = SeenFrom(source.project->file, target);
-  return WriteFields(seen);
+Tree EstimateToTree(Estimate estimate, const fs::path& target) {
+  NameFiles(&SeenFrom, target, estimate);
+  return WriteFields(std::move(estimate));
 }
 
 Estimate EstimateFrom(const Node& node) {
   Estimate estimate = ReadAs<Estimate>(node.With(UnknownKeys::ignored));
-  if (!estimate.recording) return estimate;
-  // files are named as they are seen from the estimate
-  RecordingSource& source = *estimate.recording;
-  for (std::string& file : source.files) file = Found(file, node.file());
-  if (source.project) source.project->file = Found(source.project->file, node.file());
+  NameFiles(&Found, node.file(), estimate);
   return estimate;
 }
 
-std::string EstimateToJson(const Estimate& estimate) {
-  return EstimateToTree(estimate).dump(2) + "\n";
+std::string EstimateToJson(const Estimate& estimate, const fs::path& target) {
+  return EstimateToTree(estimate, target).dump(2) + "\n";
 }
 
 Estimate EstimateFromJson(const std::string& text, const std::string& name) {
@@ -111,7 +112,7 @@ Estimate EstimateFromJson(const std::string& text, const std::string& name) {
 Estimate ReadEstimate(const fs::path& file) { return EstimateFrom(ReadJsonNode(file)); }
 
 void WriteEstimate(const Estimate& estimate, const fs::path& file) {
-  WriteWholeFile(file, EstimateToTree(estimate, file).dump(2) + "\n");
+  WriteWholeFile(file, EstimateToJson(estimate, file));
 }
 
 }  // namespace warmjoint

@@ -8,7 +8,7 @@
 namespace warmjoint {
 
 /// The estimate as a file in `target`'s folder has it; empty: recordings are named as they are.
-Tree EstimateToTree(const Estimate& estimate, const std::filesystem::path& target = {});
+Tree EstimateToTree(Estimate estimate, const std::filesystem::path& target = {});
 
 /// EstimateFromJson and ReadEstimate of what was parsed.
 Estimate EstimateFrom(const Node& node);

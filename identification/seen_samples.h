@@ -29,6 +29,7 @@ struct MotionOption {
   }
 };
 
+/// What a fit minimises over the residuals.
 enum class LossKind { squares, huber };
 inline std::span<const Word<LossKind>> WordsOf(LossKind) {
   static constexpr std::array words{Word{"squares", LossKind::squares},

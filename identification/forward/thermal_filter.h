@@ -33,8 +33,6 @@ class ThermalFilter {
   explicit ThermalFilter(const Eigen::VectorXd& time, std::vector<Eigen::Index> starts = {});
 
   Eigen::Index size() const { return steps_.size() + 1; }
-  /// Mean step, s.
-  double mean_step() const { return mean_step_; }
 
   /// E over all samples, N.m or N, from E(0) = initial. loss: [N] W; returns [N].
   Eigen::VectorXd Energy(const Thermal& thermal, const Eigen::VectorXd& loss,

@@ -15,6 +15,7 @@
 
 namespace warmjoint {
 
+/// Whether a lag of the torque is estimated.
 enum class TorqueLagFit { none, estimated };
 inline std::span<const Word<TorqueLagFit>> WordsOf(TorqueLagFit) {
   static constexpr std::array words{Word{"none", TorqueLagFit::none},

@@ -202,4 +202,10 @@ void CheckFriction(const Friction& friction, const Place& place) {
 
 void CheckFriction(const Friction& friction) { CheckFriction(friction, {"friction"}); }
 
+Friction Completed(Friction friction, const Place& place) {
+  FillDefaults(friction);
+  CheckFriction(friction, place);
+  return friction;
+}
+
 }  // namespace warmjoint

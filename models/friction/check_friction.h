@@ -14,4 +14,7 @@ void CheckMap(const FrictionMap& map, const Place& place);
 /// The same as CheckFriction of the public header, refusing from `place`.
 void CheckFriction(const Friction& friction, const Place& place);
 
+/// With what was left out at its default (FillDefaults), then checked.
+Friction Completed(Friction friction, const Place& place);
+
 }  // namespace warmjoint

@@ -12,10 +12,7 @@ Tree FrictionToTree(const Friction& friction) { return WriteFields(friction); }
 Friction FrictionFrom(const Node& node) {
   Friction friction;
   ReadFields(node.With(UnknownKeys::refused), &friction);
-  // what was left out, then all of it together
-  FillDefaults(friction);
-  CheckFriction(friction, node.place());
-  return friction;
+  return Completed(std::move(friction), node.place());
 }
 
 void ReadValue(const Node& node, Friction* value, const FieldInfo&) { *value = FrictionFrom(node); }
@@ -38,10 +35,7 @@ void RefuseAmperes(const Friction& friction, const Place& place) {
 }
 
 std::string FrictionToJson(const Friction& friction) {
-  Friction whole = friction;
-  FillDefaults(whole);
-  CheckFriction(whole);
-  return FrictionToTree(whole).dump(2) + "\n";
+  return FrictionToTree(Completed(friction, {"friction"})).dump(2) + "\n";
 }
 
 Friction FrictionFromJson(const std::string& text, const std::string& name) {

@@ -147,10 +147,7 @@ FrictionModel::FrictionModel(const Friction& friction, double timestep) {
   if (!(std::isfinite(timestep) && timestep > 0)) {
     Refuse({"timestep"}, "is {}; it must be above 0, s", timestep);
   }
-  // parameters that may be left out have defaults
-  Friction whole = friction;
-  FillDefaults(whole);
-  CheckFriction(whole);
+  const Friction whole = Completed(friction, {"friction"});
   State state{JointFriction(whole), AlongMotion(whole)};
   state.joint.SetTimestep(timestep);
   state_ = std::make_shared<const State>(std::move(state));

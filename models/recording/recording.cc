@@ -13,8 +13,9 @@
 namespace warmjoint {
 namespace {
 
-/// Makes torque of a current, by the motor's constant seen at the joint.
+/// Makes torque of a current, by the motor's constant seen at the joint, where one is given.
 void TakeTorqueConstant(double constant, Measurements& log) {
+  if (constant == 0) return;
   const std::string_view unit = kTorqueUnit.For(log.joint);
   // what is a torque already needs no constant
   if (log.torque_unit != "A") {
@@ -79,16 +80,13 @@ Measurements ReadRecording(const RecordingSource& source) {
   std::vector<Measurements> recordings;
   for (const std::string& path : source.files) {
     recordings.push_back(ReadRecordingFile(path, source.read));
-    if (source.read.torque_constant != 0) {
-      TakeTorqueConstant(source.read.torque_constant, recordings.back());
-    }
+    TakeTorqueConstant(source.read.torque_constant, recordings.back());
   }
   return JoinRecordings(std::move(recordings));
 }
 
 Measurements MakeRecording(const std::map<std::string, std::vector<double>>& columns,
                            const ReadSettings& settings, const std::string& name) {
-  CheckReadSettings(settings);
   // named columns go through the layout of a file
   FileContent content;
   for (const auto& [column, values] : columns) {
@@ -97,7 +95,7 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
                                    values.data(), static_cast<Eigen::Index>(values.size()))});
   }
   Measurements made = AssembleContent(content, name, settings);
-  if (settings.torque_constant != 0) TakeTorqueConstant(settings.torque_constant, made);
+  TakeTorqueConstant(settings.torque_constant, made);
   return made;
 }
 

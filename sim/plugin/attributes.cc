@@ -132,9 +132,7 @@ Friction ReadInline(const PluginAttributes& given, const Place& place) {
     friction.maps = MapsFrom(Node(Tree{{"maps", given.maps}}, place.file).Require("maps", ""));
   }
   friction.gear = given.gear.value_or(1);
-  FillDefaults(friction);
-  CheckFriction(friction, place);
-  return friction;
+  return Completed(std::move(friction), place);
 }
 
 DescribedJoints ReadFriction(const PluginAttributes& given, const AttributeTexts& texts,

@@ -28,6 +28,13 @@ std::string RefusalOf(Make&& make) {
   return "accepted";
 }
 
+/// Expects a text with each of these in it.
+inline void ExpectNamed(const std::string& text, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    EXPECT_NE(text.find(name), std::string::npos) << name << " is not in: " << text;
+  }
+}
+
 /// Expects that a refusal begins with its place and names the key.
 inline void ExpectNames(const std::string& refusal, const std::string& place,
                         const std::string& key) {

@@ -110,6 +110,15 @@ std::string WarningOf(const std::string& path) {
   return fmt::format("{} is {}: its friction is void, and so is that of the model", path, status);
 }
 
+/// Whether a file is an estimate.json (or another JSON document), not a recording.
+bool IsJsonFile(const std::string& file) {
+  if (IsStandardInput(file)) return false;
+  std::ifstream stream(file);
+  char first = 0;
+  stream >> first;
+  return first == '{';
+}
+
 }  // namespace
 
 std::vector<double> InitialEnergies(const std::string& initial, const Friction& friction,
@@ -133,12 +142,9 @@ void CheckEarlier(const EarlierRecording& earlier, size_t recordings) {
   }
 }
 
-bool IsJsonFile(const std::string& file) {
-  if (IsStandardInput(file)) return false;
-  std::ifstream stream(file);
-  char first = 0;
-  stream >> first;
-  return first == '{';
+std::optional<LeftHeat> HeatLeftIn(const std::string& file) {
+  if (!IsJsonFile(file)) return std::nullopt;
+  return HeatLeftBy(ReadEstimate(file), file);
 }
 
 LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {

@@ -33,8 +33,8 @@ struct EarlierRecording {
 /// begins cold.
 void CheckEarlier(const EarlierRecording& earlier, size_t recordings);
 
-/// Whether a file is an estimate.json (or another JSON document), not a recording.
-bool IsJsonFile(const std::string& file);
+/// What an estimate.json says that its log left; nothing where the file is a recording. Throws BadInput.
+std::optional<LeftHeat> HeatLeftIn(const std::string& file);
 
 /// "E(0) is expected at -4.21 +- 0.3 N.m: what day1.csv left, after a pause of 300 s (given) at rest"
 std::string Describe(const CarriedHeat& carried);

@@ -171,10 +171,7 @@ CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& r
                        const IdentifySettings& settings, const Measurements& next) {
   const std::string& file = earlier.file;
   // an estimate file says which heat its log left
-  if (IsJsonFile(file)) {
-    const Estimate estimate = ReadEstimate(file);
-    return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
-  }
+  if (const auto left = HeatLeftIn(file)) return CarryOver(*left, earlier.pause, next);
 
   // a recording is identified first, from a cold start and without held-out figures
   RecordingSource before = recording;
@@ -201,7 +198,7 @@ std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
 Estimate Identify(const PreparedLog& log, IdentifySettings settings, const HoldOutSource& holdout,
                   const std::optional<CarriedHeat>& follows) {
   const Measurements& measurements = log.taken().measurements;
-  if (holdout.fraction != 0) HoldOutShare(holdout.fraction);
+  HoldOutShare(holdout.fraction);
   settings.follows = follows.has_value();
   IdentifyTask task = CheckSettings(settings, measurements.joint);
   if (follows) BeginWith(*follows, task);

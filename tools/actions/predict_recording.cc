@@ -41,10 +41,7 @@ CarriedHeat HeatBefore(const StoredModel& stored, const EarlierRecording& earlie
     Refuse({"--follows"}, "is for a friction that warms, and the estimate knows no warming");
   }
   // an estimate says itself which heat its log left
-  if (IsJsonFile(file)) {
-    const Estimate estimate = ReadEstimate(file);
-    return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
-  }
+  if (const auto left = HeatLeftIn(file)) return CarryOver(*left, earlier.pause, next);
   RecordingSource before = recording;
   before.files = {file};
   return CarryOver(HeatAtEnd(stored, ReadAndPrepare(before), file), earlier.pause, next);

@@ -167,7 +167,7 @@ void Deliver(const IdentifyArguments& arguments, const Identified& identified,
   // files and picture first, so that words follow what is there
   written.recording = arguments.recording;
   written.follows = heat;
-  const std::string file = EstimateToTree(written, arguments.output).dump(2) + "\n";
+  const std::string file = EstimateToJson(written, arguments.output);
   WriteOutputs(arguments, written, file, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);

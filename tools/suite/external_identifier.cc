@@ -174,6 +174,8 @@ Estimate ReadAnswer(const std::string& text, const std::string& label) {
     // members that our own identifiers have and an answer may leave out
     answer.emplace("identifier", label);
     answer.emplace("message", "");
+    // what an answer calls these is its own: where a log came from is for who asks to say
+    for (const char* asked : {"recording", "project", "follows"}) answer.erase(asked);
     return EstimateFrom({std::move(answer), "estimate.json"});
   } catch (const BadInput& error) {
     throw NoAnswer("bad_answer", Excerpt(error.what(), kLongestComplaint));

@@ -397,8 +397,9 @@ struct Estimate {
   void TakeMessage(const std::string& full);
 };
 
-/// The text of estimate.json; what is no finite number is null.
-std::string EstimateToJson(const Estimate& estimate);
+/// The text of estimate.json; what is no finite number is null. target: the file that it is for, from whose folder recordings
+/// are named; empty: as they are.
+std::string EstimateToJson(const Estimate& estimate, const std::filesystem::path& target = {});
 
 /// The inverse; null numbers become NaN, the warnings at the end of `message` are taken off, and keys that nobody knows are
 /// left alone. name: of the text in messages. Throws BadInput for a missing member, a wrong type, an unknown status.

@@ -15,6 +15,7 @@
 
 namespace warmjoint {
 
+/// A log and the samples of it that take part in fits.
 struct LogView {
   Measurements measurements;
   Selection selection;

@@ -18,6 +18,7 @@
 
 namespace warmjoint {
 
+/// Rotary joints have rad and N.m, linear ones m and N.
 enum class JointKind { rotary, linear };
 
 inline std::span<const Word<JointKind>> WordsOf(JointKind) {

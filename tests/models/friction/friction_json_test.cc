@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
@@ -20,12 +21,7 @@ json Example() {
 }
 
 std::string RefusalOf(const json& object) {
-  try {
-    FrictionFrom({Tree(object), "robot.json"});
-  } catch (const BadInput& refusal) {
-    return refusal.what();
-  }
-  return "accepted";
+  return test::RefusalOf([&] { FrictionFrom({Tree(object), "robot.json"}); });
 }
 
 TEST(FrictionJson, SurvivesARoundTrip) {

@@ -12,6 +12,7 @@
 #include "models/friction/friction_json.h"
 #include "models/friction/prepared_map.h"
 #include "tests/support/axes_of_every_kind.h"
+#include "tests/support/refusal.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {
@@ -94,12 +95,7 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
   const auto refusal = [](const std::function<void(nlohmann::json&)>& spoil) -> std::string {
     nlohmann::json maps = MapsToTree({SmallMap()});
     spoil(maps[0]);
-    try {
-      MapsFrom({Tree(maps), "friction.json"});
-    } catch (const BadInput& bad) {
-      return bad.what();
-    }
-    return "accepted";
+    return test::RefusalOf([&] { MapsFrom({Tree(maps), "friction.json"}); });
   };
   using nlohmann::json;
   EXPECT_THAT(refusal([](json& j) { j["weights"].push_back(7); }),

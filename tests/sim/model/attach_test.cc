@@ -10,7 +10,7 @@
 #include "sim/plugin/friction_instance.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/sim/model/light_friction.h"
-#include "tests/sim/refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {

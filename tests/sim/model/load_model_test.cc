@@ -7,7 +7,7 @@
 #include "models/foundation/atomic_file.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/sim/model/light_friction.h"
-#include "tests/sim/refusal.h"
+#include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "sim/plant/plant.h"
-#include "tests/sim/refusal.h"
 #include "tests/support/golden.h"
+#include "tests/support/refusal.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {

@@ -9,7 +9,7 @@
 #include "models/friction/thermal.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/single_joint_model.h"
-#include "tests/sim/refusal.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {

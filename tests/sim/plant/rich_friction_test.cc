@@ -6,7 +6,7 @@
 #include "models/friction/joint_friction.h"
 #include "scenarios/read_scenario.h"
 #include "sim/plant/plant.h"
-#include "tests/sim/refusal.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/sim/plugin/two_forms.h"
-#include "tests/sim/refusal.h"
 #include "tests/support/folders.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {

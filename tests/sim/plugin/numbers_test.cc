@@ -5,7 +5,7 @@
 #include <random>
 
 #include "tests/sim/plugin/two_forms.h"
-#include "tests/sim/refusal.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {

@@ -6,7 +6,7 @@
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 #include "tests/models/recording/temporary_file.h"
-#include "tests/sim/refusal.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/robots/robot_folder.h"
+#include "tests/support/refusal.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
@@ -33,17 +34,6 @@ Simulation TableOneRun(int seconds) {
   const ScratchDirectory scratch;
   WriteWholeFile(scratch.path() / "scenario.yaml", TableOneYaml(seconds));
   return Simulate(scratch.path() / "scenario.yaml", {.seed = 3});
-}
-
-/// What refuses it says; empty where nothing does.
-template <typename Work>
-std::string Refusal(const Work& work) {
-  try {
-    work();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 /// One thing asked of both: the arguments behind RECORDING, and the settings that mean the same.
@@ -146,12 +136,12 @@ TEST(Identify, RefusesSettingsWithTheBoundOrTheNearestName) {
   const auto refusal = [&](const std::function<void(IdentifySettings&)>& change) {
     IdentifySettings settings;
     change(settings);
-    return Refusal([&] { Identify(log, settings); });
+    return test::RefusalOf([&] { Identify(log, settings); });
   };
   EXPECT_THAT(refusal([](auto& s) { s.identifier = "nominal-sl"; }), HasSubstr("'nominal-ls'"));
   EXPECT_THAT(refusal([](auto& s) { s.options = {{"lwa", "coulomb"}}; }), HasSubstr("'law'"));
   EXPECT_THAT(refusal([](auto& s) { s.relevance = 2; }), HasSubstr("at most 1"));
-  EXPECT_THAT(Refusal([&] { Identify(log, {}, {1, {}}); }), HasSubstr("below 1"));
+  EXPECT_THAT(test::RefusalOf([&] { Identify(log, {}, {1, {}}); }), HasSubstr("below 1"));
 }
 
 TEST(Identify, AnswersTheSameInManyThreads) {
@@ -189,8 +179,12 @@ TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
   EXPECT_EQ(made.torque, read.torque);
 
   columns["torque"].pop_back();
-  EXPECT_THAT(Refusal([&] { MakeRecording(columns, settings, "bench"); }), HasSubstr("bench: "));
-  EXPECT_THAT(Refusal([&] { ReadRecording({{"absent.csv"}, {}, {}}); }), HasSubstr("absent.csv"));
+  EXPECT_THAT(test::RefusalOf([&] { MakeRecording(columns, settings, "bench"); }),
+              HasSubstr("bench: "));
+  EXPECT_THAT(test::RefusalOf([&] {
+                ReadRecording({{"absent.csv"}, {}, {}});
+              }),
+              HasSubstr("absent.csv"));
 }
 
 TEST(Check, SaysWhatTheCommandSays) {
@@ -232,7 +226,7 @@ TEST(AttachFriction, RefusesAndWritesNothing) {
   const FrictionForJoint hinge{"hinge",
                                ReadFriction(DataFolder() / "models/robots/pendulum/friction.json")};
   const auto refusal = [&](const FrictionForJoint& friction, const AttachOptions& options) {
-    return Refusal(
+    return test::RefusalOf(
         [&] { AttachFriction(FindRobot("pendulum", "model"), {friction}, out, options); });
   };
   EXPECT_THAT(refusal({"hing", hinge.friction}, {}), HasSubstr("'hinge'"));
@@ -275,9 +269,9 @@ TEST(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
     // fit then differs by what it leaves open
     EXPECT_NEAR(board.rows[i].npe_continuous.median, other.rows[i].npe_continuous.median, 1e-6);
   }
-  EXPECT_THAT(Refusal([&] { FormatLeaderboard(ours, "xls"); }), HasSubstr("xls"));
+  EXPECT_THAT(test::RefusalOf([&] { FormatLeaderboard(ours, "xls"); }), HasSubstr("xls"));
   arguments.jobs = 0;
-  EXPECT_THAT(Refusal([&] { warmjoint::Run(arguments); }), HasSubstr("from 1 to 1024"));
+  EXPECT_THAT(test::RefusalOf([&] { warmjoint::Run(arguments); }), HasSubstr("from 1 to 1024"));
 }
 
 TEST(Library, HasTheScoreOfTheLeaderboard) {
@@ -297,9 +291,10 @@ TEST(Library, HasTheScoreOfTheLeaderboard) {
 
   Truth other = simulation.truth;
   other.force.conservativeResize(5);
-  EXPECT_NE(Refusal([&] { ScoreEstimate({}, log, other); }), "");
-  EXPECT_NE(Refusal([] { NormalisedParameterError(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 0)); }),
-            "");
+  EXPECT_NE(test::RefusalOf([&] { ScoreEstimate({}, log, other); }), "accepted");
+  EXPECT_NE(test::RefusalOf(
+                [] { NormalisedParameterError(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 0)); }),
+            "accepted");
 }
 
 TEST(Version, IsThatOfTheProgramAndOfTheHeaders) {

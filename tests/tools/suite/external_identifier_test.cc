@@ -105,12 +105,14 @@ TEST(ExternalIdentifier, IsNamedWithItsCommand) {
 }
 
 TEST(ExternalIdentifier, AnswersWithAnEstimate) {
-  const Estimate estimate = Ask(
-      R"(echo '{"status": "ok", "parameters": {"coulomb": {"value": 2, "unit": "N.m", "std": null,)"
-      R"( "interval95": null}}, "friction": {"law": "coulomb", "parameters": {"coulomb": 2}}}')"
-      " > estimate.json");
+  const Estimate estimate =
+      Ask(R"(echo '{"status": "ok", "recording": "of mine", "follows": 1, "project": [],)"
+          R"( "parameters": {"coulomb": {"value": 2, "unit": "N.m", "std": null,)"
+          R"( "interval95": null}}, "friction": {"law": "coulomb", "parameters": {"coulomb": 2}}}')"
+          " > estimate.json");
   EXPECT_EQ(estimate.status, Status::ok);
   EXPECT_EQ(estimate.Find("coulomb")->value, 2);
+  EXPECT_FALSE(estimate.recording || estimate.follows) << "these are ours to say";
   ASSERT_TRUE(estimate.metrics) << "a friction is enough for the figures";
   EXPECT_EQ(estimate.metrics->n, 12);
 }
