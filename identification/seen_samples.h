@@ -1,21 +1,14 @@
 // The samples of a log that an identifier learns from, and the options that say which.
 #pragma once
 
+#include <warmjoint/estimate.h>
+
 #include <array>
 #include <span>
 
 #include "identification/identifier.h"
 
 namespace warmjoint {
-
-/// The samples that take part, as options ask for them.
-enum class MotionKind { chosen, constant, any };
-inline std::span<const Word<MotionKind>> WordsOf(MotionKind) {
-  static constexpr std::array words{Word{"chosen", MotionKind::chosen},
-                                    Word{"constant", MotionKind::constant},
-                                    Word{"any", MotionKind::any}};
-  return words;
-}
 
 /// The option of an identifier that can follow motion of any kind.
 struct MotionOption {

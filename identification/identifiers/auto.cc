@@ -144,6 +144,21 @@ std::string Reason(const std::vector<Contender>& contenders, const Choice& choic
                               std::sqrt(contenders[choice.best].errors.mean()));
 }
 
+/// What the fit lacks because the motion does not show it, as `check` finds it, each a clause and a semicolon: the slope over
+/// speed where one speed was held, and warming in a short log.
+std::string NotShown(const Fit& fit, const PreparedLog& log) {
+  const auto is_slope = [](const FitParameter& one) { return one.part == LawPart::slope; };
+  const bool slopes = std::ranges::any_of(fit.parameters, is_slope);
+  std::string clauses;
+  for (const Excitation& one : CheckRecording(log).excitation) {
+    const bool lacks = (one.kind == FrictionKind::viscous_coulomb && !slopes) ||
+                       (one.kind == FrictionKind::warm_up && !fit.RowOf(Role::heat));
+    if (lacks && !one.sufficient)
+      clauses += fmt::format("not shown: {}, since {}; ", one.what, one.reason);
+  }
+  return clauses;
+}
+
 /// Nothing that was tried fits.
 Fit NothingFits(const Tournament& tournament, StructureChoice choice) {
   const Inference& first = tournament.First().told;
@@ -196,7 +211,7 @@ Fit FitChosen(const IdentifierInput& input) {
   // what a reader is told, and the same structure for other samples
   told.chosen = chosen.Name();
   fit.identifier = kName;
-  fit.summary = fmt::format("{}; {}", told.reason, fit.summary);
+  fit.summary = fmt::format("{}{}; {}", NotShown(fit, input.log), told.reason, fit.summary);
   fit.choice = std::move(told);
   fit.structure = [sketch = chosen.Sketch(), lag = trials.lag](const IdentifierInput& other) {
     return FitOnAll(sketch, lag, other);

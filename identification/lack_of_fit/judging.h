@@ -5,12 +5,6 @@
 
 namespace warmjoint {
 
-/// What is known of the warmth at the start of a log.
-enum class StartBelief {
-  cold,     // the joint was cold: intervals hold under that condition
-  unknown,  // it may have been a tenth as warm as it gets: intervals reach as far as that moves them
-};
-
 struct Judging {
   /// Change of the friction of law and heat by what was found (Harm), rms as a share of the friction's, from
   /// which a model is refused. A smaller one widens the intervals. 0 < relevance <= 1.

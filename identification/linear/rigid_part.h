@@ -4,7 +4,6 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,15 +14,6 @@
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
-
-/// Gravity as options ask for it.
-enum class FittedGravity { none, sincos, paired };
-inline std::span<const Word<FittedGravity>> WordsOf(FittedGravity) {
-  static constexpr std::array words{Word{"none", FittedGravity::none},
-                                    Word{"sincos", FittedGravity::sincos},
-                                    Word{"paired", FittedGravity::paired}};
-  return words;
-}
 
 inline constexpr FieldInfo kGravityInfo{
     .meaning =

@@ -38,8 +38,8 @@ std::optional<Metrics> HoldOut(const CheckedCommand& task, const PreparedLog& lo
 CheckedCommand CheckCommand(const IdentifySettings& settings, Confinement confinement) {
   // options that mean nothing to a command
   const std::pair<const char*, bool> ours[]{
-      {"--gravity", settings.gravity != "none"},
-      {"--start", settings.start == "estimated"},
+      {"--gravity", settings.gravity != FittedGravity::none},
+      {"--start", settings.start == StartBelief::estimated},
       {"--follows", settings.follows},
       {"--force", settings.void_numbers == VoidNumbers::show}};
   for (const auto& [option, is_given] : ours) {

@@ -1,7 +1,7 @@
 // A command of the user's in the place of an identifier, on one recording.
 #pragma once
 
-#include "tools/actions/identify_recording.h"
+#include "tools/identify/identify_recording.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint {

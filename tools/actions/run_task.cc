@@ -10,6 +10,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "sim/plant/plant.h"
+#include "tools/actions/suite_names.h"
 #include "tools/board/format_board.h"
 #include "tools/store/database.h"
 #include "tools/suite/describe_run.h"
@@ -76,13 +77,14 @@ std::string FirstWords(const RunStore& store, int identifier) {
 
 }  // namespace
 
-RunTask PrepareRun(const RunArguments& arguments) {
+RunTask PrepareRun(RunArguments arguments) {
+  arguments.suite = FindSuite(arguments.suite);
   RequireWithin(arguments.jobs, kMostJobs, "--jobs");
   RequireWithin(arguments.realizations, kMostRealizations, "--realizations");
   RunTask task;
   task.suite = ResolveSuite(arguments);
-  task.identifiers =
-      PrepareIdentifiers(task.suite.identifiers, {arguments.suite}, arguments.confinement);
+  task.identifiers = PrepareIdentifiers(task.suite.identifiers, {arguments.suite},
+                                        arguments.confinement, arguments.functions);
   task.shard = ReadShard(arguments.shard);
   // a thread for each core where nothing else is said
   const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
@@ -125,11 +127,22 @@ Suite ResolveSuite(const RunArguments& arguments) {
     identifier = WithFilesOfSuite(std::move(identifier), arguments.suite);
   }
   const std::vector<SuiteIdentifier> own = suite.identifiers;
-  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers);
+  suite.identifiers.clear();
+  if (!arguments.identifiers.empty() || arguments.functions.empty()) {
+    suite.identifiers = ChooseIdentifiers(own, arguments.identifiers);
+  }
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     // what the command line itself names was agreed to by naming it
     const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();
     if (brought) RefuseCommand(identifier, arguments);
+  }
+  // functions of the caller stand beside them as commands that cannot be called from a shell
+  for (const auto& [label, function] : arguments.functions) {
+    const auto same = [&](const SuiteIdentifier& one) { return one.label == label; };
+    if (std::ranges::any_of(suite.identifiers, same)) {
+      Refuse({"identifiers"}, "there is a '{}' already; give yours another name", Excerpt(label));
+    }
+    suite.identifiers.push_back({kExternal, label, {{"command", "a function of the caller"}}, {}});
   }
   return suite;
 }

@@ -33,7 +33,7 @@ struct RunTask {
 };
 
 /// Everything that can be refused is, before anything is written. Throws BadInput.
-RunTask PrepareRun(const RunArguments& arguments);
+RunTask PrepareRun(RunArguments arguments);
 
 /// Writes results.csv and summary.csv, and sums up.
 RunEnding EndRun(RunStore& store);

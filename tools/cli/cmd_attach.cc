@@ -9,10 +9,10 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/robots/robot_folder.h"
-#include "tools/actions/carried_heat.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
+#include "tools/identify/carried_heat.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {

@@ -11,12 +11,12 @@
 #include "models/foundation/parse_number.h"
 #include "sim/model/friction_sections.h"
 #include "tools/actions/identify_by_command.h"
-#include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
+#include "tools/identify/identify_recording.h"
 #include "tools/report/draw/page_setting.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/suite/external_identifier.h"
@@ -291,10 +291,10 @@ Command AddIdentifyCommand(CLI::App& program) {
       ->take_all()
       ->type_name("IDENTIFIER")
       ->capture_default_str();
-  AddChoice(*parser, "--gravity", arguments->settings.gravity, {"none", "sincos", "paired"},
+  AddChoice(*parser, "--gravity", arguments->settings.gravity,
             "what gravity does to the torque: nothing, a sine of the angle, or what both "
             "directions share at each position");
-  AddChoice(*parser, "--motion", arguments->settings.motion, {"chosen", "constant", "any"},
+  AddChoice(*parser, "--motion", arguments->settings.motion,
             "constant: samples at constant speed; any: all that move, with the inertia beside the "
             "friction; chosen: any where the log holds no speeds");
 
@@ -305,7 +305,7 @@ Command AddIdentifyCommand(CLI::App& program) {
           "share of the record's end, or another file, for figures on unseen data; 0: none")
       ->type_name("SHARE/FILE")
       ->capture_default_str();
-  AddChoice(*parser, "--start", arguments->settings.start, {"cold", "unknown", "estimated"},
+  AddChoice(*parser, "--start", arguments->settings.start,
             "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
             "far as a slightly warm start moves them; estimated: E(0) is fitted",
             {{"warm", "unknown"}, {"hot", "unknown"}});

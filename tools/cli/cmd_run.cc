@@ -6,10 +6,10 @@
 
 #include "scenarios/suite.h"
 #include "tools/actions/run_task.h"
+#include "tools/actions/suite_names.h"
 #include "tools/cli/command.h"
 #include "tools/cli/end_of_run.h"
 #include "tools/cli/run_in_shards.h"
-#include "tools/cli/suite_names.h"
 #include "tools/cli/typed_options.h"
 #include "tools/cluster/plan.h"
 #include "tools/suite/engine.h"

@@ -11,7 +11,7 @@
 #include "models/robots/robot_folder.h"
 #include "models/robots/robot_list.h"
 #include "scenarios/suite.h"
-#include "tools/cli/suite_names.h"
+#include "tools/actions/suite_names.h"
 #include "tools/terminal/table.h"
 
 namespace warmjoint {

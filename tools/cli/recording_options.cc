@@ -12,8 +12,8 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "scenarios/yaml.h"
-#include "tools/actions/recording_source.h"
 #include "tools/cli/typed_options.h"
+#include "tools/identify/recording_source.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {

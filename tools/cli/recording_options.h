@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/actions/carried_heat.h"
-#include "tools/actions/recording_source.h"
+#include "tools/identify/carried_heat.h"
+#include "tools/identify/recording_source.h"
 
 namespace warmjoint {
 

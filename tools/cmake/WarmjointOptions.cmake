@@ -3,6 +3,15 @@
 option(WARMJOINT_PROGRAM "build the command line program" ${PROJECT_IS_TOP_LEVEL})
 option(WARMJOINT_INSTALL "install program, plugin, libraries and the CMake package" ${PROJECT_IS_TOP_LEVEL})
 option(WARMJOINT_TESTS "build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(WARMJOINT_PYTHON "build the Python package's modules; needs nanobind and Python's headers" OFF)
+
+# pip builds with what is there: say at once what lacks
+if(SKBUILD)
+  execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/setup/packages --no-install --without-tests RESULT_VARIABLE lacking ERROR_VARIABLE words)
+  if(lacking)
+    message(FATAL_ERROR "${words}")
+  endif()
+endif()
 
 # on with the compiler that the tests are run with; a newer one may warn of what this one does not
 set(warnings_are_known OFF)

@@ -198,19 +198,24 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
   estimate.parameters.push_back({std::string(kPoleName), pair.pole, "1", {}, {}});
 }
 
-Estimate Ask(const Command& command, const PreparedLog& log) {
+/// The estimate in an answer, with what our own identifiers tell, too, and judged as they are.
+Estimate JudgeAnswer(const std::string& answer, const std::string& label, const PreparedLog& log,
+                     const Judging& judging) {
   const auto& [measurements, selection] = log.taken();
-  const CommandEnd end = RunCommand(TaskFor(command, measurements));
-  RequireAnswer(command, end);
-  Estimate estimate = ReadAnswer(end.answer, command.label);
-  // what our own identifiers tell, too
+  Estimate estimate = ReadAnswer(answer, label);
   AddDiscretePair(estimate, measurements);
   if (!estimate.metrics) {
     estimate.metrics =
         FrictionMetrics(estimate, measurements, selection, StartOf(estimate, measurements));
   }
-  JudgeEstimate(log, command.judging, estimate);
+  JudgeEstimate(log, judging, estimate);
   return estimate;
+}
+
+Estimate Ask(const Command& command, const PreparedLog& log) {
+  const CommandEnd end = RunCommand(TaskFor(command, log.taken().measurements));
+  RequireAnswer(command, end);
+  return JudgeAnswer(end.answer, command.label, log, command.judging);
 }
 
 }  // namespace
@@ -304,6 +309,19 @@ std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measureme
   const auto parameters = static_cast<int>(estimate.parameters.size());
   return ComputeMetrics(Kept(measurements.torque, selection), Kept(force, selection), parameters,
                         parameters);
+}
+
+PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,
+                                   const Judging& judging) {
+  return [=](const PreparedLog& log, StartKey) {
+    std::string answer;
+    try {
+      answer = function(log.taken().measurements);
+    } catch (const std::exception& failure) {
+      throw NoAnswer("crashed", Excerpt(failure.what(), kLongestComplaint));
+    }
+    return JudgeAnswer(answer, label, log, judging);
+  };
 }
 
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,

@@ -4,6 +4,7 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction_model.h>
 #include <warmjoint/recording.h>
+#include <warmjoint/suite.h>
 
 #include <filesystem>
 #include <optional>
@@ -40,6 +41,10 @@ void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
 /// keeps no sample.
 std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measurements& measurements,
                                        const Selection& selection, const CourseStart& start);
+
+/// A function of the caller's in place of a command: the same judging of the same answer.
+PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,
+                                   const Judging& judging = {});
 
 /// Runs the command for each log in a fresh directory that holds the measurements alone, in a sandbox, under limits
 /// (run_command.h): {recording} stands for recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to

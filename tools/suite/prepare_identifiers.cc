@@ -53,10 +53,15 @@ std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier
   return chosen;
 }
 
-std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
-                                                   const Place& place, Confinement confinement) {
+std::vector<PreparedIdentifier> PrepareIdentifiers(
+    const std::vector<SuiteIdentifier>& identifiers, const Place& place, Confinement confinement,
+    const std::map<std::string, AnswerFunction>& functions) {
   std::vector<PreparedIdentifier> prepared;
   for (const SuiteIdentifier& one : identifiers) {
+    if (const auto own = functions.find(one.label); own != functions.end()) {
+      prepared.push_back(PrepareFunction(one.label, own->second));
+      continue;
+    }
     // a command from outside has its own way to answer
     if (one.name == kExternal) {
       prepared.push_back(PrepareExternal(one, place, {}, confinement));

@@ -1,6 +1,9 @@
 // Which identifiers a run takes, made ready to run.
 #pragma once
 
+#include <warmjoint/suite.h>
+
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +21,11 @@ namespace warmjoint {
 std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
                                                const std::vector<std::string>& names);
 
-/// The identifiers in their order. Throws BadInput from `place` for unknown names and options.
-std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
-                                                   const Place& place,
-                                                   Confinement confinement = Confinement::sandbox);
+/// The identifiers in their order; functions: of those whose label they have. Throws BadInput from `place` for unknown names and
+/// options.
+std::vector<PreparedIdentifier> PrepareIdentifiers(
+    const std::vector<SuiteIdentifier>& identifiers, const Place& place,
+    Confinement confinement = Confinement::sandbox,
+    const std::map<std::string, AnswerFunction>& functions = {});
 
 }  // namespace warmjoint

@@ -107,6 +107,37 @@ inline std::span<const Word<GravityKind>> WordsOf(GravityKind) {
   return words;
 }
 
+/// Gravity as options ask for it.
+enum class FittedGravity { none, sincos, paired };
+inline std::span<const Word<FittedGravity>> WordsOf(FittedGravity) {
+  static constexpr std::array words{Word{"none", FittedGravity::none},
+                                    Word{"sincos", FittedGravity::sincos},
+                                    Word{"paired", FittedGravity::paired}};
+  return words;
+}
+
+/// The samples that take part, as options ask for them.
+enum class MotionKind { chosen, constant, any };
+inline std::span<const Word<MotionKind>> WordsOf(MotionKind) {
+  static constexpr std::array words{Word{"chosen", MotionKind::chosen},
+                                    Word{"constant", MotionKind::constant},
+                                    Word{"any", MotionKind::any}};
+  return words;
+}
+
+/// What is known of the heat at the start of a log.
+enum class StartBelief {
+  cold,     // the joint was cold: intervals hold under that condition
+  unknown,  // it may have been a tenth as warm as it gets: intervals reach as far as that moves them
+  estimated,  // E(0) is fitted
+};
+inline std::span<const Word<StartBelief>> WordsOf(StartBelief) {
+  static constexpr std::array words{Word{"cold", StartBelief::cold},
+                                    Word{"unknown", StartBelief::unknown},
+                                    Word{"estimated", StartBelief::estimated}};
+  return words;
+}
+
 /// Gravity with its values.
 struct GravityModel {
   GravityKind kind = GravityKind::sincos;

@@ -25,6 +25,15 @@ struct ParameterScore {
   bool estimated = false;
   std::optional<bool> covered;  // the 95 % interval holds the truth; empty without an interval
   double bound = 0;             // Cramer-Rao standard deviation; NaN where it does not exist
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("truth", &truth);
+    a->Field("estimate", &estimate);
+    a->Field("estimated", &estimated);
+    a->Field("covered", &covered);
+    a->Field("bound", &bound);
+  }
 };
 
 /// Scores in two parametrisations, Eqs. (21) and (22) of the warming, and their NPE, Eq. (26).
@@ -35,6 +44,16 @@ struct Score {
   double npe_discrete = 0;
   double bound_npe_continuous = 0;  // sqrt(sum((bound / truth)^2)): rms NPE at the bound, or NaN
   double bound_npe_discrete = 0;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Named("continuous", &continuous);
+    a->Named("discrete", &discrete);
+    a->Field("npe_continuous", &npe_continuous);
+    a->Field("npe_discrete", &npe_discrete);
+    a->Field("bound_npe_continuous", &bound_npe_continuous);
+    a->Field("bound_npe_discrete", &bound_npe_discrete);
+  }
 };
 
 /// The samples that an estimate is scored on: those of the log as it was taken at constant speed, or

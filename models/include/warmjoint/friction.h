@@ -281,6 +281,13 @@ struct Friction {
   void Serialize(A* a);
 };
 
+/// Friction for one joint of a model.
+struct FrictionForJoint {
+  std::string joint;
+  Friction friction;
+  std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
+};
+
 /// What beside a law's own parameters shapes friction and is a number: its name and bounds, and
 /// where it is. Documented, read and written by this one table.
 struct FrictionOption {

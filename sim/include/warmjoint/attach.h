@@ -31,13 +31,6 @@ inline std::span<const Word<FrictionForm>> WordsOf(FrictionForm) {
   return words;
 }
 
-/// Friction for one joint of a model.
-struct FrictionForJoint {
-  std::string joint;
-  Friction friction;
-  std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
-};
-
 /// The folder of each ROS package by its name: package://NAME/FILE is FOLDER/FILE.
 using PackageFolders = std::map<std::string, std::filesystem::path>;
 

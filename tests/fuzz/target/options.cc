@@ -6,7 +6,7 @@
 #include "models/foundation/serialize.h"
 #include "models/recording/csv.h"
 #include "tests/fuzz/fuzz.h"
-#include "tools/actions/recording_source.h"
+#include "tools/identify/recording_source.h"
 #include "tools/terminal/shell_words.h"
 
 namespace {

@@ -1,6 +1,7 @@
 // What the public headers promise: the library does what the command line does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 #include <warmjoint/errors.h>
 #include <warmjoint/identify.h>
 #include <warmjoint/score.h>
@@ -99,8 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
               [](auto& source, auto& settings, auto& holdout) {
                 settings.identifier = "nominal-ls";
                 settings.options = {{"law", "asymmetric"}};
-                settings.gravity = "sincos";
-                settings.start = "unknown";
+                settings.gravity = FittedGravity::sincos;
+                settings.start = StartBelief::unknown;
                 settings.relevance = 0.05;
                 holdout.fraction = 0.4;
                 source.prepare = {1, 2};

@@ -6,12 +6,15 @@
 //   const Estimate estimate = Identify(Prepare(ReadRecording({{"log.csv"}})), settings);
 #pragma once
 
-#include <warmjoint/attach.h>
 #include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
 #include <warmjoint/prepared_log.h>
 
+#include <array>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,18 +22,34 @@ namespace warmjoint {
 
 /// What becomes of the numbers of a model that the verdict finds inadequate.
 enum class VoidNumbers { withhold, show };
+inline std::span<const Word<VoidNumbers>> WordsOf(VoidNumbers) {
+  static constexpr std::array words{Word{"withhold", VoidNumbers::withhold},
+                                    Word{"show", VoidNumbers::show}};
+  return words;
+}
 
 /// What is asked of an identification besides its log, each under the name that it has on the command line.
 struct IdentifySettings {
   std::string identifier = "energy-ml";
-  std::string gravity = "none";  // none, sincos or paired
-  std::string start = "cold";    // cold, unknown or estimated
+  FittedGravity gravity = FittedGravity::none;
+  StartBelief start = StartBelief::cold;
+  MotionKind motion = MotionKind::chosen;
   /// Change of the friction by lack of fit, as a share, from which a model is refused.
   double relevance = kDefaultRelevance;
   std::map<std::string, std::string> options;  // of the identifier, as --set
   VoidNumbers void_numbers = VoidNumbers::withhold;
-  std::string motion = "chosen";  // chosen, constant or any
-  bool follows = false;           // an earlier recording, whose heat is given once it is read
+  bool follows = false;  // an earlier recording, whose heat is given once it is read
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("identifier", &identifier);
+    a->Field("gravity", &gravity);
+    a->Field("start", &start);
+    a->Field("motion", &motion);
+    a->Field("relevance", &relevance, {.bounds = {.above = 0, .at_most = 1}});
+    a->Field("options", &options);
+    a->Field("void_numbers", &void_numbers);
+  }
 };
 
 /// Samples for figures on unseen data: a share of the recording's end, 0 for none, or another one.
@@ -67,11 +86,11 @@ LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file);
 CarriedHeat CarryOver(const LeftHeat& left, std::optional<double> pause, const Measurements& next);
 
 /// Fits, judges and reports. The verdict is the estimate's status, with a message and data (diagnostics); mathematics that
-/// fails does not throw. follows: the heat that an earlier recording left. Throws BadInput for names, options and numbers that
-/// cannot be used. Several threads may identify at once.
+/// fails does not throw. follows: the heat that an earlier recording left. watch: is told what is being tried; what it throws
+/// ends the fit. Throws BadInput for names, options and numbers that cannot be used. Several threads may identify at once.
 Estimate Identify(const PreparedLog& log, IdentifySettings settings = {},
-                  const HoldOutSource& holdout = {},
-                  const std::optional<CarriedHeat>& follows = {});
+                  const HoldOutSource& holdout = {}, const std::optional<CarriedHeat>& follows = {},
+                  const std::function<void(const std::string& words)>& watch = {});
 
 /// The friction in `file` for the joints that `joint` names, with the heat `initial` at the start: cold, end (of the estimate's
 /// recording) or settled:SPEED (rad/s or m/s). Adds to `warnings` what the estimate's own verdict says against its friction:

@@ -10,6 +10,7 @@
 
 #include <warmjoint/claim.h>
 #include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,10 @@ enum class Confinement { sandbox, none };
 /// Most threads of a run.
 inline constexpr int kMostJobs = 1024;
 
+/// An identifier of the caller's own: the text of an estimate.json for a log, as a command writes it. Called from several
+/// threads; what it throws is a realization without an answer.
+using AnswerFunction = std::function<std::string(const Measurements&)>;
+
 /// What is run and how; each member is called as its option of the command line.
 struct RunArguments {
   std::string suite;
@@ -38,6 +43,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> identifiers;
   std::string shard = "1/1";
+  std::map<std::string, AnswerFunction> functions;  // by label, with those that `identifiers` names
   bool keep = false;
   bool allow_commands = false;
   Confinement confinement = Confinement::sandbox;  // of commands

@@ -7,7 +7,7 @@
 #include "identification/preparation/moving_view.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
-#include "tools/actions/identify_recording.h"
+#include "tools/identify/identify_recording.h"
 
 namespace warmjoint::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/actions/carried_heat.h"
+#include "tools/identify/carried_heat.h"
 
 #include <fmt/format.h>
 #include <warmjoint/friction_model.h>

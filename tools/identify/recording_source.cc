@@ -1,4 +1,4 @@
-#include "tools/actions/recording_source.h"
+#include "tools/identify/recording_source.h"
 
 #include <fmt/format.h>
 

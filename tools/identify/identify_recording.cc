@@ -1,4 +1,4 @@
-#include "tools/actions/identify_recording.h"
+#include "tools/identify/identify_recording.h"
 
 #include <fmt/format.h>
 
@@ -28,39 +28,33 @@ std::string Able(std::string_view option) {
   return fmt::format("{}", fmt::join(able, ", "));
 }
 
-void RequireWord(const std::string& given, const char* option,
-                 const std::vector<std::string>& words) {
-  if (std::ranges::find(words, given) != words.end()) return;
-  Refuse({option}, "is '{}'{}", Excerpt(given), Suggestion(given, words));
-}
-
 /// --start estimated, or --follows, as options of the identifier.
 void AddStart(const IdentifySettings& settings, const Identifier& identifier,
               std::map<std::string, std::string>& given) {
-  if (settings.start != "estimated" && !settings.follows) return;
+  if (settings.start != StartBelief::estimated && !settings.follows) return;
   const char* option = settings.follows ? "--follows" : "--start";
   if (!identifier.options.Has(kStartOption)) {
     Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name,
            Able(kStartOption));
   }
   // only one option may say how warm the joint is at the start
-  if (settings.follows && (settings.start != "cold" || given.contains(kStartOption))) {
+  if (settings.follows && (settings.start != StartBelief::cold || given.contains(kStartOption))) {
     Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
-           settings.start != "cold" ? "--start" : "--set initial_energy");
+           settings.start != StartBelief::cold ? "--start" : "--set initial_energy");
   }
   given[kStartOption] = settings.follows ? "expected" : "estimated";
 }
 
 /// --motion as an option of the identifier.
-void AddMotion(const std::string& motion, const Identifier& identifier,
+void AddMotion(MotionKind motion, const Identifier& identifier,
                std::map<std::string, std::string>& given) {
-  if (motion == "chosen") return;
+  if (motion == MotionKind::chosen) return;
   if (!identifier.options.Has("motion")) {
-    if (motion == "constant" && identifier.regime == Regime::steady) return;
+    if (motion == MotionKind::constant && identifier.regime == Regime::steady) return;
     Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
            identifier.name, Able("motion"));
   }
-  given["motion"] = motion;
+  given["motion"] = NameOf(motion);
 }
 
 /// --set, and --start, --motion and --gravity as three of them.
@@ -70,18 +64,18 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
   auto given = settings.options;
   AddStart(settings, identifier, given);
   AddMotion(settings.motion, identifier, given);
-  if (settings.gravity == "none") return given;
+  if (settings.gravity == FittedGravity::none) return given;
   if (!identifier.options.Has("gravity")) {
     Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
            Able("gravity"));
   }
   // gravity over an angle needs one
-  if (settings.gravity == "sincos" && joint == JointKind::linear) {
+  if (settings.gravity == FittedGravity::sincos && joint == JointKind::linear) {
     Refuse({"--gravity"},
            "sincos needs an angle and the joint is linear, where gravity does not "
            "depend on position; use paired");
   }
-  given["gravity"] = settings.gravity;
+  given["gravity"] = NameOf(settings.gravity);
   return given;
 }
 
@@ -115,14 +109,10 @@ Judging JudgingOf(const IdentifySettings& settings) {
     Refuse({"--relevance"}, "is {}; it must be a share of the friction above 0 and at most 1",
            settings.relevance);
   }
-  return {settings.relevance,
-          settings.start == "unknown" ? StartBelief::unknown : StartBelief::cold};
+  return {settings.relevance, settings.start};
 }
 
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
-  RequireWord(settings.gravity, "--gravity", {"none", "sincos", "paired"});
-  RequireWord(settings.motion, "--motion", {"chosen", "constant", "any"});
-  RequireWord(settings.start, "--start", {"cold", "unknown", "estimated"});
   const Identifier& identifier = FindIdentifier(settings.identifier);
   Options options = identifier.options.Read(GivenOptions(settings, identifier, joint), {"--set"});
   return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
@@ -196,13 +186,13 @@ std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
 }
 
 Estimate Identify(const PreparedLog& log, IdentifySettings settings, const HoldOutSource& holdout,
-                  const std::optional<CarriedHeat>& follows) {
+                  const std::optional<CarriedHeat>& follows, const Narrator& watch) {
   const Measurements& measurements = log.taken().measurements;
   HoldOutShare(holdout.fraction);
   settings.follows = follows.has_value();
   IdentifyTask task = CheckSettings(settings, measurements.joint);
   if (follows) BeginWith(*follows, task);
-  Estimate estimate = IdentifyLog(task, log, holdout).estimate;
+  Estimate estimate = IdentifyLog(task, log, holdout, watch).estimate;
   MarkAmperes(measurements, estimate);
   estimate.follows = follows;
   return estimate;

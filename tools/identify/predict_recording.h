@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "identification/holdout/predict_torque.h"
-#include "tools/actions/carried_heat.h"
-#include "tools/actions/recording_source.h"
+#include "tools/identify/carried_heat.h"
+#include "tools/identify/recording_source.h"
 
 namespace warmjoint {
 
@@ -22,6 +22,9 @@ struct StoredModel {
   Status status = Status::ok;
   TorqueModel model;
 };
+
+/// Of an estimate. file: of it, in messages. Throws BadInput where it holds no friction.
+StoredModel StoredModelOf(const Estimate& estimate, const std::string& file);
 
 /// Of estimate.json, or of a friction file. Throws BadInput from `file` where it holds no friction.
 StoredModel ReadStoredModel(const std::string& file);

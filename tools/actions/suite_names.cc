@@ -1,4 +1,4 @@
-#include "tools/cli/suite_names.h"
+#include "tools/actions/suite_names.h"
 
 #include <algorithm>
 

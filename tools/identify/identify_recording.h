@@ -9,8 +9,8 @@
 #include <string>
 
 #include "identification/answer/identify.h"
-#include "tools/actions/carried_heat.h"
-#include "tools/actions/recording_source.h"
+#include "tools/identify/carried_heat.h"
+#include "tools/identify/recording_source.h"
 
 namespace warmjoint {
 

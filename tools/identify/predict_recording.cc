@@ -1,4 +1,4 @@
-#include "tools/actions/predict_recording.h"
+#include "tools/identify/predict_recording.h"
 
 #include <fmt/format.h>
 #include <warmjoint/estimate.h>
@@ -49,29 +49,29 @@ CarriedHeat HeatBefore(const StoredModel& stored, const EarlierRecording& earlie
 
 }  // namespace
 
-StoredModel ReadStoredModel(const std::string& file) {
-  const nlohmann::json object = ReadJsonFile(file);
-  StoredModel stored;
-  // a file of friction alone has no verdict
-  if (!object.is_object() || !object.contains("identifier")) {
-    stored.identifier = "friction file";
-    stored.model.friction = ReadFriction(file);
-    return stored;
-  }
-  const Estimate estimate = EstimateFrom({Tree(object), file});
+StoredModel StoredModelOf(const Estimate& estimate, const std::string& file) {
   // an estimate without friction predicts nothing
   if (!estimate.friction) {
     Refuse({file}, "is {} and holds no friction; identify again{}", StatusName(estimate.status),
            estimate.status == Status::ok ? "" : " with --force to use it anyway");
   }
-  stored.identifier = estimate.identifier;
-  stored.status = estimate.status;
-  stored.model = {*estimate.friction, estimate.gravity, {}};
+  StoredModel stored{
+      estimate.identifier, estimate.status, {*estimate.friction, estimate.gravity, {}}};
   // inertia and lag of the torque, where the estimate has them
   if (const EstimatedParameter* inertia = Find(Role::inertia, estimate)) {
     stored.model.inertia = inertia->value;
   }
   if (const EstimatedParameter* lag = Find(Role::lag, estimate)) stored.model.lag = lag->value;
+  return stored;
+}
+
+StoredModel ReadStoredModel(const std::string& file) {
+  const Node document = ReadJsonNode(file);
+  if (document.Find("identifier")) return StoredModelOf(EstimateFrom(document), file);
+  // a file of friction alone has no verdict
+  StoredModel stored;
+  stored.identifier = "friction file";
+  stored.model.friction = ReadFriction(file);
   return stored;
 }
 

@@ -1,0 +1,321 @@
+// warmjoint._core: recordings, their check, identification and friction. No engine.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+#include <warmjoint/errors.h>
+#include <warmjoint/friction_model.h>
+#include <warmjoint/identify.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/score.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "identification/estimate.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/check.h"
+#include "models/friction/check_friction.h"
+#include "models/recording/join_recordings.h"
+#include "tools/identify/identify_recording.h"
+#include "tools/identify/predict_recording.h"
+#include "tools/python/interrupt.h"
+#include "tools/python/trees.h"
+
+namespace warmjoint::python {
+namespace {
+
+// The signatures are what type checkers read (_core.pyi is made of them).
+namespace nb = nanobind;
+using Eigen::Index;
+using Column = nb::ndarray<nb::numpy, const double, nb::ndim<1>>;
+using Given = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+/// A recording that is prepared, and the files that it was read from.
+struct Log {
+  PreparedLog prepared;
+  std::optional<RecordingSource> source;
+
+  const Measurements& measurements() const { return prepared.taken().measurements; }
+};
+
+// Logs.
+
+Column ViewOf(const Eigen::VectorXd& column, nb::handle owner) {
+  return Column(column.data(), {static_cast<std::size_t>(column.size())}, owner);
+}
+
+/// A column of a log as an array that shares its memory; None where the log lacks it.
+nb::object ColumnOf(nb::handle self, const std::string& name) {
+  const Measurements& m = nb::cast<const Log&>(self).measurements();
+  const auto in_python = [&](const Eigen::VectorXd& column) {
+    return nb::cast(ViewOf(column, self));
+  };
+  if (name == "time") return in_python(m.time);
+  if (name == "position") return in_python(m.position);
+  if (name == "velocity") return in_python(m.velocity);
+  if (name == "torque") return in_python(m.torque);
+  const auto* column = name == "motor_position" ? &m.motor_position
+                       : name == "load"         ? &m.load
+                                                : &m.temperature;
+  return *column ? in_python(**column) : nb::object(nb::none());
+}
+
+/// Columns by their names in the header that a file would have. settings: of a RecordingSource.
+Log LogOfColumns(const std::map<std::string, Given>& columns, nb::handle settings) {
+  const auto source = FieldsFromPython<RecordingSource>(settings, "log");
+  std::map<std::string, std::vector<double>> values;
+  for (const auto& [name, column] : columns) {
+    values[name].assign(column.data(), column.data() + column.size());
+  }
+  return Interruptibly([=](const auto&) {
+    return Log{Prepare(MakeRecording(values, source.read, source.files.at(0)), source.prepare), {}};
+  });
+}
+
+Log ReadLog(nb::handle settings) {
+  const auto source = FieldsFromPython<RecordingSource>(settings, "read");
+  // readers of HDF5 and MATLAB fork, which only the thread that calls may do
+  nb::gil_scoped_release released;
+  return {Prepare(ReadRecording(source), source.prepare), source};
+}
+
+/// Several logs of one joint, each from a cold start, as one.
+Log JoinLogs(const std::vector<Log>& logs) {
+  std::vector<Measurements> parts;
+  for (const Log& log : logs) parts.push_back(log.measurements());
+  return Interruptibly([parts](const auto&) { return Log{Prepare(JoinRecordings(parts)), {}}; });
+}
+
+// Identification.
+
+nb::object IdentifyInPython(const Log& log, nb::handle given, double share,
+                            const std::optional<Log>& other) {
+  const auto settings = FieldsFromPython<IdentifySettings>(given, "identify");
+  HoldOutSource holdout = HoldOutShare(share);
+  if (other) holdout = {0, other->prepared};
+  const Estimate estimate = Interruptibly([=](const auto& stop) {
+    Estimate answer =
+        Identify(log.prepared, settings, holdout, {}, [&](const std::string&) { stop(); });
+    answer.recording = log.source;
+    return answer;
+  });
+  return ToPython(EstimateToTree(estimate));
+}
+
+Estimate EstimateOf(nb::handle given) {
+  return EstimateFrom(Node(ToTree(given, "estimate"), "estimate"));
+}
+
+/// energies: E1 and E2 at the first sample, N.m or N; empty: cold.
+nb::dict PredictInPython(nb::handle estimate, const Log& log, const std::vector<double>& energies) {
+  const StoredModel stored = StoredModelOf(EstimateOf(estimate), "estimate");
+  CourseStart start;
+  if (!energies.empty()) start.energy = energies[0];
+  if (energies.size() > 1) start.second_energy = energies[1];
+  const Predicted predicted =
+      Interruptibly([=](const auto&) { return PredictLog(stored, log.prepared, start); });
+
+  // a row for each sample of the log
+  const auto n = static_cast<std::size_t>(predicted.logged.size());
+  const auto column = [&](const Eigen::VectorXd& all) {
+    auto* rows = new std::vector<double>;
+    rows->reserve(n);
+    for (const Index i : predicted.logged) rows->push_back(all[i]);
+    nb::capsule owner(
+        rows, [](void* memory) noexcept { delete static_cast<std::vector<double>*>(memory); });
+    return nb::ndarray<nb::numpy, double, nb::ndim<1>>(rows->data(), {n}, owner);
+  };
+  nb::dict dict;
+  dict["time"] = column(predicted.measurements.time);
+  dict["torque"] = column(predicted.torque.torque);
+  dict["energy"] = column(predicted.torque.friction.energy);
+  dict["compared"] = column(predicted.torque.known.keep.cast<double>().matrix());
+  dict["metrics"] = FieldsToPython(predicted.metrics);
+  return dict;
+}
+
+/// {continuous{name: {truth, estimate, ...}}, discrete{...}, npe_continuous, ...}
+nb::object ScoreInPython(nb::handle estimate, const Log& log, nb::handle truth) {
+  return FieldsToPython(
+      ScoreEstimate(EstimateOf(estimate), log.prepared, FieldsFromPython<Truth>(truth, "truth")));
+}
+
+// Friction.
+
+Friction FrictionOf(nb::handle given) {
+  return Completed(FieldsFromPython<Friction>(given, "friction"), {"friction"});
+}
+
+/// F of steady sliding at n places, N.m or N. places: speed, position, energy, load, each [n].
+nb::object ForceAt(nb::handle given, const std::map<std::string, Given>& places) {
+  const FrictionModel model(FrictionOf(given));
+  const std::size_t n = places.at("speed").size();
+  auto* forces = new std::vector<double>(n);
+  nb::capsule owner(
+      forces, [](void* memory) noexcept { delete static_cast<std::vector<double>*>(memory); });
+  for (std::size_t i = 0; i < n; ++i) {
+    const JointPlace place{.position = places.at("position").data()[i],
+                           .energy = places.at("energy").data()[i],
+                           .load = places.at("load").data()[i]};
+    (*forces)[i] = model.Force(places.at("speed").data()[i], place);
+  }
+  return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(forces->data(), {n}, owner));
+}
+
+/// What is known of parameters: {name: {symbol, unit, meaning, default}}; of a linear joint its units.
+Tree ParametersOf(std::span<const ParameterInfo> parameters, JointKind kind) {
+  Tree rows = Tree::object();
+  for (const ParameterInfo& one : parameters) {
+    rows[std::string(one.name)] = {{"symbol", one.symbol},
+                                   {"unit", one.unit.For(kind)},
+                                   {"meaning", one.meaning},
+                                   {"default", one.default_value}};
+  }
+  return rows;
+}
+
+Tree LawsOf(JointKind kind) {
+  Tree laws = Tree::object();
+  for (const Law& law : Laws()) {
+    laws[std::string(law.name)] = {{"equation", law.equation},
+                                   {"parameters", ParametersOf(law.parameters, kind)}};
+  }
+  return laws;
+}
+
+/// {name: {summary, options{name: {value, allowed, meaning}}}}
+Tree IdentifiersOf() {
+  Tree identifiers = Tree::object();
+  for (const Identifier& one : Identifiers()) {
+    Tree options = Tree::object();
+    for (const OptionInfo& option : one.options.List()) {
+      options[option.name] = {
+          {"value", option.value}, {"allowed", option.allowed}, {"meaning", option.meaning}};
+    }
+    identifiers[one.name] = {{"summary", one.summary}, {"options", options}};
+  }
+  return identifiers;
+}
+
+constexpr const char* kColumn = "numpy.typing.NDArray[numpy.float64]";
+
+std::string Property(const std::string& name, const std::string& type) {
+  return "def " + name + "(self) -> " + type;
+}
+
+void AddLog(nb::module_& module) {
+  nb::class_<Log> log(module, "Log");
+  for (const char* name : {"time", "position", "velocity", "torque"}) {
+    log.def_prop_ro(
+        name, [name](nb::handle self) { return ColumnOf(self, name); },
+        nb::sig(Property(name, kColumn).c_str()));
+  }
+  for (const char* name : {"motor_position", "load", "temperature"}) {
+    log.def_prop_ro(
+        name, [name](nb::handle self) { return ColumnOf(self, name); },
+        nb::sig(Property(name, std::string(kColumn) + " | None").c_str()));
+  }
+  log.def_prop_ro("size", [](const Log& self) { return self.measurements().size(); })
+      .def_prop_ro(
+          "joint", [](const Log& self) { return std::string(NameOf(self.measurements().joint)); },
+          nb::sig("def joint(self) -> typing.Literal['rotary', 'linear']"))
+      .def_prop_ro("gear", [](const Log& self) { return self.measurements().gear; })
+      .def_prop_ro("torque_unit", [](const Log& self) { return self.measurements().torque_unit; })
+      .def_prop_ro("source", [](const Log& self) { return self.measurements().source; })
+      .def_prop_ro("notes", [](const Log& self) { return self.measurements().notes; })
+      .def_prop_ro("files",
+                   [](const Log& self) {
+                     return self.source ? self.source->files : std::vector<std::string>{};
+                   })
+      .def("save", [](const Log& self, const std::string& file) {
+        WriteRecording(self.measurements(), file);
+      });
+  module.def("log_of_columns", &LogOfColumns,
+             nb::sig("def log_of_columns(columns: dict[str, numpy.typing.NDArray[numpy.float64]], "
+                     "settings: dict[str, object]) -> Log"));
+  module.def("read_log", &ReadLog, nb::sig("def read_log(settings: dict[str, object]) -> Log"));
+  module.def("join_logs", &JoinLogs);
+  module.def(
+      "check",
+      [](const Log& self) {
+        const RecordingCheck check = CheckRecording(self.prepared);
+        return std::pair(ToPython(Tree(CheckToJson(check))), CheckToText(check));
+      },
+      nb::sig("def check(log: Log) -> tuple[dict[str, typing.Any], str]"));
+}
+
+void AddIdentification(nb::module_& module) {
+  module.def("identify", &IdentifyInPython, nb::arg("log"), nb::arg("settings"), nb::arg("share"),
+             nb::arg("other").none(),
+             nb::sig("def identify(log: Log, settings: dict[str, object], share: float, other: Log "
+                     "| None) -> dict[str, typing.Any]"));
+  module.def("predict", &PredictInPython,
+             nb::sig("def predict(estimate: dict[str, typing.Any], log: Log, energies: "
+                     "list[float]) -> dict[str, typing.Any]"));
+  module.def(
+      "read_estimate",
+      [](const std::string& file) { return ToPython(EstimateToTree(ReadEstimate(file))); },
+      nb::sig("def read_estimate(file: str) -> dict[str, typing.Any]"));
+  module.def(
+      "write_estimate",
+      [](nb::handle estimate, const std::string& file) {
+        WriteEstimate(EstimateOf(estimate), file);
+      },
+      nb::sig("def write_estimate(estimate: dict[str, typing.Any], file: str) -> None"));
+  module.def("score", &ScoreInPython,
+             nb::sig("def score(estimate: dict[str, typing.Any], log: Log, truth: dict[str, "
+                     "typing.Any]) -> dict[str, "
+                     "typing.Any]"));
+  module.def(
+      "identifiers", [] { return ToPython(IdentifiersOf()); },
+      nb::sig("def identifiers() -> dict[str, typing.Any]"));
+}
+
+void AddFriction(nb::module_& module) {
+  module.def(
+      "complete_friction", [](nb::handle given) { return FieldsToPython(FrictionOf(given)); },
+      nb::sig("def complete_friction(given: dict[str, typing.Any]) -> dict[str, typing.Any]"));
+  module.def(
+      "read_friction", [](const std::string& file) { return FieldsToPython(ReadFriction(file)); },
+      nb::sig("def read_friction(file: str) -> dict[str, typing.Any]"));
+  module.def(
+      "friction_to_json", [](nb::handle given) { return FrictionToJson(FrictionOf(given)); },
+      nb::sig("def friction_to_json(given: dict[str, typing.Any]) -> str"));
+  module.def(
+      "force", &ForceAt,
+      nb::sig("def force(given: dict[str, typing.Any], places: dict[str, "
+              "numpy.typing.NDArray[numpy.float64]]) -> numpy.typing.NDArray[numpy.float64]"));
+  module.def(
+      "settled_energy",
+      [](nb::handle given, double speed) { return SettledEnergy(FrictionOf(given), speed); },
+      nb::sig(
+          "def settled_energy(given: dict[str, typing.Any], speed: float) -> list[float] | None"));
+  module.def(
+      "laws",
+      [](bool linear) { return ToPython(LawsOf(linear ? JointKind::linear : JointKind::rotary)); },
+      nb::sig("def laws(linear: bool) -> dict[str, typing.Any]"));
+}
+
+}  // namespace
+}  // namespace warmjoint::python
+
+NB_MODULE(_core, module) {
+  namespace nb = nanobind;
+  using namespace warmjoint;
+  // refusals keep the program's text
+  nb::exception<BadInput>(module, "BadInput", PyExc_ValueError);
+  nb::exception<OutputFailed>(module, "OutputFailed", PyExc_OSError);
+  module.attr("version") = Version();
+  python::AddLog(module);
+  python::AddIdentification(module);
+  python::AddFriction(module);
+  python::WaitAtExit();
+}

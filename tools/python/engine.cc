@@ -1,0 +1,136 @@
+// warmjoint._engine: what needs MuJoCo 4.0: simulation, suites and their leaderboards.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+#include <warmjoint/errors.h>
+#include <warmjoint/simulation.h>
+#include <warmjoint/suite.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/python/interrupt.h"
+#include "tools/python/trees.h"
+
+namespace warmjoint::python {
+namespace {
+
+namespace nb = nanobind;
+
+/// A column as an array of its own, [N].
+nb::object Array(const Eigen::VectorXd& column) {
+  auto* copy = new Eigen::VectorXd(column);
+  nb::capsule owner(copy,
+                    [](void* memory) noexcept { delete static_cast<Eigen::VectorXd*>(memory); });
+  return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(
+      copy->data(), {static_cast<std::size_t>(copy->size())}, owner));
+}
+
+/// The columns of a log and what a reader of its file is told, as arguments of Python's Log.
+nb::dict LogArguments(const Measurements& m) {
+  nb::dict log;
+  for (const auto& [name, column] :
+       {std::pair("time", &m.time), std::pair("position", &m.position),
+        std::pair("velocity", &m.velocity), std::pair("torque", &m.torque)}) {
+    log[name] = Array(*column);
+  }
+  for (const auto& [name, column] :
+       {std::pair("motor_position", &m.motor_position), std::pair("load", &m.load),
+        std::pair("temperature", &m.temperature)}) {
+    if (*column) log[name] = Array(**column);
+  }
+  log["joint"] = std::string(NameOf(m.joint));
+  log["gear"] = m.gear;
+  return log;
+}
+
+/// (arguments of Log, truth)
+nb::object SimulateInPython(const std::string& scenario,
+                            const std::vector<std::pair<std::string, std::string>>& set,
+                            std::optional<std::uint64_t> seed, std::uint64_t realization) {
+  const Simulation simulation = Interruptibly([=](const auto& stop) {
+    return Simulate(scenario, {set, seed, realization, [&](double) { stop(); }});
+  });
+  return nb::make_tuple(LogArguments(simulation.measurements), FieldsToPython(simulation.truth));
+}
+
+/// functions: label -> (arguments of Log -> text of estimate.json). watch: (finished, total). Returns {results, refused, ...}.
+nb::dict RunInPython(const std::string& suite, const std::string& output, nb::handle options,
+                     const std::map<std::string, nb::callable>& functions,
+                     const std::function<void(int, int)>& watch) {
+  const Node given(ToTree(options, "run"), "run");
+  RunArguments arguments;
+  arguments.suite = suite;
+  arguments.output = output;
+  const auto whole = [&](const char* name, std::optional<std::uint64_t>& value) {
+    if (const auto found = given.Find(name)) ReadValue(*found, &value.emplace(), {});
+  };
+  whole("jobs", arguments.jobs);
+  whole("realizations", arguments.realizations);
+  whole("seed", arguments.seed);
+  if (const auto names = given.Find("identifiers")) ReadValue(*names, &arguments.identifiers, {});
+  for (const auto& [label, function] : functions) {
+    arguments.functions[label] = [call = function.ptr()](const Measurements& measurements) {
+      nb::gil_scoped_acquire held;
+      return nb::cast<std::string>(nb::handle(call)(LogArguments(measurements)));
+    };
+  }
+  // the functions live as long as this call, which waits for the run
+  const RunEnding ending = [&] {
+    nb::gil_scoped_release released;
+    return Run(arguments, [&](int finished, int total) {
+      nb::gil_scoped_acquire held;
+      if (PyErr_CheckSignals() != 0) throw nb::python_error();
+      watch(finished, total);
+    });
+  }();
+  nb::dict dict;
+  dict["results"] = ending.results;
+  dict["rejected"] = ending.refused;
+  dict["unanswered"] = ending.unanswered;
+  dict["not_simulated"] = ending.not_simulated;
+  dict["silent"] = ending.silent;
+  dict["notice"] = ending.not_following;
+  return dict;
+}
+
+}  // namespace
+}  // namespace warmjoint::python
+
+NB_MODULE(_engine, module) {
+  namespace nb = nanobind;
+  using namespace warmjoint;
+  // refusals are those of the package
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    const nb::module_ core = nb::module_::import_("warmjoint._core");
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const BadInput& refusal) {
+      PyErr_SetString(core.attr("BadInput").ptr(), refusal.what());
+    } catch (const OutputFailed& failure) {
+      PyErr_SetString(core.attr("OutputFailed").ptr(), failure.what());
+    }
+  });
+  module.def("simulate", &python::SimulateInPython, nb::arg("scenario"), nb::arg("set"),
+             nb::arg("seed").none(), nb::arg("realization"),
+             nb::sig("def simulate(scenario: str, set: list[tuple[str, str]], seed: int | None, "
+                     "realization: int) -> "
+                     "tuple[dict[str, typing.Any], dict[str, typing.Any]]"));
+  module.def(
+      "run", &python::RunInPython,
+      nb::sig("def run(suite: str, output: str, options: dict[str, object], functions: dict[str, "
+              "collections.abc.Callable[[dict[str, typing.Any]], str]], watch: "
+              "collections.abc.Callable[[int, int], None]) -> dict[str, typing.Any]"));
+  module.def("leaderboard", [](const std::string& directory, const std::string& format) {
+    return FormatLeaderboard(directory, format);
+  });
+  python::WaitAtExit();
+}

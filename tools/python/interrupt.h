@@ -1,0 +1,69 @@
+// Work that leaves Python's other threads running and ends with Ctrl-C.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace warmjoint::python {
+
+/// Fits that were interrupted and have not noticed it yet: the interpreter must not end before they do.
+class Abandoned {
+ public:
+  static void Add(std::thread thread) { Threads().push_back(std::move(thread)); }
+  static void Join() {
+    for (std::thread& thread : Threads()) thread.join();
+    Threads().clear();
+  }
+
+ private:
+  static std::vector<std::thread>& Threads() {
+    static std::vector<std::thread> threads;
+    return threads;
+  }
+};
+
+/// Why a fit that nobody waits for ends.
+struct Interrupted {};
+
+/// Calls work(stop) in a thread of its own, without the interpreter's lock, and raises what Python's signal handlers raise
+/// meanwhile (Ctrl-C). stop() throws once nobody waits; work must own what it uses.
+template <class Work>
+auto Interruptibly(Work work) {
+  const auto abandoned = std::make_shared<std::atomic<bool>>(false);
+  const auto stop = [abandoned] {
+    if (*abandoned) throw Interrupted{};
+  };
+  std::packaged_task<decltype(work(stop))()> task(
+      [work = std::move(work), stop] { return work(stop); });
+  auto answer = task.get_future();
+  std::thread thread(std::move(task));
+  {
+    nanobind::gil_scoped_release released;
+    while (answer.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+      nanobind::gil_scoped_acquire held;
+      if (PyErr_CheckSignals() == 0) continue;
+      *abandoned = true;
+      Abandoned::Add(std::move(thread));
+      throw nanobind::python_error();
+    }
+  }
+  thread.join();
+  return answer.get();
+}
+
+/// Lets the interpreter's end wait for what was abandoned.
+inline void WaitAtExit() {
+  nanobind::module_::import_("atexit").attr("register")(nanobind::cpp_function([] {
+    nanobind::gil_scoped_release released;
+    Abandoned::Join();
+  }));
+}
+
+}  // namespace warmjoint::python

@@ -1,0 +1,30 @@
+// Values of the program as Python has them: dicts, lists, numbers and texts, by the Serialize that files are read and written by.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+
+#include "models/foundation/node.h"
+#include "models/foundation/serialize.h"
+
+namespace warmjoint::python {
+
+/// Numbers keep all their bits; null is None.
+nanobind::object ToPython(const Tree& tree);
+
+/// The inverse, also of numbers and arrays of NumPy and of paths. Throws BadInput with `name` for what is none of these.
+Tree ToTree(nanobind::handle value, const std::string& name);
+
+template <Described T>
+nanobind::object FieldsToPython(const T& value) {
+  return ToPython(WriteFields(value));
+}
+
+/// name: what messages call the value. Throws BadInput as ReadFields does.
+template <Described T>
+T FieldsFromPython(nanobind::handle value, const std::string& name) {
+  return ReadAs<T>(Node(ToTree(value, name), name));
+}
+
+}  // namespace warmjoint::python
