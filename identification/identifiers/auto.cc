@@ -149,12 +149,14 @@ std::string Reason(const std::vector<Contender>& contenders, const Choice& choic
 std::string NotShown(const Fit& fit, const PreparedLog& log) {
   const auto is_slope = [](const FitParameter& one) { return one.part == LawPart::slope; };
   const bool slopes = std::ranges::any_of(fit.parameters, is_slope);
+  const bool warms = fit.RowOf(Role::heat).has_value();
   std::string clauses;
   for (const Excitation& one : CheckRecording(log).excitation) {
-    const bool lacks = (one.kind == FrictionKind::viscous_coulomb && !slopes) ||
-                       (one.kind == FrictionKind::warm_up && !fit.RowOf(Role::heat));
-    if (lacks && !one.sufficient)
-      clauses += fmt::format("not shown: {}, since {}; ", one.what, one.reason);
+    if (one.sufficient) continue;
+    if (one.kind == FrictionKind::viscous_coulomb && !slopes) clauses += one.reason + "; ";
+    if (one.kind == FrictionKind::warm_up && !warms) {
+      clauses += fmt::format("no warm-up can be seen: {}; ", one.reason);
+    }
   }
   return clauses;
 }

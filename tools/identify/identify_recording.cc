@@ -28,6 +28,17 @@ std::string Able(std::string_view option) {
   return fmt::format("{}", fmt::join(able, ", "));
 }
 
+/// Refuses what this identifier has no option for and others have.
+void RefuseOptionsOfOthers(const std::map<std::string, std::string>& given,
+                           const Identifier& identifier) {
+  for (const auto& [name, value] : given) {
+    const std::string able = identifier.options.Has(name) ? "" : Able(name);
+    if (able.empty()) continue;
+    Refuse({"--set"}, "{} has no option '{}'; name one that has it with --identifier: {}",
+           identifier.name, name, able);
+  }
+}
+
 /// --start estimated, or --follows, as options of the identifier.
 void AddStart(const IdentifySettings& settings, const Identifier& identifier,
               std::map<std::string, std::string>& given) {
@@ -114,7 +125,9 @@ Judging JudgingOf(const IdentifySettings& settings) {
 
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   const Identifier& identifier = FindIdentifier(settings.identifier);
-  Options options = identifier.options.Read(GivenOptions(settings, identifier, joint), {"--set"});
+  const auto given = GivenOptions(settings, identifier, joint);
+  RefuseOptionsOfOthers(given, identifier);
+  Options options = identifier.options.Read(given, {"--set"});
   return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
 }
 

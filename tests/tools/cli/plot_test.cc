@@ -91,7 +91,8 @@ TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
   WriteWholeFile(at("warm.yaml"), TableOneYaml(1800));
   Call({"simulate", at("warm.yaml"), "-o", at("warm")});
-  Call({"identify", at("warm/recording.csv"), "-o", at("estimate.json"), "--plot", at("fit.png")});
+  Call({"identify", at("warm/recording.csv"), "--identifier", "energy-ml", "-o",
+        at("estimate.json"), "--plot", at("fit.png")});
   const ProgramAnswer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});
   EXPECT_THAT(NamesOf(FilesOf(at("both/warm"))), UnorderedElementsAre("envelope.png"));
   const auto files = FilesOf(at("both/estimate"));

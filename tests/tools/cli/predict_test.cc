@@ -224,7 +224,10 @@ TEST_F(FollowTest, RefusesWhatCannotFollow) {
               HasSubstr("leave one"));
 
   // what knows no heat leaves none
-  ASSERT_EQ(Run({"identify", "day1.csv", "--set", "law=coulomb", "-o", "bad.json"}).status, 3);
+  ASSERT_EQ(Run({"identify", "day1.csv", "--identifier", "energy-ml", "--set", "law=coulomb", "-o",
+                 "bad.json"})
+                .status,
+            3);
   EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "bad.json", "--pause", "300"}),
               HasSubstr("tells of no heat at its end"));
 }

@@ -60,8 +60,10 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"check", "suite.yaml"}, "time"},
       // identify
       {{"identify", "log.csv", "--identifier", "energyml"}, "'energy-ml'"},
-      {{"identify", "log.csv", "--set", "lw=coulomb"}, "'law'"},
-      {{"identify", "log.csv", "--set", "law=asymetric"}, "'asymmetric'"},
+      {{"identify", "log.csv", "--identifier", "energy-ml", "--set", "lw=coulomb"}, "'law'"},
+      {{"identify", "log.csv", "--set", "law=coulomb"}, "energy-ml"},
+      {{"identify", "log.csv", "--identifier", "energy-ml", "--set", "law=asymetric"},
+       "'asymmetric'"},
       {{"identify", "log.csv", "--gravity", "sin"}, "'sincos'"},
       {{"identify", "log.csv", "--start", "warm"}, "'unknown'"},
       {{"identify", "log.csv", "--holdout", "2"}, "below 1"},
@@ -258,7 +260,9 @@ INSTANTIATE_TEST_SUITE_P(
         LongInput{"word", "plant: " + kLong, {"simulate", "FILE", "-o", "OUT"}},
         LongInput{
             "setting", kYaml + "3", {"simulate", "FILE", "-o", "OUT", "--set", "seed=" + kLong}},
-        LongInput{"option", kHeader, {"identify", "FILE", "--set", "law=" + kLong}},
+        LongInput{"option",
+                  kHeader,
+                  {"identify", "FILE", "--identifier", "energy-ml", "--set", "law=" + kLong}},
         LongInput{"option_name", kHeader, {"identify", "FILE", "--set", kLong + "=1"}},
         LongInput{"identifier", kHeader, {"identify", "FILE", "--identifier", kLong}},
         LongInput{"argument", "", {"identify", "FILE", "--" + kLong}},

@@ -1,7 +1,7 @@
 // Friction from a recording: what `warmjoint identify` does.
 //
 //   IdentifySettings settings;
-//   settings.identifier = "energy-ml";
+//   settings.identifier = "energy-ml";  // auto where it is not given
 //   settings.options["law"] = "asymmetric";
 //   const Estimate estimate = Identify(Prepare(ReadRecording({{"log.csv"}})), settings);
 #pragma once
@@ -30,7 +30,7 @@ inline std::span<const Word<VoidNumbers>> WordsOf(VoidNumbers) {
 
 /// What is asked of an identification besides its log, each under the name that it has on the command line.
 struct IdentifySettings {
-  std::string identifier = "energy-ml";
+  std::string identifier = "auto";
   FittedGravity gravity = FittedGravity::none;
   StartBelief start = StartBelief::cold;
   MotionKind motion = MotionKind::chosen;
