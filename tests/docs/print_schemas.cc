@@ -93,9 +93,10 @@ class SchemaWriter {
     SchemaWriter parameters(dialect_);
     for (const Law& law : Laws()) {
       for (const ParameterInfo& row : law.parameters) {
-        const Bounds bounds{.at_least = row.lower, .at_most = row.upper};
-        parameters.Add(row.name, Number("number", bounds),
-                       {.unit = row.unit.rotary, .meaning = row.meaning}, false);
+        const FieldInfo info{.unit = row.unit.rotary,
+                             .bounds = {.at_least = row.lower, .at_most = row.upper},
+                             .meaning = row.meaning};
+        parameters.Add(row.name, Of(0.0, info), info, false);
       }
     }
     schema["properties"]["law"]["enum"] = LawNames();
