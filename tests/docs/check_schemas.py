@@ -88,7 +88,8 @@ def validators():
 
 def kind_of(value):
     """Which schema is for a block of a page, if any is."""
-    keys = {"identifiers": "suite", "motion": "scenario", "identifier": "estimate", "status": "answer", "law": "friction", "friction": "friction"}
+    keys = {"identifiers": "suite", "motion": "scenario", "identifier": "estimate", "status": "answer",
+            "law": "friction", "friction": "friction"}
     return next((kind for key, kind in keys.items() if key in value), "map" if isinstance(value, list) else None)
 
 
@@ -147,7 +148,7 @@ def main():
         check(kind_of(value), value, path)
     citation = (ROOT / "CITATION.cff").read_text()
     problems += [f"CITATION.cff lacks {key}" for key in ("cff-version", "message", "title", "authors", "version")
-                 if not re.search(rf"^{key}: *", citation, re.M)]
+                 if not re.search(rf"^{key}: *", citation, re.MULTILINE)]
     print("\n".join(problems) or ", ".join(f"{count} of {kind}" for kind, count in counts.items()) + ": all as the schemas say")
     sys.exit(1 if problems or set(counts) != set(schemas) else 0)
 
