@@ -17,10 +17,9 @@ namespace {
 
 /// How files of a kind differ from what the structs say.
 struct Dialect {
-  bool texts = false;  // YAML: each scalar is a text, too
-  bool written =
-      false;  // by the program alone: all members are there, and a number that is not known is null
-  bool drawn = false;  // a number may be a distribution
+  bool texts = false;    // YAML: each scalar is a text, too
+  bool written = false;  // all members are there, and a number that is not known is null
+  bool drawn = false;    // a number may be a distribution
 };
 
 /// A value that may be null, too.
