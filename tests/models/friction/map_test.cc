@@ -101,10 +101,12 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
   using nlohmann::json;
   EXPECT_THAT(refusal([](json& j) { j["weights"].push_back(7); }),
               HasSubstr("friction.json: a map has 7 weights; its axes span 6 kernels"));
-  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = -1; }), HasSubstr("axes.0.width is '-1'"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = -1; }),
+              HasSubstr("axes.0.width is '-1'"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = "wide"; }),
               HasSubstr("width is 'wide'"));
-  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["period"] = 0; }), HasSubstr("axes.0.period is '0'"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["period"] = 0; }),
+              HasSubstr("axes.0.period is '0'"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["centres"][2] = -5; }), HasSubstr("ascend"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][1]["centres"][1] = 0; }), HasSubstr("a centre at 0"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["quantity"] = "positon"; }),
