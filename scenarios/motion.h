@@ -30,19 +30,18 @@ inline std::span<const Word<SegmentOrder>> WordsOf(SegmentOrder) {
   return words;
 }
 
-/// Work and break times that interrupt the motion; it goes on after a break where it stopped.
+/// Work and break times that interrupt the motion.
 struct Rests {
-  double run = 0;   // s of motion before each rest
-  double rest = 0;  // s of rest
+  double run = 0;
+  double rest = 0;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("run", &run,
-             {.unit = "s",
-              .bounds = {.above = 0},
-              .needed = "give the seconds of motion before a rest"});
+             Needed("s", "motion before each rest", kPositive,
+                    "give the seconds of motion before a rest"));
     a->Field("rest", &rest,
-             {.unit = "s", .bounds = {.above = 0}, .needed = "give the seconds of a rest"});
+             Needed("s", "length of a rest", kPositive, "give the seconds of a rest"));
   }
 
   bool operator==(const Rests&) const = default;
@@ -61,23 +60,20 @@ struct VelocityCorner {
 /// Fourier excitation: the velocity is a sum of cosines and sines of a period and its harmonics, their
 /// coefficients drawn for each realization; 0 at time 0, its largest value is `speed`.
 struct FourierMotion {
-  double period = 0;  // s
-  int harmonics = 0;  // 1 to 1000
-  double speed = 0;   // rad/s or m/s
+  double period = 0;
+  int harmonics = 0;
+  double speed = 0;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("period", &period,
-             {.unit = "s",
-              .bounds = {.above = 0},
-              .needed = "give the seconds after which it repeats itself"});
+             Needed("s", "of the slowest harmonic", kPositive,
+                    "give the seconds after which it repeats itself"));
     a->Field("harmonics", &harmonics,
-             {.bounds = {.at_least = 1, .at_most = 1000},
-              .needed = "give the number of harmonics, as 5"});
+             Needed("", "how many", {.at_least = 1, .at_most = 1000},
+                    "give the number of harmonics, as 5"));
     a->Field("speed", &speed,
-             {.unit = "rad/s",
-              .bounds = {.above = 0},
-              .needed = "give the largest speed, rad/s or m/s"});
+             Needed("rad/s", "largest speed", kPositive, "give the largest speed, rad/s or m/s"));
   }
 
   bool operator==(const FourierMotion&) const = default;
@@ -86,23 +82,22 @@ struct FourierMotion {
 /// Pick and place: from one place to the next, drawn uniformly between two limits, by ramps of one
 /// acceleration up to a speed and down from it, with a pause at each place.
 struct MovesBetween {
-  std::pair<double, double> between;  // lower, upper, rad or m
-  double speed = 0;                   // rad/s or m/s, at most
-  double acceleration = 0;            // rad/s^2 or m/s^2
-  double pause = 0;                   // s
+  std::pair<double, double> between;
+  double speed = 0;
+  double acceleration = 0;
+  double pause = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("between", &between, {.unit = "rad", .needed = "give [lower, upper], rad or m"});
+    a->Field("between", &between,
+             Needed("rad", "limits between which the places are drawn uniformly", {},
+                    "give [lower, upper], rad or m"));
     a->Field("speed", &speed,
-             {.unit = "rad/s",
-              .bounds = {.above = 0},
-              .needed = "give the largest speed, rad/s or m/s"});
-    a->Field("acceleration", &acceleration,
-             {.unit = "rad/s^2",
-              .bounds = {.above = 0},
-              .needed = "give that of the ramps, rad/s^2 or m/s^2"});
-    a->Field("pause", &pause, {.unit = "s", .bounds = {.at_least = 0}});
+             Needed("rad/s", "largest speed", kPositive, "give the largest speed, rad/s or m/s"));
+    a->Field(
+        "acceleration", &acceleration,
+        Needed("rad/s^2", "of the ramps", kPositive, "give that of the ramps, rad/s^2 or m/s^2"));
+    a->Field("pause", &pause, WithDefault("s", "at each place", kNotNegative));
   }
 
   bool operator==(const MovesBetween&) const = default;
@@ -174,12 +169,17 @@ template <class A>
 void Motion::SerializeHeld(A* a) {
   constexpr auto left_out = AtDefault::left_out;
   Speeds speeds{speed_list, speed_draws};
-  a->Field("speeds", &speeds, {.unit = "rad/s"});
+  a->Field("speeds", &speeds,
+           WithDefault("rad/s", "a list, or a distribution from which each segment draws"));
   speed_list = speeds.list;
   speed_draws = speeds.draws;
-  a->Field("hold", &hold, {.unit = "s", .bounds = {.above = 0}, .at_default = left_out});
-  a->Field("order", &order, {.at_default = left_out});
-  a->Field("rests", &rests);
+  a->Field(
+      "hold", &hold,
+      {.unit = "s", .bounds = {.above = 0}, .meaning = "at each speed", .at_default = left_out});
+  a->Field("order", &order,
+           LeftOut("`alternating`: each next speed with the other sign; `in_order`: each speed "
+                   "forwards, then backwards; `shuffled`: rounds over all speeds and both signs"));
+  a->Field("rests", &rests, {.meaning = "the motion stops for a while and goes on where it was"});
 }
 
 template <class A>
@@ -187,16 +187,25 @@ void Motion::Serialize(A* a) {
   constexpr auto left_out = AtDefault::left_out;
   SerializeHeld(a);
   Travel ends{travel, travel_between_joint_limits};
-  a->Field("travel", &ends, {.unit = "rad"});
+  a->Field(
+      "travel", &ends,
+      WithDefault(
+          "rad",
+          "each speed until a limit is reached, in place of `hold`; or the robot's own limits"));
   travel = ends.limits;
   travel_between_joint_limits = ends.joint_limits;
 
   // other kinds of motion, each by a key of its own
-  a->Field("phases", &phases, {.at_default = left_out});
-  a->Field("corners", &corners, {.at_default = left_out});
-  a->Field("fourier", &fourier);
-  a->Field("moves", &moves);
-  a->Field("start", &start, {.unit = "rad", .at_default = left_out});
+  a->Field("phases", &phases, LeftOut("motions and rests in turn"));
+  a->Field("corners", &corners,
+           LeftOut("a velocity that is linear between [time, velocity]; it keeps the last one"));
+  a->Field("fourier", &fourier,
+           {.meaning = "a sum of harmonics, its coefficients drawn for each realization"});
+  a->Field("moves", &moves, {.meaning = "pick and place, its places drawn for each realization"});
+  a->Field("start", &start,
+           {.unit = "rad",
+            .meaning = "position at time 0, with `corners` and `fourier`",
+            .at_default = left_out});
 
   // one kind, with its own keys alone
   const int kinds = steady() + !phases.empty() + !corners.empty() + bool(fourier) + bool(moves);
@@ -217,8 +226,9 @@ void MotionPhase::Serialize(A* a) {
   std::optional<double> rest, lasts;
   (motion ? lasts : rest) = duration;
   if (duration == 0) rest.reset();
-  a->Field("rest", &rest, {.unit = "s", .bounds = {.above = 0}});
-  a->Field("duration", &lasts, {.unit = "s", .bounds = {.above = 0}});
+  a->Field("rest", &rest,
+           WithDefault("s", "length of a rest, in place of the other keys", kPositive));
+  a->Field("duration", &lasts, WithDefault("s", "length of the phase", kPositive));
   Motion held = motion.value_or(Motion{});
   held.SerializeHeld(a);
   a->Check(rest.has_value() != lasts.has_value(), "", "a map with one of rest and duration, s");

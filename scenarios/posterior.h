@@ -22,8 +22,12 @@ struct Posterior {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("parameters", &parameters, {.needed = "name some of the friction's"});
-    a->Field("covariance", &covariance, {.needed = "give a matrix with a row for each parameter"});
+    a->Field(
+        "parameters", &parameters,
+        {.meaning = "names of some of the friction's", .needed = "name some of the friction's"});
+    a->Field("covariance", &covariance,
+             {.meaning = "a row for each of them",
+              .needed = "give a matrix with a row for each parameter"});
     a->Check(covariance.rows() == covariance.cols() && covariance.rows() == std::ssize(parameters),
              "covariance", "a matrix with a row and a column for each parameter");
   }

@@ -24,19 +24,23 @@ inline std::span<const Word<PlantKind>> WordsOf(PlantKind) {
   return words;
 }
 
-/// Velocity controller of the mujoco plant: torque = feedforward + kp e + ki integral(e).
+/// Velocity controller of the mujoco plant: torque = feedforward + kp e + ki integral(e), whose gains follow from the joint's inertia.
 struct Controller {
-  /// rad/s, of the closed velocity loop; gains follow from the joint's inertia. 0: chosen by the
-  /// mujoco plant for inertia, friction, gravity and motion
   double bandwidth = 0;
-  double acceleration =
-      0;  // rad/s^2 or m/s^2 of the reference between segments; 0: chosen by the mujoco plant, and
-          // jumps in the ideal one
+  double acceleration = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("bandwidth", &bandwidth, {.unit = "rad/s", .bounds = {.at_least = 0}});
-    a->Field("acceleration", &acceleration, {.unit = "rad/s^2", .bounds = {.at_least = 0}});
+    a->Field("bandwidth", &bandwidth,
+             WithDefault("rad/s",
+                         "of the closed velocity loop of the `mujoco` plant; 0: chosen for "
+                         "inertia, friction, gravity and motion",
+                         kNotNegative));
+    a->Field("acceleration", &acceleration,
+             WithDefault("rad/s^2",
+                         "of the reference between speeds; 0: chosen by the `mujoco` plant, jumps "
+                         "in the ideal one",
+                         kNotNegative));
   }
 
   bool operator==(const Controller&) const = default;
@@ -44,17 +48,26 @@ struct Controller {
 
 /// How the log is made: sensors, filter, storage.
 struct Sampling {
-  double rate = 20;          // Hz of the stored recording, at most sensor_rate
-  double sensor_rate = 250;  // Hz at which sensors are read and filtered
-  double cutoff = 0;         // Hz of the low-pass on the sensor samples; 0: none
+  double rate = 20;
+  double sensor_rate = 250;
+  double cutoff = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("rate", &rate, {.unit = "Hz", .bounds = {.above = 0}});
+    a->Field("rate", &rate,
+             WithDefault("Hz", "samples stored in a second, at most `sensor_rate`", kPositive));
     // sensors are read as often as is stored, or more, unless the file says otherwise
     sensor_rate = std::max(sensor_rate, rate);
-    a->Field("sensor_rate", &sensor_rate, {.unit = "Hz", .bounds = {.above = 0}});
-    a->Field("cutoff", &cutoff, {.unit = "Hz", .bounds = {.at_least = 0}});
+    a->Field(
+        "sensor_rate", &sensor_rate,
+        WithDefault("Hz",
+                    "readings of the sensors in a second (`mujoco`), as often as is stored or more",
+                    kPositive));
+    a->Field("cutoff", &cutoff,
+             WithDefault("Hz",
+                         "low-pass of 4th order on the readings (`mujoco`), below half of "
+                         "`sensor_rate`; 0: none",
+                         kNotNegative));
     a->Check(rate <= sensor_rate, "rate",
              "at most sensor_rate: no sample is stored that was not read");
     a->Check(cutoff < sensor_rate / 2, "cutoff",
@@ -66,15 +79,16 @@ struct Sampling {
 
 /// Standard deviations of white noise on each sensor sample.
 struct Noise {
-  double torque = 0;    // N.m or N
-  double velocity = 0;  // rad/s or m/s
-  double position = 0;  // rad or m
+  double torque = 0;
+  double velocity = 0;
+  double position = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("torque", &torque, {.unit = "N.m", .bounds = {.at_least = 0}});
-    a->Field("velocity", &velocity, {.unit = "rad/s", .bounds = {.at_least = 0}});
-    a->Field("position", &position, {.unit = "rad", .bounds = {.at_least = 0}});
+    a->Field("torque", &torque,
+             WithDefault("N.m", "standard deviation on each reading of the torque", kNotNegative));
+    a->Field("velocity", &velocity, WithDefault("rad/s", "the same of the velocity", kNotNegative));
+    a->Field("position", &position, WithDefault("rad", "the same of the position", kNotNegative));
   }
 
   bool operator==(const Noise&) const = default;
@@ -84,32 +98,36 @@ struct Scenario {
   std::string name;
   PlantKind plant = PlantKind::ideal;
   JointKind joint_kind = JointKind::rotary;
-  std::string robot;  // name in models/robots or path of an MJCF or URDF file; mujoco plant only
-  std::string joint;  // name of the joint; mujoco plant only
+  std::string robot;
+  std::string joint;
   Friction friction;
-  double initial_energy = 0;  // E(0), N.m or N
+  double initial_energy = 0;  // N.m or N
   TruthDraws draws;           // what is drawn of the truth above for each realization
   Motion motion;
   Controller controller;
   Noise noise;
   Disturbances disturbances;
   Sampling sampling;
-  double timestep = 0.001;  // s, of the engine; mujoco plant only
-  double duration = 0;      // s
+  double timestep = 0.001;
+  double duration = 0;
   std::uint64_t seed = 0;
 
   template <class A>
   void Serialize(A* a) {
     // what moves
-    constexpr auto left_out = AtDefault::left_out;
-    a->Field("name", &name);
-    a->Field("plant", &plant);
+    a->Field("name", &name, {.meaning = "for tables and titles; the file's name where not given"});
+    a->Field(
+        "plant", &plant,
+        {.meaning = "`ideal`: the formulas alone; `mujoco`: a robot, a controller, the plugin"});
     const bool engine = plant == PlantKind::mujoco;
-    a->Field("robot", &robot, {.at_default = left_out});
+    a->Field("robot", &robot,
+             LeftOut("needed by `mujoco`: a robot of `warmjoint list robots`, or an MJCF or "
+                     "URDF file relative to the scenario"));
     a->Require(engine, "robot", "the mujoco plant needs a robot (`list robots`)");
-    a->Field("joint", &joint, {.at_default = left_out});
+    a->Field("joint", &joint, LeftOut("needed by `mujoco`: the robot's joint that moves"));
     a->Require(engine, "joint", "the mujoco plant needs the name of a joint");
-    a->Field("joint_kind", &joint_kind);
+    a->Field("joint_kind", &joint_kind,
+             {.meaning = "of the ideal plant: `rotary` (rad, N.m) or `linear` (m, N)"});
     DrawnTruth truth{friction, initial_energy, draws};
     truth.Serialize(a);
     friction = truth.friction;
@@ -117,15 +135,16 @@ struct Scenario {
     draws = truth.draws;
 
     // how it moves and is logged
-    a->Field("motion", &motion, {.needed = "give speeds, and hold or travel"});
-    a->Field("controller", &controller);
-    a->Field("noise", &noise);
-    a->Field("disturbances", &disturbances, {.at_default = left_out});
-    a->Field("sampling", &sampling);
-    a->Field("timestep", &timestep, {.unit = "s", .bounds = {.above = 0}});
+    a->Field("motion", &motion,
+             {.meaning = "the plan of the velocity", .needed = "give speeds, and hold or travel"});
+    a->Field("controller", &controller, {.meaning = "drives the joint of the `mujoco` plant"});
+    a->Field("noise", &noise, {.meaning = "white, of the sensors"});
+    a->Field("disturbances", &disturbances, LeftOut("what else acts on the joint or on its log"));
+    a->Field("sampling", &sampling, {.meaning = "how the log is made"});
+    a->Field("timestep", &timestep, WithDefault("s", "of the engine (`mujoco`)", kPositive));
     a->Field("duration", &duration,
-             {.unit = "s", .bounds = {.above = 0}, .needed = "give the seconds to simulate"});
-    a->Field("seed", &seed);
+             Needed("s", "length of the recording", kPositive, "give the seconds to simulate"));
+    a->Field("seed", &seed, {.meaning = "of all random numbers; a suite gives its own"});
   }
 };
 

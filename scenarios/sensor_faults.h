@@ -5,29 +5,27 @@
 
 namespace warmjoint {
 
-/// The torque sensor drifts: its offset and its gain change evenly in time.
 struct SensorDrift {
-  double offset = 0;  // N.m or N in an hour
-  double gain = 0;    // share in an hour
+  double offset = 0;
+  double gain = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("offset", &offset, {.unit = "N.m"});
-    a->Field("gain", &gain);
+    a->Field("offset", &offset, WithDefault("N.m", "change in an hour"));
+    a->Field("gain", &gain, WithDefault("", "change in an hour, a share"));
   }
 
   bool operator==(const SensorDrift&) const = default;
 };
 
-/// From a moment on the torque is logged with another factor, as behind another gear or range.
 struct GainStep {
   double factor = 1;
-  double time = 0;  // s
+  double time = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("factor", &factor, {.needed = kGiveNumber});
-    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("factor", &factor, Needed("", "on the torque"));
+    a->Field("time", &time, Needed("s", "of the step", kNotNegative));
   }
 
   bool operator==(const GainStep&) const = default;
@@ -36,18 +34,18 @@ struct GainStep {
 /// The stamps run by another clock: factor t, and each is off by up to half of `jitter`, evenly spread over the samples.
 struct Clock {
   double factor = 1;
-  double jitter = 0;  // s
+  double jitter = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("factor", &factor, {.bounds = {.above = 0}});
-    a->Field("jitter", &jitter, {.unit = "s", .bounds = {.at_least = 0}});
+    a->Field("factor", &factor, WithDefault("", "on the stamps", kPositive));
+    a->Field("jitter", &jitter,
+             WithDefault("s", "between the earliest and the latest offset", kNotNegative));
   }
 
   bool operator==(const Clock&) const = default;
 };
 
-/// Factors on the columns as they are logged: wrong units and signs.
 struct ColumnScale {
   double position = 1;
   double velocity = 1;
@@ -55,112 +53,102 @@ struct ColumnScale {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("position", &position);
-    a->Field("velocity", &velocity);
-    a->Field("torque", &torque);
+    a->Field("position", &position, WithDefault("", "factor"));
+    a->Field("velocity", &velocity, WithDefault("", "factor"));
+    a->Field("torque", &torque, WithDefault("", "factor"));
   }
 
   bool operator==(const ColumnScale&) const = default;
 };
 
-/// A column keeps its value for a while.
 struct Stuck {
-  double time = 0;      // s
-  double duration = 0;  // s
+  double time = 0;
+  double duration = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
-    a->Field("duration", &duration,
-             {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("time", &time, Needed("s", "when it begins", kNotNegative));
+    a->Field("duration", &duration, Needed("s", "how long it lasts", kNotNegative));
   }
 
   bool operator==(const Stuck&) const = default;
 };
 
-/// The torque cannot leave -level to level.
 struct Clipped {
-  double level = 0;  // N.m or N; 0: it can
+  double level = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("level", &level, {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("level", &level, Needed("N.m", "largest torque that is logged; 0: any", kNotNegative));
   }
 
   bool operator==(const Clipped&) const = default;
 };
 
-/// Torques below a level are logged as 0, others less that level.
 struct DeadBand {
-  double level = 0;  // N.m or N
+  double level = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("level", &level, {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("level", &level, Needed("N.m", "largest torque that is logged as 0", kNotNegative));
   }
 
   bool operator==(const DeadBand&) const = default;
 };
 
-/// The logged torque comes in whole steps.
 struct TorqueResolution {
-  double resolution = 0;  // N.m or N
+  double resolution = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("resolution", &resolution,
-             {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("resolution", &resolution, Needed("N.m", "size of a step", kNotNegative));
   }
 
   bool operator==(const TorqueResolution&) const = default;
 };
 
-/// The logged torque is that of some samples ago.
 struct LateTorque {
   int samples = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("samples", &samples, {.bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("samples", &samples, Needed("", "how many samples it is late", kNotNegative));
   }
 
   bool operator==(const LateTorque&) const = default;
 };
 
-/// The log begins later than the motion: what came before is not in it.
 struct CutStart {
-  double time = 0;  // s
+  double time = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("time", &time, Needed("s", "of the first sample", kNotNegative));
   }
 
   bool operator==(const CutStart&) const = default;
 };
 
-/// The log holds nothing of a while in which the joint moves on.
 struct Gap {
-  double time = 0;      // s
-  double duration = 0;  // s
+  double time = 0;
+  double duration = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
-    a->Field("duration", &duration,
-             {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("time", &time, Needed("s", "when it begins", kNotNegative));
+    a->Field("duration", &duration, Needed("s", "how long it lasts", kNotNegative));
   }
 
   bool operator==(const Gap&) const = default;
 };
 
-/// Single samples that the log lacks, at random; the first and the last are there.
 struct LostSamples {
-  double fraction = 0;  // of the samples, below 1
+  double fraction = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("fraction", &fraction, {.bounds = {.at_least = 0, .below = 1}, .needed = kGiveNumber});
+    a->Field("fraction", &fraction,
+             Needed("", "share of the samples", {.at_least = 0, .below = 1}));
   }
 
   bool operator==(const LostSamples&) const = default;
@@ -179,34 +167,45 @@ struct SensorFaults {
   CutStart cut_start;
   Gap gap;
   LostSamples lost_samples;
-  bool restarted_clock = false;  // the first stamp is 0, wherever the log begins
-  bool unsigned_torque = false;  // its size alone is logged
-  bool reversed_torque = false;  // the column runs from the end of the log to its beginning
-  bool swapped_columns = false;  // torque under the name of velocity, and the other way round
-  bool without_load = false;     // a load that acts and is not logged
+  bool restarted_clock = false;
+  bool unsigned_torque = false;
+  bool reversed_torque = false;
+  bool swapped_columns = false;
+  bool without_load = false;
 
   template <class A>
   void Serialize(A* a) {
-    constexpr FieldInfo absent{.at_default = AtDefault::left_out};
-    a->Field("sensor_drift", &sensor_drift, absent);
-    a->Field("gain_step", &gain_step, absent);
-    a->Field("clock", &clock, absent);
-    a->Field("column_scale", &column_scale, absent);
-    a->Field("stuck_position", &stuck_position, absent);
-    a->Field("stuck_velocity", &stuck_velocity, absent);
-    a->Field("stuck_torque", &stuck_torque, absent);
-    a->Field("clipped", &clipped, absent);
-    a->Field("dead_band", &dead_band, absent);
-    a->Field("torque_resolution", &torque_resolution, absent);
-    a->Field("late_torque", &late_torque, absent);
-    a->Field("cut_start", &cut_start, absent);
-    a->Field("gap", &gap, absent);
-    a->Field("lost_samples", &lost_samples, absent);
-    a->Flag("restarted_clock", &restarted_clock);
-    a->Flag("unsigned_torque", &unsigned_torque);
-    a->Flag("reversed_torque", &reversed_torque);
-    a->Flag("swapped_columns", &swapped_columns);
-    a->Flag("without_load", &without_load);
+    a->Field("sensor_drift", &sensor_drift,
+             LeftOut("offset and gain of the logged torque change evenly in time"));
+    a->Field("gain_step", &gain_step,
+             LeftOut("from a moment on the torque is logged with another factor, as after "
+                     "another gear or range"));
+    a->Field("clock", &clock, LeftOut("stamps of a wrong or uneven clock"));
+    a->Field("column_scale", &column_scale, LeftOut("columns in wrong units or with wrong signs"));
+    a->Field("stuck_position", &stuck_position,
+             LeftOut("the position keeps its value for a while"));
+    a->Field("stuck_velocity", &stuck_velocity,
+             LeftOut("the velocity keeps its value for a while"));
+    a->Field("stuck_torque", &stuck_torque, LeftOut("the torque keeps its value for a while"));
+    a->Field("clipped", &clipped, LeftOut("the logged torque cannot leave -level to level"));
+    a->Field("dead_band", &dead_band,
+             LeftOut("small torques are logged as 0, others less a level"));
+    a->Field("torque_resolution", &torque_resolution,
+             LeftOut("the logged torque comes in whole steps"));
+    a->Field("late_torque", &late_torque, LeftOut("the logged torque is that of some samples ago"));
+    a->Field("cut_start", &cut_start,
+             LeftOut("the log begins later than the motion: what came before is not in it"));
+    a->Field("gap", &gap, LeftOut("the log holds nothing of a while in which the joint moves on"));
+    a->Field(
+        "lost_samples", &lost_samples,
+        LeftOut("single samples that the log lacks, at random; the first and the last are there"));
+    a->Flag("restarted_clock", &restarted_clock, "the first stamp is 0, wherever the log begins");
+    a->Flag("unsigned_torque", &unsigned_torque, "the size of the torque alone is logged");
+    a->Flag("reversed_torque", &reversed_torque,
+            "the torque runs from the end of the log to its beginning");
+    a->Flag("swapped_columns", &swapped_columns,
+            "torque under the name of velocity, and the other way round");
+    a->Flag("without_load", &without_load, "a load that acts and is not logged");
   }
 
   bool operator==(const SensorFaults&) const = default;

@@ -41,8 +41,8 @@ inline constexpr int kMostRealizations = 10'000'000;
 struct Suite {
   std::string name;
   std::string question;
-  int realizations = 1;  // of each variant
-  Scenario scenario;     // its seed is the suite's
+  int realizations = 1;
+  Scenario scenario;  // its seed is the suite's
   std::vector<SuiteIdentifier> identifiers;
   std::optional<Ladder> ladder;
 
@@ -51,21 +51,27 @@ struct Suite {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("name", &name);
-    a->Field("question", &question, {.needed = "say in a sentence what the suite asks"});
+    a->Field("name", &name, {.meaning = "for tables and titles; the file's name where not given"});
+    a->Field("question", &question,
+             {.meaning = "what the suite asks, one sentence",
+              .needed = "say in a sentence what the suite asks"});
     a->Field("realizations", &realizations,
-             {.bounds = {.at_least = 1, .at_most = kMostRealizations}});
+             WithDefault("", "of each rung of the ladder",
+                         {.at_least = 1, .at_most = kMostRealizations}));
     // one seed and one name for all of it
     std::uint64_t seed = scenario.seed;
-    a->Field("seed", &seed);
+    a->Field("seed", &seed, {.meaning = "of all random numbers"});
     SuiteScenario realized{scenario};
-    a->Field("scenario", &realized, {.needed = "give the scenario to realize"});
+    a->Field("scenario", &realized,
+             {.meaning = "a scenario without `name` and `seed`",
+              .needed = "give the scenario to realize"});
     scenario = realized.scenario;
     scenario.name = name;
     scenario.seed = seed;
     // what varies, and who answers
-    a->Field("ladder", &ladder);
-    a->Field("identifiers", &identifiers, {.needed = "list at least one identifier"});
+    a->Field("ladder", &ladder, {.meaning = "what varies from group to group of the leaderboard"});
+    a->Field("identifiers", &identifiers,
+             {.meaning = "who answers", .needed = "list at least one identifier"});
   }
 };
 

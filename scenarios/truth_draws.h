@@ -37,7 +37,7 @@ Tree WriteValue(const DrawnFriction& value);
 /// The truth of a scenario, at the middles of what is drawn.
 struct DrawnTruth {
   Friction friction;
-  double initial_energy = 0;  // N.m or N
+  double initial_energy = 0;
   TruthDraws draws;
 
   template <class A>
@@ -48,8 +48,11 @@ struct DrawnTruth {
         drawn == draws.numbers.end() ? Distribution{.a = initial_energy} : drawn->second;
     draws.numbers.erase(energy_key);
     DrawnFriction whole{friction, draws};
-    a->Field("friction", &whole, {.needed = "give the true law and its parameters"});
-    a->Field(energy_key, &energy, {.unit = "N.m"});
+    a->Field("friction", &whole,
+             {.meaning = "the true friction as in a friction file, any number a distribution; a "
+                         "friction file's path; or {estimate: FILE}",
+              .needed = "give the true law and its parameters"});
+    a->Field(energy_key, &energy, {.unit = "N.m", .meaning = "E(0), the heat at the start"});
     friction = whole.friction;
     draws = whole.draws;
     initial_energy = energy.a;

@@ -58,7 +58,7 @@ struct FieldNames {
   void Named(std::string_view name, std::vector<T>*, const FieldInfo& = {}) {
     names.emplace_back(name);
   }
-  void Flag(std::string_view name, bool*) { names.emplace_back(name); }
+  void Flag(std::string_view name, bool*, std::string_view = {}) { names.emplace_back(name); }
   void Require(bool, std::string_view, std::string_view) {}
   void Check(bool, std::string_view, std::string_view) {}
 };
@@ -311,8 +311,8 @@ class FieldReader {
     }
   }
 
-  /// What is there, as an empty map, or not.
-  void Flag(std::string_view name, bool* value) {
+  /// What is there, as an empty map, or not. Its meaning is for lists alone.
+  void Flag(std::string_view name, bool* value, std::string_view = {}) {
     const auto found = node_.Find(name);
     if (found) found->RequireKeys({});
     *value = found.has_value();
@@ -354,7 +354,7 @@ class FieldWriter {
     if (!map.empty() || info.at_default == AtDefault::written)
       tree_[std::string(name)] = std::move(map);
   }
-  void Flag(std::string_view name, const bool* value) {
+  void Flag(std::string_view name, const bool* value, std::string_view = {}) {
     if (*value) tree_[std::string(name)] = Tree::object();
   }
   void Require(bool, std::string_view, std::string_view) {}

@@ -1,17 +1,17 @@
-"""The JSON Schemas of estimate.json and of friction files say what the program writes and reads.
+"""The JSON Schemas, made of what the program reads (tools/docs/tables), hold for its files; the examples of pages run.
 
     check_schemas.py ROOT WARMJOINT
 
-- Every estimate that the identifiers write, answered or refused, is valid; so is every friction file of the project.
-- Each change of a good friction file that the schema refuses is refused by the program, too, and each key that the schema
-  names is one that the program takes.
-- Every ```json block of every page is valid: an estimate, a friction, maps of one, or the answer of an identifier of others, which may
-  leave out all but its status. CITATION.cff has what its format asks for.
+- Valid are: estimates of the identifiers, answered or refused, the friction files, scenarios and suites of the project, and every
+  block of a page in JSON or YAML that is one. An answer of an identifier of others may leave out all but its status.
+- Each change of a good file that its schema refuses is refused by the program, too. Each example of scenarios/keys.md runs.
+- CITATION.cff has what its format asks for.
 
 Exits 77, with the reason, where jsonschema is absent: tools/docs/setup fetches it.
 """
 
 import copy
+import itertools
 import json
 import pathlib
 import re
@@ -19,7 +19,8 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/docs"))
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+sys.path.insert(0, str(ROOT / "tools/docs"))
 
 import pages  # noqa: E402
 
@@ -27,169 +28,129 @@ import pages  # noqa: E402
 try:
     import jsonschema
     import referencing
+    import yaml
 except ImportError as missing:
     print(f"skipped: {missing}; tools/docs/setup fetches it")
     sys.exit(77)
 
-SCENARIO = """
-friction:
-  law: viscous_coulomb
-  parameters: {viscous: 5, coulomb: 15}
-  thermal: {thermal_gain: -3, thermal_time_constant: 600}
-  gear: 100
-motion: {speeds: {uniform: [0.1, 1]}, hold: 20}
-noise: {torque: 0.5}
-sampling: {rate: 1}
-duration: 3600
-seed: 3
-"""
+# 1e-4 is a number, which YAML 1.1 writes as 1.0e-4
+yaml.SafeLoader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^-?\d+(\.\d*)?[eE][-+]?\d+$"), list("-0123456789"))
 
-# what each estimate is to be, beside its identifier
-ESTIMATES = [
-    (["--identifier", "energy-ml"], "ok"),
-    (["--identifier", "energy-ml", "--gravity", "sincos"], "ok"),
-    (["--identifier", "energy-als", "--set", "iterations=5"], "not_converged"),
-    (["--identifier", "nominal-ls"], "inadequate_model"),
-    (["--identifier", "position-ridge", "--set", "kernels=10", "--force"], None),
-    (["--identifier", "energy-ml", "--set", "position=map", "--set", "kernels=10"], None),
-    (["--identifier", "kalman"], None),
-    (["--identifier", "stribeck"], None),
-    (["--identifier", "rls"], None),
+IDENTIFIED = [
+    "energy-ml --holdout 0.3", "energy-ml --gravity sincos", "energy-als --set iterations=5", "nominal-ls",
+    "position-ridge --set kernels=10 --force", "energy-ml --set position=map --set kernels=10", "kalman", "stribeck", "rls",
 ]
 
-FRICTION = {
-    "law": "asymmetric",
-    "parameters": {"viscous": 0.8, "coulomb_positive": 4.5, "coulomb_negative": 5.0},
-    "thermal": {"thermal_gain": -0.4, "thermal_time_constant": 180, "ambient": 20,
-                "second": {"thermal_gain": -0.1, "thermal_time_constant": 30}},
-    "gear": 100,
-    "level_per_temperature": -0.02,
-    "viscous_per_energy": 0.05,
-    "load_gain": 0.05,
-    "maps": [{"axes": [{"quantity": "motor_position", "centres": [0, 2, 4], "width": 1, "period": 6.283185307179586,
-                        "sides": "together"}],
-              "weights": [0.1, 0, -0.1], "kernels": "normalised", "factor": "direction"}],
+FILES = ["models/robots/*/friction.json", "tests/fuzz/corpus/friction/*.json", "scenarios/*/*.yaml", "tests/studies/**/*.yaml",
+         "tools/examples/*.yaml"]
+
+# what reads a file, a good one, and changes of it that nobody may take: a path and its value, None for absent
+WRONG = {
+    "friction": ("attach rotary --joint hinge={file} -o {out}.xml", "tests/fuzz/corpus/friction/maps_inner.json", [
+        ("law", "coulombs"), ("law", None), ("parameters.viscous", "much"), ("parameters.viscous", -1),
+        ("parameters.viscosity", 1), ("thermal.thermal_gain", None), ("thermal.thermal_time_constant", 0),
+        ("thermal.surroundings", 20), ("thermal.second", {"thermal_gain": 0}), ("load_gain", -1), ("gears", 1),
+        ("maps.0.axes.0.quantity", "angle"), ("maps.0.axes.0.width", 0), ("maps.0.axes.0.centers", [0]),
+        ("maps.0.factor", "speed"), ("maps.0.weights", None)]),
+    "scenario": ("simulate {file} -o {out}", "scenarios/templates/scenario.yaml", [
+        ("plant", "real"), ("friction", None), ("friction.parameters.viscous", "much"), ("friction.gear", {"uniform": [1]}),
+        ("motion.speeds", "fast"), ("motion.speeds", [0]), ("motion.hold", 0), ("motion.holds", 1), ("motion.order", "any"),
+        ("motion.travel", "limits"), ("motion.rests", {"run": 1}), ("noise.torque", -1), ("sampling.rate", 0),
+        ("duration", None), ("seed", -1), ("disturbances", {"outlier": {}}), ("disturbances", {"gap": {"time": 1}}),
+        ("disturbances", {"lost_samples": {"fraction": 1}}), ("disturbances", {"without_load": {"a": 1}})]),
+    "suite": ("run {file} --jobs 2 --realizations 1 -o {out}", "scenarios/templates/suite.yaml", [
+        ("question", None), ("realizations", 0), ("scenario.seed", 1), ("scenario.duration", 0), ("ladder.values", None),
+        ("ladder.variants", {}), ("ladder.steps", 1), ("identifiers", None), ("identifiers.0.name", None),
+        ("identifiers.0.claim", {"rmse": 1}), ("identifiers.0.claim", {"source": "x", "rmse": -1}), ("identifiers.0.rank", 1)]),
 }
 
-# changes of FRICTION, as (path, value), that no reader may take
-WRONG = [
-    (["law"], "coulombs"),
-    (["law"], None),
-    (["parameters", "viscous"], "much"),
-    (["parameters", "viscous"], -1),
-    (["parameters", "viscosity"], 1),
-    (["thermal", "thermal_gain"], None),
-    (["thermal", "thermal_time_constant"], 0),
-    (["thermal", "surroundings"], 20),
-    (["thermal", "second", "ambient"], 20),
-    (["load_gain"], -1),
-    (["gears"], 1),
-    (["maps", 0, "axes", 0, "quantity"], "angle"),
-    (["maps", 0, "axes", 0, "width"], 0),
-    (["maps", 0, "axes", 0, "centers"], [0]),
-    (["maps", 0, "axes"], []),
-    (["maps", 0, "factor"], "speed"),
-    (["maps", 0, "weights"], None),
-]
 
-
-def validators(root):
-    schemas = {path.name: json.loads(path.read_text()) for path in (root / "tools/docs/schemas").glob("*.json")}
-    for schema in schemas.values():
-        jsonschema.Draft202012Validator.check_schema(schema)
-    registry = referencing.Registry().with_resources(
-        [(name, referencing.Resource.from_contents(schema)) for name, schema in schemas.items()])
-    return (jsonschema.Draft202012Validator(schemas[name], registry=registry)
-            for name in ("estimate.schema.json", "friction.schema.json"))
-
-
-def changed(path, value):
-    """FRICTION with one entry changed; None takes it out."""
-    result = copy.deepcopy(FRICTION)
-    inner = result
-    for step in path[:-1]:
+def changed(good, path, value):
+    """The file with one entry changed; None takes it out."""
+    *steps, last = (int(step) if step.isdigit() else step for step in path.split("."))
+    inner = result = copy.deepcopy(good)
+    for step in steps:
         inner = inner[step]
+    inner[last] = value
     if value is None:
-        del inner[path[-1]]
-    else:
-        inner[path[-1]] = value
+        del inner[last]
     return result
 
 
-class Program:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, pathlib.Path(folder)
-
-    def __call__(self, *arguments):
-        return subprocess.run([self.program, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              check=False)
-
-    def reads(self, friction):
-        """Whether `attach` takes it as a friction file."""
-        (self.folder / "friction.json").write_text(json.dumps(friction))
-        done = self("attach", "rotary", "--joint", "hinge=friction.json", "-o", "model.xml")
-        assert done.returncode in (0, 2), done.stderr
-        return done.returncode == 0, done.stderr
+def validators():
+    schemas = {path.name: json.loads(path.read_text()) for path in (ROOT / "tools/docs/schemas").glob("*.json")}
+    registry = referencing.Registry().with_resources(
+        [(name, referencing.Resource.from_contents(schema)) for name, schema in schemas.items()])
+    for name, schema in schemas.items():
+        jsonschema.Draft202012Validator.check_schema(schema)
+        yield name.split(".")[0], jsonschema.Draft202012Validator(schema, registry=registry)
 
 
-def estimates(program):
-    (program.folder / "scenario.yaml").write_text(SCENARIO)
-    done = program("simulate", "scenario.yaml", "-o", "log")
-    assert done.returncode == 0, done.stderr
-    for options, status in ESTIMATES:
-        done = program("identify", "log/recording.csv", *options, "-o", "estimate.json")
-        assert done.returncode in (0, 3), done.stderr
-        estimate = json.loads((program.folder / "estimate.json").read_text())
-        assert status in (None, estimate["status"]), (options, estimate["status"], estimate["message"])
-        yield " ".join(options), estimate
+def kind_of(value):
+    """Which schema is for a block of a page, if any is."""
+    keys = {"identifiers": "suite", "motion": "scenario", "identifier": "estimate", "status": "answer",
+            "law": "friction", "friction": "friction"}
+    return next((kind for key, kind in keys.items() if key in value), "map" if isinstance(value, list) else None)
 
 
 def main():
-    root, program = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
-    estimate_schema, friction_schema = validators(root)
-    problems, counts = [], {"estimates": 0, "friction files": 0, "refusals": 0, "blocks": 0}
+    schemas, problems, counts, numbers = dict(validators()), [], {}, itertools.count()
+    schemas["answer"] = schemas["estimate"].evolve(schema={**schemas["estimate"].schema, "required": ["status"]})
+    schemas["map"] = schemas["friction"].evolve(
+        schema={"$ref": "friction.schema.json#/$defs/friction/properties/maps"})
 
-    def check(schema, value, what, kind):
-        counts[kind] += 1
-        for error in schema.iter_errors(value):
-            problems.append(f"{what}: {error.json_path}: {error.message[:300]}")
+    def check(kind, value, what):
+        counts[kind] = counts.get(kind, 0) + 1
+        problems.extend(f"{what}: {error.json_path}: {error.message[:300]}" for error in schemas[kind].iter_errors(value))
 
     with tempfile.TemporaryDirectory() as folder:
-        call = Program(program, folder)
-        for options, estimate in estimates(call):
-            check(estimate_schema, estimate, f"identify {options}", "estimates")
-        for path in [*root.glob("models/robots/*/friction.json"), *root.glob("tests/fuzz/corpus/friction/*.json")]:
-            check(friction_schema, json.loads(path.read_text()), path, "friction files")
+        def call(command, text=""):
+            """The status, words and output of a command with a file of that text."""
+            file, out = pathlib.Path(folder) / "given.yaml", pathlib.Path(folder) / f"out{next(numbers)}"
+            file.write_text(text)
+            words = command.format(file=file, out=out).split()
+            done = subprocess.run([sys.argv[2], *words], capture_output=True, text=True, check=False)
+            return done.returncode, done.stderr, out
 
-        # what the schema refuses, the program refuses, and the other way round
-        taken, words = call.reads(FRICTION)
-        check(friction_schema, FRICTION, "FRICTION", "friction files")
-        if not taken:
-            problems.append(f"the program refuses FRICTION: {words}")
-        for path, value in WRONG:
-            counts["refusals"] += 1
-            wrong = changed(path, value)
-            if friction_schema.is_valid(wrong):
-                problems.append(f"{path} = {value}: the schema takes it")
-            if call.reads(wrong)[0]:
-                problems.append(f"{path} = {value}: the program takes it")
+        # what the schema refuses, the program refuses
+        for kind, (command, path, changes) in WRONG.items():
+            good = yaml.safe_load((ROOT / path).read_text())
+            for path, value in [("", None), *changes]:
+                given = changed(good, path, value) if path else good
+                taken = schemas[kind].is_valid(given)
+                status, words, _ = call(command, json.dumps(given))
+                if taken != (not path) or status != (2 if path else 0):
+                    problems.append(f"{kind}: {path} = {value}: taken by the schema: {taken}, by the program: {status} {words}")
 
-    answer_schema = estimate_schema.evolve(schema={**estimate_schema.schema, "required": ["status"]})
-    map_schema = friction_schema.evolve(schema={"$ref": "friction.schema.json#/$defs/map"})
-    for page in pages.pages(root):
-        for block in pages.blocks((root / page).read_text()):
-            if block.language == "json":
-                value = json.loads(block.text)
-                schema = (map_schema if isinstance(value, list) else friction_schema if "status" not in value
-                          else estimate_schema if "identifier" in value else answer_schema)
-                for one in value if isinstance(value, list) else [value]:
-                    check(schema, one, f"{page}:{block.line}", "blocks")
-    citation = (root / "CITATION.cff").read_text()
+        # what the program writes
+        log = call("simulate {file} -o {out}", (ROOT / "scenarios/templates/scenario.yaml").read_text())[2]
+        check("scenario", yaml.safe_load((log / "scenario.yaml").read_text()), "scenario of simulate")
+        for options in IDENTIFIED:
+            status, words, estimate = call(f"identify {log}/recording.csv --identifier {options} -o {{out}}")
+            assert status in (0, 3), words
+            check("estimate", json.loads(estimate.read_text()), f"identify {options}")
+
+        # blocks of pages; the examples of the page of keys run
+        for page in pages.pages(ROOT):
+            for block in pages.blocks((ROOT / page).read_text()):
+                value = yaml.safe_load(block.text) if block.language in ("json", "yaml") else {}
+                if not (kind := kind_of(value)):
+                    continue
+                check(kind, value, f"{page}:{block.line}")
+                run = "run {file} --jobs 1 --allow-commands -o {out}" if kind == "suite" else "simulate {file} -o {out}"
+                status, words, _ = call(run, block.text) if page.name == "keys.md" else (0, "", "")
+                if status not in (0, 5):
+                    problems.append(f"{page}:{block.line}: {words}")
+
+    # what the project holds
+    for path in [path for pattern in FILES for path in ROOT.glob(pattern)]:
+        value = yaml.safe_load(path.read_text())
+        check(kind_of(value), value, path)
+    citation = (ROOT / "CITATION.cff").read_text()
     problems += [f"CITATION.cff lacks {key}" for key in ("cff-version", "message", "title", "authors", "version")
-                 if not re.search(rf"^{key}: *", citation, re.M)]
-
-    print("\n".join(problems) or ", ".join(f"{count} {kind}" for kind, count in counts.items()) + ": all as the schemas say")
-    sys.exit(1 if problems or not all(counts.values()) else 0)
+                 if not re.search(rf"^{key}: *", citation, re.MULTILINE)]
+    print("\n".join(problems) or ", ".join(f"{count} of {kind}" for kind, count in counts.items()) + ": all as the schemas say")
+    sys.exit(1 if problems or set(counts) != set(schemas) else 0)
 
 
 main()

@@ -41,7 +41,7 @@ struct EstimatedParameter {
   std::string name;
   double value = 0;
   std::string unit;
-  std::optional<double> std;  // standard deviation
+  std::optional<double> std;
   std::optional<std::array<double, 2>> interval95;
 
   /// Without its name, by which a file has it.
@@ -49,30 +49,32 @@ struct EstimatedParameter {
   void Serialize(A* a) {
     a->Field("value", &value, {.needed = kGiveNumber});
     a->Field("unit", &unit, {.needed = "give it as text"});
-    a->Field("std", &std, {.at_default = AtDefault::null});
+    a->Field("std", &std,
+             OrNull("standard deviation; null where the data leave the parameter open"));
     a->Field("interval95", &interval95, {.at_default = AtDefault::null});
   }
 };
 
 /// Agreement of a fit with the samples that it kept. y: measured, yhat: fitted, e = y - yhat.
 struct Metrics {
-  int n = 0;                        // samples
-  int parameters = 0;               // d
-  double effective_parameters = 0;  // trace of the hat matrix; d where nothing is penalised
-  double rmse = 0;                  // sqrt(mean(e^2)), N.m or N
-  double mae = 0;                   // mean(|e|), N.m or N
-  double fit = 0;                   // 100 (1 - |e| / |y - mean(y)|), %
-  double fpe = 0;                   // V (1 + d/n)/(1 - d/n), V = mean(e^2)
+  int n = 0;
+  int parameters = 0;
+  double effective_parameters = 0;
+  double rmse = 0;
+  double mae = 0;
+  double fit = 0;
+  double fpe = 0;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("n", &n, {.needed = kGiveNumber});
-    a->Field("parameters", &parameters, {.needed = kGiveNumber});
-    a->Field("effective_parameters", &effective_parameters, {.needed = kGiveNumber});
-    a->Field("rmse", &rmse, {.unit = "N.m", .needed = kGiveNumber});
-    a->Field("mae", &mae, {.unit = "N.m", .needed = kGiveNumber});
-    a->Field("fit", &fit, {.unit = "%", .needed = kGiveNumber});
-    a->Field("fpe", &fpe, {.unit = "(N.m)^2", .needed = kGiveNumber});
+    a->Field("n", &n, Needed("", "samples"));
+    a->Field("parameters", &parameters, Needed("", "d, their number"));
+    a->Field("effective_parameters", &effective_parameters,
+             Needed("", "trace of the hat matrix; d where nothing is penalised"));
+    a->Field("rmse", &rmse, Needed("N.m", "sqrt(mean(e^2))"));
+    a->Field("mae", &mae, Needed("N.m", "mean(|e|)"));
+    a->Field("fit", &fit, Needed("%", "100 (1 - |e| / |y - mean(y)|)"));
+    a->Field("fpe", &fpe, Needed("(N.m)^2", "V (1 + d/n) / (1 - d/n), V = mean(e^2)"));
   }
 };
 
@@ -84,12 +86,12 @@ Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& f
 struct TraceEntry {
   int iteration = 0;
   std::vector<std::pair<std::string, double>> parameters;
-  double rmse = 0;  // over the kept samples, N.m or N
+  double rmse = 0;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("iteration", &iteration, {.needed = kGiveNumber});
-    a->Field("rmse", &rmse, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("rmse", &rmse, Needed("N.m", "over the kept samples"));
     a->Field("parameters", &parameters, {.needed = "give their values by name"});
   }
 };
@@ -153,8 +155,8 @@ struct GravityModel {
 
 /// Law and maps together at one map's centres (make_bands.h), each by itself with 95 %.
 struct MapBand {
-  std::vector<std::string> quantities;            // of the axes
-  std::vector<std::vector<double>> points;        // [g][axes] rad or m, ...
+  std::vector<std::string> quantities;
+  std::vector<std::vector<double>> points;        // [g][axes]
   std::vector<double> value;                      // [g] N.m or N
   std::vector<double> std;                        // [g]
   std::vector<std::array<double, 2>> interval95;  // [g]
@@ -162,8 +164,9 @@ struct MapBand {
   template <class A>
   void Serialize(A* a) {
     constexpr std::string_view needed = "give a value for each centre";
-    a->Field("quantities", &quantities, {.needed = "name those of the axes"});
-    a->Field("points", &points, {.needed = needed});
+    a->Field("quantities", &quantities,
+             {.meaning = "of the axes", .needed = "name those of the axes"});
+    a->Field("points", &points, {.meaning = "[g][axes] rad, ...", .needed = needed});
     a->Field("value", &value, {.unit = "N.m", .needed = needed});
     a->Field("std", &std, {.unit = "N.m", .needed = needed});
     a->Field("interval95", &interval95, {.unit = "N.m", .needed = needed});
@@ -172,7 +175,7 @@ struct MapBand {
 
 /// What law and maps brake with at one speed: the mean over the places where kept samples moved so.
 struct FrictionAtSpeed {
-  double speed = 0;  // below 0: backwards
+  double speed = 0;
   double value = 0;
   double std = 0;
   std::array<double, 2> interval95{};
@@ -180,7 +183,7 @@ struct FrictionAtSpeed {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("speed", &speed, {.unit = "rad/s", .needed = kGiveNumber});
+    a->Field("speed", &speed, Needed("rad/s", "below 0: backwards"));
     a->Field("value", &value, {.unit = "N.m", .needed = kGiveNumber});
     a->Field("std", &std, {.unit = "N.m", .needed = kGiveNumber});
     a->Field("interval95", &interval95, {.unit = "N.m", .needed = "give [lower, upper]"});
@@ -194,16 +197,16 @@ using ParameterMoves = std::vector<std::pair<std::string, double>>;
 
 /// One test for lack of fit: whether the residual depends on something that the model leaves out.
 struct Diagnostic {
-  std::string test;         // "direction", "lag", ...
-  bool made = false;        // whether the log and the fit let it be made
-  std::string reason;       // why it was not made, or what it found; a clause
-  double statistic = 0;     // z-score: standard deviations of a normal variable with the same p
-  double p = 1;             // by chance alone, what was tried within the test counted
-  double p_adjusted = 1;    // with all tests of the log counted (Holm 1979)
-  bool rejected = false;    // p_adjusted is below the error level of the log
-  double effect = 0;        // rms over the kept samples of what it explains, N.m or N
+  std::string test;  // "direction", "lag", ...
+  bool made = false;
+  std::string reason;
+  double statistic = 0;
+  double p = 1;
+  double p_adjusted = 1;
+  bool rejected = false;
+  double effect = 0;
   std::string effect_unit;  // of the torque
-  ParameterMoves moves;     // had the model held it; empty where that is not known
+  ParameterMoves moves;     // empty where they are not known
 
   template <class A>
   void Serialize(A* a);
@@ -211,15 +214,15 @@ struct Diagnostic {
 
 /// Something that no test can see, and what it would do.
 struct Assumption {
-  std::string name;      // "cold_start", "open_drift", ...
-  std::string meaning;   // how far off it was taken to be: a clause
-  ParameterMoves moves;  // of each parameter, were it off by that much
+  std::string name;  // "cold_start", "open_drift", ...
+  std::string meaning;
+  ParameterMoves moves;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("name", &name, {.needed = "name it"});
-    a->Field("meaning", &meaning);
-    a->Field("moves", &moves);
+    a->Field("meaning", &meaning, {.meaning = "how far off it was taken to be"});
+    a->Field("moves", &moves, {.meaning = "of each parameter, were it off by that much"});
   }
 };
 
@@ -237,10 +240,11 @@ struct EffectFields {
 
 template <class A>
 void Diagnostic::Serialize(A* a) {
-  constexpr FieldInfo or_null{.at_default = AtDefault::null};
   a->Field("test", &test, {.needed = "name it"});
-  a->Field("made", &made, {.needed = "say true or false"});
-  a->Field("reason", &reason, or_null);
+  a->Field(
+      "made", &made,
+      {.meaning = "whether the log and the fit let it be made", .needed = "say true or false"});
+  a->Field("reason", &reason, OrNull("why it was not made, or what it found"));
   // figures of a test that was made alone
   std::optional<EffectFields> size;
   std::optional<bool> found;
@@ -250,16 +254,23 @@ void Diagnostic::Serialize(A* a) {
     found = rejected;
     biases = moves;
   }
-  for (const auto& [name, value] : {std::pair("statistic", &statistic), std::pair("p", &p),
-                                    std::pair("p_adjusted", &p_adjusted)}) {
+  struct Figure {
+    const char* name;
+    double* value;
+    std::string_view meaning;
+  };
+  for (const auto& [name, value, meaning] :
+       {Figure{"statistic", &statistic, "standard deviations of a normal variable with the same p"},
+        Figure{"p", &p, "by chance alone, what was tried within the test counted"},
+        Figure{"p_adjusted", &p_adjusted, "with all tests of the log counted (Holm 1979)"}}) {
     std::optional<double> figure;
     if (made) figure = *value;
-    a->Field(name, &figure, or_null);
+    a->Field(name, &figure, OrNull(meaning));
     if (made) *value = figure.value_or(std::numeric_limits<double>::quiet_NaN());
   }
-  a->Field("rejected", &found, or_null);
-  a->Field("effect", &size, or_null);
-  a->Field("moves", &biases, or_null);
+  a->Field("rejected", &found, OrNull("p_adjusted is below the error level of the log"));
+  a->Field("effect", &size, OrNull("rms over the kept samples of what it explains"));
+  a->Field("moves", &biases, OrNull("how each parameter would change, had the model held it"));
   if (!made) return;
   rejected = found.value_or(false);
   if (size) effect = size->value;
@@ -269,32 +280,39 @@ void Diagnostic::Serialize(A* a) {
 
 /// A structure that was tried.
 struct StructureTrial {
-  std::string name;            // identifier and options: "energy-ml law=coulomb"
-  std::optional<double> rmse;  // on held-out blocks, N.m or N; none where it was dropped before
-  double parameters = 0;       // effective number; 0 where nothing was fitted
-  std::string dropped;         // why it was no contender; empty for one that was
+  std::string name;
+  std::optional<double> rmse;
+  double parameters = 0;
+  std::string dropped;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("name", &name, {.needed = "name it"});
-    a->Field("rmse", &rmse, {.unit = "N.m", .at_default = AtDefault::null});
-    a->Field("parameters", &parameters);
-    a->Field("dropped", &dropped, {.at_default = AtDefault::null});
+    a->Field(
+        "name", &name,
+        {.meaning = "identifier and options, as \"energy-ml law=coulomb\"", .needed = "name it"});
+    a->Field("rmse", &rmse,
+             {.unit = "N.m",
+              .meaning = "on held-out blocks; null where it was dropped before",
+              .at_default = AtDefault::null});
+    a->Field("parameters", &parameters,
+             {.meaning = "effective number; 0 where nothing was fitted"});
+    a->Field("dropped", &dropped, OrNull("why it was no contender; null for one that was"));
   }
 };
 
 /// Which of several structures was chosen, and why.
 struct StructureChoice {
   std::string chosen;
-  std::string reason;  // one clause
-  int blocks = 0;      // of time that were held out in turn
+  std::string reason;
+  int blocks = 0;
   std::vector<StructureTrial> trials;
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("chosen", &chosen, {.needed = "name a structure"});
-    a->Field("reason", &reason);
-    a->Field("blocks", &blocks);
+    a->Field("chosen", &chosen,
+             {.meaning = "empty where nothing fitted", .needed = "name a structure"});
+    a->Field("reason", &reason, {.meaning = "one clause"});
+    a->Field("blocks", &blocks, {.meaning = "of time that were held out in turn"});
     a->Field("trials", &trials);
   }
 };
@@ -317,8 +335,8 @@ struct CarriedStage {
 /// Eq. (22) without losses.
 struct CarriedHeat {
   std::string file;
-  double pause = 0;        // s
-  std::string pause_from;  // "stamps" or "given"
+  double pause = 0;
+  std::string pause_from;
   std::string unit;
   std::vector<double> energy;  // of each stage, N.m or N
   std::vector<double> std;     // the deviations by E and by tau added up, as if one error made both
@@ -326,9 +344,10 @@ struct CarriedHeat {
   /// The `follows` member of an estimate file: {file, pause, pause_from, energy{value, unit, std}}, and second_energy.
   template <class A>
   void Serialize(A* a) {
-    a->Field("file", &file, {.needed = "name it"});
-    a->Field("pause", &pause, {.unit = "s", .needed = kGiveNumber});
-    a->Field("pause_from", &pause_from, {.needed = "say stamps or given"});
+    a->Field("file", &file, {.meaning = "the recording before", .needed = "name it"});
+    a->Field("pause", &pause, Needed("s", "at rest"));
+    a->Field("pause_from", &pause_from,
+             {.meaning = "stamps or given", .needed = "say stamps or given"});
     const char* const keys[] = {"energy", "second_energy"};
     for (size_t i = 0; i < 2; ++i) {
       std::optional<CarriedStage> stage;
@@ -349,31 +368,25 @@ inline constexpr double kDefaultRelevance = 0.1;
 /// What an identifier answers.
 struct Estimate {
   std::string identifier;
-  std::map<std::string, std::string> options;  // of the identifier, those not at their defaults
+  std::map<std::string, std::string> options;
   Status status = Status::ok;
-  std::string message;  // one sentence; for a failure: what is wrong and what would help
-  /// What must be known before numbers that pass are used, each a clause: "the kernels can imitate
-  /// coulomb, ...". Empty where nothing passes.
-  std::vector<std::string> warnings;
+  std::string message;                // without the warnings
+  std::vector<std::string> warnings;  // "the kernels can imitate coulomb, ..."; of an ok alone
   std::vector<EstimatedParameter> parameters;  // empty where nothing trustworthy is known
   std::optional<Metrics> metrics;
   std::optional<Metrics> holdout;
-  std::string without_holdout;  // why there is none: a clause; empty: there is, or none was tried
+  std::string without_holdout;  // empty: there is one, or none was tried
   std::vector<TraceEntry> trace;
   std::optional<Friction> friction;
-  std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
-  std::vector<MapBand> bands;           // one for each of the friction's maps
-  /// Beside maps, in place of parameters of the law that only the prior tells: friction at a low, the
-  /// median and a high speed of each direction.
+  std::optional<GravityModel> gravity;
+  std::vector<MapBand> bands;
   std::vector<FrictionAtSpeed> friction_at_speeds;
-  std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
-  std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none
+  std::optional<ParameterCovariance> covariance;
+  std::vector<Diagnostic> diagnostics;
   std::vector<Assumption> assumptions;
-  /// The heat at the end of the log, at its last stamp, `time`: a row for each stage, `energy`,
-  /// `second_energy`; empty where nothing warms or the friction cannot be trusted.
-  std::vector<EstimatedParameter> state_end;
-  std::optional<StructureChoice> choice;  // of identifiers that choose a structure
-  std::optional<CarriedHeat> follows;     // with what it began; none without an earlier recording
+  std::vector<EstimatedParameter> state_end;  // empty where nothing warms or nothing is trusted
+  std::optional<StructureChoice> choice;
+  std::optional<CarriedHeat> follows;
   /// The files that it tells of, as seen from here; none of a log that was made of vectors.
   std::optional<RecordingSource> recording;
 
@@ -385,41 +398,62 @@ struct Estimate {
 
   template <class A>
   void Serialize(A* a) {
-    constexpr FieldInfo or_null{.at_default = AtDefault::null};
-    constexpr FieldInfo left_out{.at_default = AtDefault::left_out};
     // who answers, and how sure; the message ends in the warnings
-    a->Field("identifier", &identifier, {.needed = "name it"});
-    a->Field("options", &options, left_out);
-    a->Field("status", &status, {.needed = "say ok, or what failed"});
+    a->Field("identifier", &identifier,
+             {.meaning = "one of `warmjoint list identifiers`", .needed = "name it"});
+    a->Field("options", &options,
+             LeftOut("of the identifier, those that are not at their defaults"));
+    a->Field("status", &status,
+             {.meaning = "ok: the numbers can be used; all others end `identify` with status 3",
+              .needed = "say ok, or what failed"});
     std::string full = FullMessage();
-    a->Field("message", &full, {.needed = "give it as text"});
-    a->Field("warnings", &warnings, left_out);
+    a->Field(
+        "message", &full,
+        {.meaning = "one sentence with the remedy, and the warnings", .needed = "give it as text"});
+    a->Field("warnings", &warnings,
+             LeftOut("what must be known before the numbers are used, a clause each"));
     TakeMessage(full);
 
     // numbers, and how well they fit
-    a->Named("parameters", &parameters, {.needed = "give them by name"});
-    a->Field("metrics", &metrics, or_null);
-    a->Field("holdout", &holdout, or_null);
-    a->Field("without_holdout", &without_holdout, left_out);
-    a->Field("trace", &trace);
-    a->Field("friction", &friction, or_null);
-    a->Field("gravity", &gravity, or_null);
-    a->Field("friction_at_speeds", &friction_at_speeds, left_out);
-    a->Field("bands", &bands, left_out);
-    a->Field("covariance", &covariance, or_null);
+    a->Named("parameters", &parameters,
+             {.meaning = "each estimated parameter by its name", .needed = "give them by name"});
+    a->Field("metrics", &metrics, OrNull("agreement with all the data"));
+    a->Field("holdout", &holdout,
+             OrNull("agreement with data that a second fit has not seen (--holdout)"));
+    a->Field("without_holdout", &without_holdout, LeftOut("why there is none"));
+    a->Field("trace", &trace, {.meaning = "the parameters after each iteration, from the start"});
+    a->Field(
+        "friction", &friction,
+        OrNull("what plugin, `attach` and scenarios read; null where nothing is to be trusted"));
+    a->Field("gravity", &gravity, OrNull("what --gravity fitted"));
+    a->Field(
+        "friction_at_speeds", &friction_at_speeds,
+        LeftOut(
+            "what law and maps brake with together at a low, the median and a high speed of each "
+            "direction, in place of a constant of the law that only a prior tells from a map"));
+    a->Field("bands", &bands, LeftOut("law and maps together at the centres of each map"));
+    a->Field("covariance", &covariance, OrNull("of the values with intervals, by noise alone"));
 
     // what the verdict said, and what only some have
-    a->Field("diagnostics", &diagnostics, left_out);
-    a->Field("assumptions", &assumptions, left_out);
-    a->Named("state_end", &state_end, left_out);
-    a->Field("choice", &choice);
+    a->Field("diagnostics", &diagnostics,
+             LeftOut("every test for lack of fit; figures of one that was not made are null"));
+    a->Field("assumptions", &assumptions,
+             LeftOut("what no test can see, and how far the answer would move if it were wrong"));
+    a->Named(
+        "state_end", &state_end,
+        LeftOut("heat at the end of the log, `energy` and `second_energy`, and its stamp, `time`"));
+    a->Field("choice", &choice,
+             {.meaning = "which structure an identifier chose that compares several"});
 
     // what it tells of: the project file has a member of its own
-    a->Field("follows", &follows);
+    a->Field("follows", &follows,
+             {.meaning = "what an earlier recording left of its heat (--follows)"});
     std::optional<TakenProject> project;
     if (recording) project = recording->project;
-    a->Field("recording", &recording);
-    a->Field("project", &project);
+    a->Field("recording", &recording,
+             {.meaning = "the files that were read, and the options that read them"});
+    a->Field("project", &project,
+             {.meaning = "the project file of the recording, and what was taken of it"});
     if (recording) recording->project = project;
   }
 

@@ -40,6 +40,27 @@ struct FieldInfo {
 /// The remedy where a number is missing.
 inline constexpr std::string_view kGiveNumber = "give a number";
 
+inline constexpr Bounds kPositive{.above = 0}, kNotNegative{.at_least = 0};
+
+/// A number that must be given.
+constexpr FieldInfo Needed(std::string_view unit, std::string_view meaning, Bounds bounds = {},
+                           std::string_view remedy = kGiveNumber) {
+  return {.unit = unit, .bounds = bounds, .meaning = meaning, .needed = remedy};
+}
+/// A number that keeps its default where it is not given.
+constexpr FieldInfo WithDefault(std::string_view unit, std::string_view meaning,
+                                Bounds bounds = {}) {
+  return {.unit = unit, .bounds = bounds, .meaning = meaning};
+}
+/// What is not written at its default.
+constexpr FieldInfo LeftOut(std::string_view meaning) {
+  return {.meaning = meaning, .at_default = AtDefault::left_out};
+}
+/// What is null at its default.
+constexpr FieldInfo OrNull(std::string_view meaning) {
+  return {.meaning = meaning, .at_default = AtDefault::null};
+}
+
 /// The word of a file for a choice. An enum E that is read or written has a function
 ///   std::span<const Word<E>> WordsOf(E);
 template <typename E>

@@ -159,19 +159,27 @@ inline std::span<const Word<Sides>> WordsOf(Sides) {
 
 /// Evenly or freely spaced Gaussian kernels kappa_i(x) = exp(-(x - c_i)^2 / (2 s^2)).
 struct GaussianAxis {
-  std::vector<double> centres;   // c, ascending; none is 0 where the sides are apart
-  double width = 1;              // s
-  std::optional<double> period;  // of a circle: distances are wrapped to half of it
+  std::vector<double> centres;  // none is 0 where the sides are apart
+  double width = 1;
+  std::optional<double> period;
   Sides sides = Sides::together;
 
   size_t size() const { return centres.size(); }
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("centres", &centres, {.meaning = "in the quantity's unit", .needed = "give numbers"});
-    a->Field("width", &width, {.needed = "give a number"});
-    a->Field("period", &period);
-    a->Field("sides", &sides);
+    a->Field("centres", &centres,
+             {.meaning = "c, ascending, in the quantity's unit", .needed = "give numbers"});
+    a->Field("width", &width,
+             Needed("", "s, standard deviation of the kernels, in the same unit", kPositive,
+                    "give a number"));
+    a->Field(
+        "period", &period,
+        WithDefault("", "of a circle: distances are wrapped to half of it; 2 pi for motor_position",
+                    kPositive));
+    a->Field("sides", &sides,
+             {.meaning = "apart: kernels at positive centres act on positive values alone, and "
+                         "likewise for negative ones"});
   }
 };
 
@@ -201,12 +209,13 @@ struct MapAxis {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("quantity", &quantity, {.needed = "name what the map depends on"});
+    a->Field("quantity", &quantity,
+             {.meaning = "what the map depends on", .needed = "name what the map depends on"});
     kernels.Serialize(a);
   }
 };
 
-/// What the kernels are multiplied by: 1, sign(v) (a level that acts against the motion) or v
+/// 1, sign(v) (a level that acts against the motion) or v
 /// (viscous friction). With `velocity` a map over energy is kv(E) v of Eq. (27).
 enum class MapFactor { one, direction, velocity };
 
@@ -221,8 +230,6 @@ inline constexpr size_t kMostMapCentres = 128;  // of one axis
 struct FrictionMap {
   std::vector<MapAxis> axes;
   KernelKind kernels = KernelKind::normalised;
-  // one for each product, the last axis's index the fastest; N.m or N, over rad/s or m/s where the
-  // factor is the velocity
   std::vector<double> weights;
   MapFactor factor = MapFactor::one;
 
@@ -231,10 +238,21 @@ struct FrictionMap {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("axes", &axes, {.needed = "give a list"});
-    a->Field("kernels", &kernels);
-    a->Field("factor", &factor);
-    a->Field("weights", &weights, {.unit = "N.m", .needed = "give a number for each kernel"});
+    a->Field(
+        "axes", &axes,
+        {.meaning = "one to four; the kernels of a map are all products of one kernel of each axis",
+         .needed = "give a list"});
+    a->Field("kernels", &kernels,
+             {.meaning = "normalised, Eq. (16): divided by their sum; plain: as they are"});
+    a->Field(
+        "factor", &factor,
+        {.meaning =
+             "what the kernels are multiplied by: 1, the sign of the velocity, or the velocity"});
+    a->Field("weights", &weights,
+             Needed("N.m",
+                    "one for each product of kernels, the last axis the fastest; over rad/s where "
+                    "the factor is velocity",
+                    {}, "give a number for each kernel"));
   }
 };
 
@@ -250,8 +268,7 @@ struct Warming {
   template <class A>
   void Serialize(A* a) {
     first.Serialize(a);
-    a->Field("ambient", &ambient,
-             {.unit = "degC", .meaning = "temperature at which the law holds"});
+    a->Field("ambient", &ambient, WithDefault("degC", "temperature at which the law holds"));
     a->Field("second", &second, {.meaning = "a second stage of warming, fed by the same loss"});
   }
 };
@@ -303,7 +320,8 @@ void Friction::Serialize(A* a) {
   // heat stands in one map
   std::optional<Warming> warming;
   if (thermal) warming = Warming{*thermal, ambient, second_thermal};
-  a->Field("thermal", &warming);
+  a->Field("thermal", &warming,
+           {.meaning = "warming, Eqs. (20) to (22); without it the friction stays cold"});
   if (warming) {
     thermal = warming->first;
     ambient = warming->ambient;
@@ -313,14 +331,17 @@ void Friction::Serialize(A* a) {
   // what changes nothing is left out
   constexpr auto left_out = AtDefault::left_out;
   for (const FrictionOption& option : FrictionOptions()) {
-    a->Field(
-        option.info.name, &(this->*option.value),
-        {.unit = option.info.unit.rotary, .meaning = option.info.meaning, .at_default = left_out});
+    a->Field(option.info.name, &(this->*option.value),
+             {.unit = option.info.unit.rotary,
+              .bounds = {.at_least = option.info.lower, .at_most = option.info.upper},
+              .meaning = option.info.meaning,
+              .at_default = left_out});
   }
-  a->Field("torque_unit", &torque_unit,
-           {.meaning = "A, where torque is a current", .at_default = left_out});
+  a->Field("torque_unit", &torque_unit, LeftOut("A, where torque is a current"));
   a->Check(torque_unit.empty() || torque_unit == "A", "torque_unit", "A, or absent");
-  a->Field("maps", &maps, {.at_default = left_out});
+  a->Field(
+      "maps", &maps,
+      LeftOut("friction over position, motor angle, velocity, energy or load, Eqs. (10) to (16)"));
 }
 
 /// Gives the parameters that may be left out their defaults, where they are missing.

@@ -17,8 +17,11 @@ struct ParameterCovariance {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("parameters", &parameters, {.needed = "give a list of names"});
-    a->Field("matrix", &matrix, {.needed = "give a row for each parameter"});
+    a->Field("parameters", &parameters,
+             {.meaning = "their names", .needed = "give a list of names"});
+    a->Field("matrix", &matrix,
+             {.meaning = "a row and a column for each, in products of their units",
+              .needed = "give a row for each parameter"});
     a->Check(matrix.rows() == matrix.cols() && matrix.rows() == std::ssize(parameters), "matrix",
              "a matrix with a row and a column for each parameter");
   }

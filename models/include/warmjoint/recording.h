@@ -107,14 +107,13 @@ struct ReadSettings {
 
   template <class A>
   void Serialize(A* a) {
-    constexpr FieldInfo left_out{.at_default = AtDefault::left_out};
-    a->Field("map", &map);
-    a->Field("unit", &unit);
-    a->Field("joint", &joint);
-    a->Field("gear", &gear);
-    a->Field("scale", &scale, left_out);
-    a->Field("wrap", &wrap, left_out);
-    a->Field("torque_constant", &torque_constant, left_out);
+    a->Field("map", &map, {.meaning = "--map, column=name"});
+    a->Field("unit", &unit, {.meaning = "--unit, column=unit"});
+    a->Field("joint", &joint, {.meaning = "--joint"});
+    a->Field("gear", &gear, {.meaning = "--gear"});
+    a->Field("scale", &scale, LeftOut("--scale, column=factor"));
+    a->Field("wrap", &wrap, LeftOut("--wrap"));
+    a->Field("torque_constant", &torque_constant, LeftOut("--torque-constant"));
   }
 };
 
@@ -164,8 +163,8 @@ struct TakenProject {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("file", &file, {.needed = "name it"});
-    a->Field("values", &values, {.needed = "give what it set"});
+    a->Field("file", &file, {.meaning = "the project file", .needed = "name it"});
+    a->Field("values", &values, {.meaning = "what was taken of it", .needed = "give what it set"});
   }
 };
 
@@ -179,7 +178,8 @@ struct RecordingSource {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("files", &files, {.needed = "give --recording"});
+    a->Field("files", &files,
+             {.meaning = "as seen from the folder of this file", .needed = "give --recording"});
     read.Serialize(a);
     prepare.Serialize(a);
   }

@@ -7,25 +7,36 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace warmjoint {
 
-/// Figures that a claim can name: relative errors (0.05 is 5 %), N.m or N, N.m or N, %, (N.m)^2.
-inline constexpr std::array<const char*, 6> kClaimFigures{
-    "npe_continuous", "npe_discrete", "rmse", "mae", "fit", "fpe"};
+/// A figure that a claim can name.
+struct ClaimFigure {
+  const char* name;
+  std::string_view unit, meaning;
+};
+inline constexpr std::array kClaimFigures{
+    ClaimFigure{"npe_continuous", "", "relative error over k and tau, Eq. (26): 0.05 is 5 %"},
+    ClaimFigure{"npe_discrete", "", "the same over ke and te"},
+    ClaimFigure{"rmse", "N.m", "root mean square of the residual"},
+    ClaimFigure{"mae", "N.m", "mean of its size"},
+    ClaimFigure{"fit", "%", "share of the torque that the fit tells"},
+    ClaimFigure{"fpe", "(N.m)^2", "final prediction error"}};
 
 /// What another source claims for a row of the leaderboard, printed beside ours.
 struct Claim {
-  std::string source;                     // for example "paper, Fig. 6"
+  std::string source;
   std::map<std::string, double> figures;  // by their names in kClaimFigures
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("source", &source, {.needed = "say who claims it"});
-    for (const char* name : kClaimFigures) {
+    a->Field("source", &source,
+             {.meaning = "who claims it, as \"paper, Fig. 6\"", .needed = "say who claims it"});
+    for (const auto& [name, unit, meaning] : kClaimFigures) {
       std::optional<double> figure;
       if (const auto found = figures.find(name); found != figures.end()) figure = found->second;
-      a->Field(name, &figure, {.bounds = {.at_least = 0}});
+      a->Field(name, &figure, {.unit = unit, .bounds = {.at_least = 0}, .meaning = meaning});
       if (figure) figures[name] = *figure;
     }
   }

@@ -123,7 +123,7 @@ TEST(FrictionJson, RefusesPartsThatMakeNoSenseTogether) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("law coulomb has no viscous"));
   object = Example();
   object["load_gain"] = -1;
-  EXPECT_THAT(RefusalOf(object), HasSubstr("load_gain is -1"));
+  EXPECT_THAT(RefusalOf(object), HasSubstr("load_gain is '-1'"));
   object = Example();
   object["maps"] = {{{"axes",
                       {{{"quantity", "motor_position"},

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/check_friction.h"
 #include "models/friction/evaluate_map.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/prepared_map.h"
@@ -100,10 +101,12 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
   using nlohmann::json;
   EXPECT_THAT(refusal([](json& j) { j["weights"].push_back(7); }),
               HasSubstr("friction.json: a map has 7 weights; its axes span 6 kernels"));
-  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = -1; }), HasSubstr("width -1"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = -1; }),
+              HasSubstr("axes.0.width is '-1'"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = "wide"; }),
               HasSubstr("width is 'wide'"));
-  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["period"] = 0; }), HasSubstr("period 0"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["period"] = 0; }),
+              HasSubstr("axes.0.period is '0'"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["centres"][2] = -5; }), HasSubstr("ascend"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][1]["centres"][1] = 0; }), HasSubstr("a centre at 0"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["quantity"] = "positon"; }),
@@ -113,6 +116,11 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
   EXPECT_THAT(refusal([](json& j) { j["axis"] = 1; }), HasSubstr("did you mean 'axes'"));
   EXPECT_THAT(refusal([](json& j) { j.erase("weights"); }), HasSubstr("weights' is missing"));
   EXPECT_THAT(refusal([](json& j) { j["axes"] = json::array(); }), HasSubstr("0 axes"));
+
+  // of no file
+  FrictionMap narrow = SmallMap();
+  narrow.axes[0].kernels.width = 0;
+  EXPECT_THAT(test::RefusalOf([&] { CheckMap(narrow, {"map"}); }), HasSubstr("width 0"));
 }
 
 std::vector<double> Kernels(const GaussianAxis& axis, KernelKind kind, double x) {
