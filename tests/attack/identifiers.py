@@ -49,7 +49,7 @@ CASES = {
     "lines": ("yes | head -c 100000000; exit 4", "crashed"), "escapes": ("printf '\\033[31m\\n\\033]0;x\\007'; exit 4", "crashed"),
     "formula": ("echo '=cmd|/c calc!A0'; exit 4", "crashed"), "script": ("echo '<script>alert(1)</script>'; exit 4", "crashed"),
     "memory": ("/usr/bin/python3 -c \"x = bytearray(6 << 30)\"", "crashed"), "files": ("/usr/bin/python3 -c \"f = [open('/dev/null') for _ in range(5000)]\"", "crashed"),
-    "many files": (f"i=0; while [ $i -lt 3000 ]; do : > f$i; i=$((i+1)); done; exit 4", "crashed timeout"),
+    "many files": ("i=0; while [ $i -lt 3000 ]; do : > f$i; i=$((i+1)); done; exit 4", "crashed timeout"),
     "read only": ("mkdir d; : > d/f; chmod 0 d; exit 4", "crashed"), "signal the program": ("kill -9 $PPID; kill -TERM -1; sleep 9; exit 4", "timeout"),
     "cheat by the suite": ("cat $OLDPWD/t.yaml @WORK/t.yaml > {E}", "crashed"), "cheat by the run": ("cat @WORK/R/suite.yaml > {E}", "crashed"),
     "cheat by the store": ("cp @WORK/R/results.sqlite {E}", "crashed"), "cheat by processes": ("cat /proc/[0-9]*/cmdline > {E}", "crashed"),

@@ -64,7 +64,7 @@ def make(attack):
         if jobs > 1 and (found := differences(attack, "WHOLE1", f"WHOLE{jobs}")):
             attack.fault(f"{jobs} threads", f"other bytes in {found}")
     for i in (1, 2, 3):
-        attack.run(command(f"S{i}", 2) + ["--shard", f"{i}/3"], 300)
+        attack.run([*command(f"S{i}", 2), "--shard", f"{i}/3"], 300)
     attack.run(["merge", "S3", "S1", "S2", "-o", "MERGED"], 300)
     attack.count += 1
     # recordings stay with their shards

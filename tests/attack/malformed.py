@@ -23,7 +23,7 @@ def recordings(attack):
         for number in NUMBERS:
             cells = rows[30].split(",")
             cells[column] = number
-            text = "\n".join(rows[:30] + [",".join(cells)] + rows[31:]) + "\n"
+            text = "\n".join([*rows[:30], ",".join(cells), *rows[31:]]) + "\n"
             attack.file("log.csv", text)
             attack.expect(f"recording {column} {number!r}", ["check", "log.csv"], (2,), "log.csv")
     header, body = rows[0], "\n".join(rows[1:]) + "\n"

@@ -14,8 +14,7 @@ import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/docs"))
 
-import pages  # noqa: E402
-
+import pages
 
 SOURCES = {".h", ".cc", ".py", ".cmake"}
 README_LINES = 120  # what a newcomer reads in two minutes

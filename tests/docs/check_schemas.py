@@ -24,7 +24,6 @@ sys.path.insert(0, str(ROOT / "tools/docs"))
 
 import pages  # noqa: E402
 
-
 try:
     import jsonschema
     import referencing

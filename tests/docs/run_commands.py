@@ -20,7 +20,7 @@ import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/docs"))
 
-import pages  # noqa: E402
+import pages
 
 COMMANDS = ("warmjoint ", "tools/", "build/", "ctest ", "cmake ", "python3 ", "WARMJOINT_", "peers/", "tests/", "export ")
 LIMIT = 600  # s, of one block

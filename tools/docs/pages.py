@@ -12,6 +12,7 @@ Marks are HTML comments on the lines above a block:
 """
 
 import dataclasses
+import itertools
 import pathlib
 import re
 
@@ -118,7 +119,7 @@ def made_pictures(text):
     """(line, picture, file that the page's commands make) of every picture that says so."""
     lines = text.splitlines()
     found = []
-    for number, (line, below) in enumerate(zip(lines, lines[1:]), 1):
+    for number, (line, below) in enumerate(itertools.pairwise(lines), 1):
         mark = MARK.match(line)
         if mark and mark.group(1) == "made as":
             picture = re.match(r"^!\[.*\]\(([^)]+)\)$", below)

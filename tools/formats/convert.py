@@ -6,7 +6,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
-from columns import Refusal, require_one_length  # noqa: E402
+from columns import Refusal, require_one_length
 
 EXAMPLES = """examples:
   tools/convert drive.mcap -o elbow.h5 --joint elbow            # one joint of sensor_msgs/JointState

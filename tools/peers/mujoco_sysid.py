@@ -7,10 +7,9 @@ A light joint is driven along the recorded velocity by a stiff velocity servo; t
 import sys
 
 import mujoco
-from mujoco import sysid
 import numpy as np
-
 import recording
+from mujoco import sysid
 
 SERVO = 1e4  # gain of the velocity servo, N.m.s/rad: the joint lags by a few mrad/s
 

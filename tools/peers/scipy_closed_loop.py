@@ -6,9 +6,8 @@ F = kv v + kc sign(v) + sign(v) E, W = |F v|, E[i+1] = te E[i] + k (1 - te) W[i]
 import sys
 
 import numpy as np
-from scipy.optimize import curve_fit
-
 import recording
+from scipy.optimize import curve_fit
 
 
 def force(motion, viscous, coulomb, gain, time_constant):

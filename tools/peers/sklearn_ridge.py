@@ -7,9 +7,8 @@ one penalty, chosen by cross validation; the two nominal ones are scaled up, whi
 import sys
 
 import numpy as np
-from sklearn.linear_model import RidgeCV
-
 import recording
+from sklearn.linear_model import RidgeCV
 
 KERNELS = 20
 FREE = 1e3  # scale of the columns that are not to be penalised
