@@ -171,8 +171,12 @@ TEST(PluginPassive, RefusesWhatItCannotServe) {
           <config key="law" value="coulomb"/><config key="coulomb" value="1"/></plugin>)",
        {"joint 'j0' has friction already, by actuator 'f'"}},
       {R"(instance="arm" /></sensor>)",
-       R"(instance="arm" objtype="joint" objname="j1"/></sensor>)",
+       R"(instance="arm" objtype="body" objname="world"/></sensor>)",
        {"sensor 's'", "object"}},
+      {R"(instance="arm" /></sensor>)",
+       R"(instance="arm" objtype="joint" objname="k"/></sensor>
+          <worldbody><body><joint name="k"/><geom size="0.1"/></body></worldbody>)",
+       {"sensor 's'", "joint 'k'"}},
       {end,
        R"(<custom><numeric name="arm/viscous" size="3"/></custom>)" + end,
        {"numeric 'arm/viscous'", "'viscous'"}},
