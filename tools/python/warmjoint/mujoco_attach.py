@@ -202,14 +202,22 @@ class BoundFriction:
         self._ends = ends
         self.joints = [joint["name"] for joint in self._joints]
         """Names of the joints."""
+        self._sensors = np.array([-1 if joint["sensor"] is None else joint["sensor"] for joint in self._joints])
+        self._heat_places = np.array([[self._heat_place(joint, stage) for joint in self._joints] for stage in (0, 1)])
 
     def _sensed(self, which: str) -> Floats:
-        for joint in self._joints:
-            if joint["sensor"] is None:
-                raise ValueError(f"no sensor reads the friction of '{joint['name']}'; attach with sensors")
-        places = [joint["sensor"] + _SENSED.index(which) for joint in self._joints]
-        sensed: Floats = self.data.sensordata[places]
+        if (self._sensors < 0).any():
+            joint = self.joints[int(np.argmin(self._sensors))]
+            raise ValueError(f"no sensor reads the friction of '{joint}'; attach with sensors")
+        sensed: Floats = self.data.sensordata[self._sensors + _SENSED.index(which)]
         return sensed
+
+    def _heat_place(self, joint: dict[str, Any], stage: int) -> int:
+        """Where a stage's heat stands in plugin_state, act and a 0 behind them."""
+        places = _heats(joint)
+        if stage >= len(places):
+            return -1
+        return int(joint["state"] + places[stage] + (self.model.npluginstate if joint["form"] == "actuator" else 0))
 
     @property
     def torque(self) -> Floats:
@@ -219,7 +227,9 @@ class BoundFriction:
     @property
     def heat(self) -> Floats:
         """[joints] Change of the level by the heat, E, N.m or N: 0 cold, below 0 where warm friction is lower."""
-        return np.array([sum(self._states(self.data, joint)[place] for place in _heats(joint)) for joint in self._joints])
+        states = np.concatenate((self.data.plugin_state, self.data.act, [0.0]))
+        heat: Floats = states[self._heat_places].sum(axis=0)
+        return heat
 
     @property
     def rise(self) -> Floats:
