@@ -51,10 +51,10 @@ void TakeAttributes(mjsPlugin& instance, const mjsPlugin& source) {
 
 /// The named instance that holds the friction of all joints.
 mjsPlugin* AddInstance(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                       const Place& place) {
+                       const Place& place, const AttachOptions& options) {
   const std::string name = FreeName(spec, mjOBJ_PLUGIN, "friction");
   mjsPlugin* instance = AddPlugin(spec);
-  const SpecPtr source = ParseSection(InstanceSection(name, frictions), place);
+  const SpecPtr source = ParseSection(InstanceSection(name, frictions, options), place);
   TakeAttributes(*instance, *mjs_asPlugin(mjs_firstElement(source.get(), mjOBJ_PLUGIN)));
   // as the element's name it is found, as the instance's it is written
   mjs_setName(instance->element, name.c_str());
@@ -176,7 +176,7 @@ void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
   const bool passive = options.form == FrictionForm::passive;
   const bool alone = !passive && frictions.size() == 1 && !options.sensors && !options.numbers;
   const mjsPlugin* instance = alone ? AddInlineInstance(spec, frictions.front(), place)
-                                    : AddInstance(spec, frictions, place);
+                                    : AddInstance(spec, frictions, place, options);
   if (passive) {
     ReferFromBody(spec, frictions, *instance);
   } else {

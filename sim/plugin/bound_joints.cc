@@ -96,25 +96,27 @@ void BoundJoints::ReadDrives(const mjModel* m) {
 }
 
 void BoundJoints::BindSensors(const mjModel* m) {
+  const std::string name = InstanceName(m, instance_);
+  const bool of_joints = PrepareInstance(m, instance_, {name})->joint_sensors;
   for (int i = 0; i < m->nsensor; ++i) {
     if (m->sensor_plugin[i] != instance_) continue;
-    const int type = m->sensor_objtype[i];
-    if (type == mjOBJ_UNKNOWN) {
+    const Place place{fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))};
+    if (!of_joints) {
+      if (m->sensor_objtype[i] != mjOBJ_UNKNOWN) {
+        Refuse(place,
+               "names an object, and reads all joints of its instance; leave it out, or give the "
+               "instance joint_sensors");
+      }
       sensors_.push_back({i});
       continue;
     }
     // of one joint, which must be the instance's
-    const Place place{fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))};
-    if (type != mjOBJ_JOINT) {
-      Refuse(
-          place,
-          "names an object that is no joint; a sensor of friction reads the joint that it names, "
-          "or without objtype all joints of its instance");
+    if (m->sensor_objtype[i] != mjOBJ_JOINT) {
+      Refuse(place, "must name a joint, since its instance has joint_sensors");
     }
     const auto joint = std::ranges::find(joints_, m->sensor_objid[i], &BoundJoint::joint);
     if (joint == joints_.end()) {
-      Refuse(place, "names {}, on which {} does not act", JointName(m, m->sensor_objid[i]),
-             InstanceName(m, instance_));
+      Refuse(place, "names {}, on which {} does not act", JointName(m, m->sensor_objid[i]), name);
     }
     sensors_.push_back({i, static_cast<size_t>(joint - joints_.begin())});
   }
@@ -200,13 +202,11 @@ void BoundJoints::WarnOfNumber(const mjModel* m, NumberArray& array, size_t i, d
   mju_warning("%s: %s", kFrictionPlugin, warning.c_str());
 }
 
-int SensorSize(const mjModel* m, int instance, int sensor) {
-  if (m->sensor_objtype[sensor] != mjOBJ_UNKNOWN) return kSensed;
+int SensorSize(const mjModel* m, int instance) {
+  const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
+  if (prepared->joint_sensors) return kSensed;
   // the passive form names its joints, the other has actuators
-  if (!DrivenByActuators(m, instance)) {
-    const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
-    return kSensed * static_cast<int>(prepared->joints.size());
-  }
+  if (!DrivenByActuators(m, instance)) return kSensed * static_cast<int>(prepared->joints.size());
   const int *begin = m->actuator_plugin, *end = begin + m->nactuator;
   return kSensed * static_cast<int>(std::count(begin, end, instance));
 }

@@ -113,8 +113,8 @@ class BoundJoints {
 /// sliding.
 inline constexpr int kSensed = 5;
 
-/// Numbers of sensordata that a sensor of the instance needs: kSensed for the joint that it names, or
-/// for each of the instance's joints.
-int SensorSize(const mjModel* m, int instance, int sensor);
+/// Numbers of sensordata that a sensor of the instance needs: kSensed for each of its joints, or where
+/// it has joint_sensors for one. While a model is compiled, sensors do not yet know what they name.
+int SensorSize(const mjModel* m, int instance);
 
 }  // namespace warmjoint

@@ -115,10 +115,10 @@ void Compute(const mjModel* m, mjData* d, int instance, int capability) {
   }
 }
 
-int SensorNumbers(const mjModel* m, int instance, int sensor) {
+int SensorNumbers(const mjModel* m, int instance, int) {
   // States refuses what is wrong; until then one joint's numbers
   try {
-    return SensorSize(m, instance, sensor);
+    return SensorSize(m, instance);
   } catch (const std::exception&) {
     return kSensed;
   }

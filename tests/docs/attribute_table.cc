@@ -8,6 +8,7 @@ namespace {
 
 std::string Allowed(const std::optional<double>&, const Bounds& bounds) { return bounds.Words(); }
 std::string Allowed(const std::string&, const Bounds&) { return "text"; }
+std::string Allowed(bool, const Bounds&) { return "true or false"; }
 std::string Allowed(const std::filesystem::path&, const Bounds&) { return "path"; }
 std::string Allowed(const Tree&, const Bounds&) { return "JSON"; }
 

@@ -92,6 +92,8 @@ def test_forms_agree_and_report_the_same():
     assert passive.joints == actuator.joints == ["joint1", "joint2", "slide"]
     assert (passive.heat < 0).all()
     assert passive["joint2"].heat == passive.heat[1]
+    assert passive.model.nsensordata == 15
+    assert passive.data.sensor("joint2_friction").data[0] == passive.torque[1]
     assert passive["slide"].held in (True, False)
 
 

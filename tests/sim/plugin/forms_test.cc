@@ -106,18 +106,22 @@ TEST(PluginSensors, ReadWhatTheFrictionDoes) {
 }
 
 TEST(PluginSensors, OfAJointReadThatJoint) {
+  const std::string config = R"(<config key="instance" value="arm"/>)";
   for (const Form form : {Form::actuator, Form::passive}) {
-    std::string xml = SensedArmXml(FrictionsOfEveryLaw()[1], form);
-    xml.insert(xml.rfind("</sensor>"),
-               R"(<plugin name="j1_friction" plugin="warmjoint.friction" instance="arm"
-                  objtype="joint" objname="j1" cutoff="0.5"/>)");
-    const Model m = MustCompile(xml);
-    ASSERT_EQ(m->nsensordata, kSensed * (kArmJoints + 1));
-    const Data d(mj_makeData(m.get()));
-    DriveArm(m.get(), d.get(), 300);
-    const mjtNum *all = d->sensordata, *one = all + kSensed * kArmJoints;
-    EXPECT_GT(std::abs(all[kSensed]), 0.5);
-    for (int i = 0; i < kSensed; ++i) EXPECT_EQ(one[i], std::clamp(all[kSensed + i], -0.5, 0.5));
+    const std::string whole = SensedArmXml(FrictionsOfEveryLaw()[1], form);
+    std::string single = SensedArmXml(FrictionsOfEveryLaw()[1], form,
+                                      R"(objtype="joint" objname="j1" cutoff="0.5")");
+    single.insert(single.find(config), R"(<config key="joint_sensors" value="true"/>)");
+    const Model a = MustCompile(whole), b = MustCompile(single);
+    ASSERT_EQ(b->nsensordata, kSensed);
+    const Data c(mj_makeData(a.get())), d(mj_makeData(b.get()));
+    DriveArm(a.get(), c.get(), 300);
+    DriveArm(b.get(), d.get(), 300);
+    const mjtNum* of_joint = c->sensordata + kSensed;
+    EXPECT_GT(std::abs(of_joint[0]), 0.5);
+    for (int i = 0; i < kSensed; ++i) {
+      EXPECT_EQ(d->sensordata[i], std::clamp(of_joint[i], -0.5, 0.5));
+    }
   }
 }
 
