@@ -136,26 +136,48 @@ std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
   return std::nullopt;
 }
 
-bool JointFriction::SetNumber(size_t place, double value) {
-  // a number of the law's table, or one beside it
+std::vector<std::string> JointFriction::NumberNames() const {
+  std::vector<std::string> names;
+  for (const ParameterInfo& info : law_.parameters) names.emplace_back(info.name);
+  for (const OtherNumber& number : OtherNumbers()) {
+    Friction friction = friction_;
+    if (!number.find(friction)) continue;
+    names.push_back(std::string(number.prefix) + std::string(number.info.name));
+  }
+  return names;
+}
+
+double JointFriction::Number(size_t place) const {
+  if (place < values_.size()) return values_[place];
+  Friction friction = friction_;
+  return *OtherNumbers()[place - values_.size()].find(friction);
+}
+
+Bounds JointFriction::NumberBounds(size_t place) const {
   const bool own = place < values_.size();
-  const OtherNumber* other = own ? nullptr : &OtherNumbers()[place - values_.size()];
-  const ParameterInfo& info = own ? law_.parameters[place] : other->info;
-  // within its bounds, a time constant above 0, a gain no larger than any joint's
-  const bool time = info.name == Thermal::parameters[1].name;
-  if (!(value >= info.lower && value <= info.upper) || (time && value == 0)) return false;
-  const bool gain = info.name == Thermal::parameters[0].name;
-  if (gain && std::abs(value) > kLargestThermalGain) return false;
+  const ParameterInfo& info =
+      own ? law_.parameters[place] : OtherNumbers()[place - values_.size()].info;
+  // a time constant is above 0, a gain no larger than any joint's
+  const auto& [gain, time] = Thermal::parameters;
+  if (info.name == time.name) return {.above = 0};
+  if (info.name == gain.name) {
+    return {.at_least = -kLargestThermalGain, .at_most = kLargestThermalGain};
+  }
+  return {.at_least = info.lower, .at_most = info.upper};
+}
+
+bool JointFriction::SetNumber(size_t place, double value) {
+  if (!std::isfinite(value) || !NumberBounds(place).Hold(value)) return false;
 
   // what follows from the number changes with it
-  if (own) {
+  if (place < values_.size()) {
     values_[place] = value;
     Derive();
     return true;
   }
 
   // of warming or options: the step of the heat may follow from it
-  *other->find(friction_) = value;
+  *OtherNumbers()[place - values_.size()].find(friction_) = value;
   per_energy_ = friction_.viscous_per_energy;
   load_gain_ = friction_.load_gain;
   if (h_ > 0) heat_ = DiscretiseHeat(friction_, h_);

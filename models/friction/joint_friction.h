@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -78,8 +79,14 @@ class JointFriction {
   /// viscous_per_energy; nothing where this friction has no such number.
   std::optional<size_t> FindNumber(std::string_view name) const;
 
-  /// Sets a number from now on; false, and nothing changed, where it is out of the bounds of its
-  /// table.
+  /// The names of all numbers that this friction has, in the order of their places.
+  std::vector<std::string> NumberNames() const;
+
+  /// A number as it is set, and what it may be set to.
+  double Number(size_t place) const;
+  Bounds NumberBounds(size_t place) const;
+
+  /// Sets a number from now on; false, and nothing changed, where it is out of its bounds.
   bool SetNumber(size_t place, double value);
 
   /// The state that an engine holds in the order of state(); a number that is not finite counts as

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "models/foundation/excerpt.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/spec_elements.h"
+#include "sim/plugin/bound_joints.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint {
@@ -24,11 +26,11 @@ SpecPtr ParseSection(const std::string& section, const Place& place) {
   return spec;
 }
 
-/// A name that no plugin instance of the model has: friction, friction_2, ...
-std::string FreeInstanceName(mjSpec& spec) {
-  std::string name = "friction";
-  for (int i = 2; mjs_findElement(&spec, mjOBJ_PLUGIN, name.c_str()); ++i) {
-    name = fmt::format("friction_{}", i);
+/// A name that no element of that kind has: the stem, or the stem with a number behind.
+std::string FreeName(mjSpec& spec, mjtObj type, const std::string& stem) {
+  std::string name = stem;
+  for (int i = 2; mjs_findElement(&spec, type, name.c_str()); ++i) {
+    name = fmt::format("{}_{}", stem, i);
   }
   return name;
 }
@@ -49,10 +51,10 @@ void TakeAttributes(mjsPlugin& instance, const mjsPlugin& source) {
 
 /// The named instance that holds the friction of all joints.
 mjsPlugin* AddInstance(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                       const Place& place) {
-  const std::string name = FreeInstanceName(spec);
+                       const Place& place, const AttachOptions& options) {
+  const std::string name = FreeName(spec, mjOBJ_PLUGIN, "friction");
   mjsPlugin* instance = AddPlugin(spec);
-  const SpecPtr source = ParseSection(InstanceSection(name, frictions), place);
+  const SpecPtr source = ParseSection(InstanceSection(name, frictions, options), place);
   TakeAttributes(*instance, *mjs_asPlugin(mjs_firstElement(source.get(), mjOBJ_PLUGIN)));
   // as the element's name it is found, as the instance's it is written
   mjs_setName(instance->element, name.c_str());
@@ -102,6 +104,53 @@ void ReferFromBody(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
   }
 }
 
+/// A sensor for each joint, which reads its friction.
+void AddSensors(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                const mjsPlugin& instance) {
+  for (const FrictionForJoint& friction : frictions) {
+    mjsSensor* sensor = mjs_addSensor(&spec);
+    const std::string name = FreeName(spec, mjOBJ_SENSOR, FrictionActuatorOf(friction.joint));
+    mjs_setName(sensor->element, name.c_str());
+    sensor->type = mjSENS_PLUGIN;
+    sensor->objtype = mjOBJ_JOINT;
+    mjs_setString(sensor->objname, friction.joint.c_str());
+    // by name alone: a copy of the spec would keep a reference to this one's instance
+    sensor->plugin.active = 1;
+    mjs_setString(sensor->plugin.plugin_name, kFrictionPlugin);
+    mjs_setString(sensor->plugin.name, mjs_getString(instance.name));
+  }
+}
+
+/// An array for each number that a friction has, and for the heat at a reset.
+void AddNumbers(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                const std::string& instance) {
+  // in the order in which the frictions bring them up
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<double>> values;
+  const auto set = [&](const std::string& name, size_t joint, double value) {
+    const auto [array, is_new] = values.emplace(name, std::vector<double>(frictions.size()));
+    if (is_new) names.push_back(name);
+    array->second[joint] = value;
+  };
+  for (size_t i = 0; i < frictions.size(); ++i) {
+    const auto& [joint, description, heat] = frictions[i];
+    const JointFriction friction(description);
+    for (const std::string& name : friction.NumberNames()) {
+      set(name, i, friction.Number(*friction.FindNumber(name)));
+    }
+    const bool stages[] = {description.thermal.has_value(), description.second_thermal.has_value()};
+    for (const size_t stage : {0, 1}) {
+      if (stages[stage]) set(kInitialEnergies[stage], i, stage < heat.size() ? heat[stage] : 0);
+    }
+  }
+  for (const std::string& name : names) {
+    mjsNumeric* numeric = mjs_addNumeric(&spec);
+    mjs_setName(numeric->element, fmt::format("{}/{}", instance, name).c_str());
+    numeric->size = static_cast<int>(frictions.size());
+    mjs_setDouble(numeric->data, values[name].data(), numeric->size);
+  }
+}
+
 }  // namespace
 
 void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place) {
@@ -120,14 +169,21 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 }
 
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
-                 FrictionForm form) {
+                 const AttachOptions& options) {
   if (frictions.empty()) return;
   CheckJoints(spec, frictions, place);
-  const bool alone = form == FrictionForm::actuator && frictions.size() == 1;
+  // sensors and arrays need an instance with a name
+  const bool passive = options.form == FrictionForm::passive;
+  const bool alone = !passive && frictions.size() == 1 && !options.sensors && !options.numbers;
   const mjsPlugin* instance = alone ? AddInlineInstance(spec, frictions.front(), place)
-                                    : AddInstance(spec, frictions, place);
-  if (form == FrictionForm::passive) return ReferFromBody(spec, frictions, *instance);
-  for (const FrictionForJoint& friction : frictions) AddActuator(spec, friction, *instance);
+                                    : AddInstance(spec, frictions, place, options);
+  if (passive) {
+    ReferFromBody(spec, frictions, *instance);
+  } else {
+    for (const FrictionForJoint& friction : frictions) AddActuator(spec, friction, *instance);
+  }
+  if (options.sensors) AddSensors(spec, frictions, *instance);
+  if (options.numbers) AddNumbers(spec, frictions, mjs_getString(instance->name));
 }
 
 bool ClearOwnFriction(mjsJoint& joint) {

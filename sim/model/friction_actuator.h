@@ -19,10 +19,11 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 /// plugin, since each instance costs the engine time of its own in every step (one joint alone, as
 /// an actuator, holds its attributes by itself). The actuators, "JOINT_friction", come after all
 /// others, so that the controls of those keep their places; they take nothing from the model's
-/// default classes.
+/// default classes. Of the options form, sensors and numbers count; sensors and arrays stand in the
+/// order of `frictions`, which in the passive form must be the model's order of joints.
 /// What else would act as friction, or clip it, is the caller's to remove: see ClearOwnFriction.
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
-                 FrictionForm form = FrictionForm::actuator);
+                 const AttachOptions& options = {});
 
 /// Takes from a joint the friction that the model gives it: damping and frictionloss.
 /// Returns whether there was any.

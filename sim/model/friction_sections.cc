@@ -99,7 +99,8 @@ std::string FrictionSections(const FrictionForJoint& friction) {
 }
 
 std::string InstanceSection(const std::string& instance,
-                            const std::vector<FrictionForJoint>& frictions) {
+                            const std::vector<FrictionForJoint>& frictions,
+                            const AttachOptions& options) {
   // friction and first heat of each joint, by its name
   json joints = json::object(), energies = json::object();
   for (const FrictionForJoint& friction : frictions) {
@@ -109,6 +110,7 @@ std::string InstanceSection(const std::string& instance,
   }
   std::string configs = Config("instance", instance) + Config("joints", joints.dump());
   if (!energies.empty()) configs += Config("initial_energy", energies.dump());
+  if (options.sensors) configs += Config("joint_sensors", "true");
   return fmt::format(R"(  <extension>
     <plugin plugin="{}">
       <instance name="{}">

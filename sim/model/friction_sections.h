@@ -16,8 +16,10 @@ std::string FrictionSections(const FrictionForJoint& friction);
 
 /// The section <extension> with one instance of that name which holds the friction of all the
 /// joints, and its own name, from which the plugin finds what an attachment put before the names.
+/// Of the options, sensors count.
 std::string InstanceSection(const std::string& instance,
-                            const std::vector<FrictionForJoint>& frictions);
+                            const std::vector<FrictionForJoint>& frictions,
+                            const AttachOptions& options);
 
 /// Name of the actuator that carries the friction of a joint.
 std::string FrictionActuatorOf(const std::string& joint);

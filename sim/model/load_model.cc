@@ -180,7 +180,7 @@ ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& 
   return parsed;
 }
 
-ModelPtr CompileModel(mjSpec& spec, const Place& place) {
+ModelPtr CompileModel(mjSpec& spec, const Place& place, const mjVFS* files) {
   // textures that the compiler makes, three bytes a pixel
   for (mjsElement* element : SpecElements(spec, mjOBJ_TEXTURE)) {
     const mjsTexture* texture = mjs_asTexture(element);
@@ -189,7 +189,7 @@ ModelPtr CompileModel(mjSpec& spec, const Place& place) {
     Refuse(place, "width and height of a <texture> make {:.1f} GiB; 1 GiB at most",
            bytes / kLargestTexture);
   }
-  ModelPtr model(mj_compile(&spec, nullptr));
+  ModelPtr model(mj_compile(&spec, files));
   if (model) return model;
   // what our plugin refused says more than MuJoCo's message around it
   const std::string message = Flatten(mjs_getError(&spec));
@@ -210,9 +210,11 @@ LoadedModel LoadModel(const std::filesystem::path& path) {
 }
 
 std::string ModelToXml(mjSpec& spec, const Place& place) {
-  // as it was written, not as the compiler changed it
+#if mjVERSION_HEADER >= 3017000
+  // as it was written, not as the compiler changed it; earlier engines write what they compiled alone
   spec.compiler.savecompiled = 0;
   spec.compiler.savecanonical = 0;
+#endif
 
   // the first call tells how much room the second needs
   std::array<char, 1000> error{};

@@ -26,8 +26,9 @@ struct ParsedModel {
 /// no mass.
 ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages = {});
 
-/// Compiles a model. Throws BadInput from `place` with what MuJoCo or a plugin refuses.
-ModelPtr CompileModel(mjSpec& spec, const Place& place);
+/// Compiles a model. files: meshes and textures that lie in memory. Throws BadInput from `place` with
+/// what MuJoCo or a plugin refuses.
+ModelPtr CompileModel(mjSpec& spec, const Place& place, const mjVFS* files = nullptr);
 
 /// A compiled model and the notices of its reading.
 struct LoadedModel {

@@ -17,12 +17,25 @@ bool CarriesFriction(const mjsJoint& joint) {
   return joint.type == mjJNT_HINGE || joint.type == mjJNT_SLIDE;
 }
 
+/// What to write for a '*' that stands for any text as in the names of files; empty where none does.
+std::string WildcardRemedy(const std::string& pattern) {
+  std::string written;
+  for (size_t i = 0; i < pattern.size(); ++i) {
+    const bool repeats =
+        i > 0 && std::string_view(".)]}*").find(pattern[i - 1]) != std::string::npos;
+    if (pattern[i] == '*' && !repeats) written += '.';
+    written += pattern[i];
+  }
+  return written == pattern ? "" : fmt::format("; for any text write '.*', as '{}'", written);
+}
+
 std::regex ReadPattern(const std::string& pattern, const Place& place) {
   try {
     return std::regex(pattern);
   } catch (const std::regex_error& error) {
-    Refuse(place, "'{}' is neither the name of a joint nor a regular expression: {}",
-           Excerpt(pattern), error.what());
+    const std::string remedy = WildcardRemedy(pattern);
+    Refuse(place, "'{}' is neither the name of a joint nor a regular expression{}",
+           Excerpt(pattern), remedy.empty() ? fmt::format(": {}", error.what()) : remedy);
   }
 }
 
@@ -54,8 +67,8 @@ std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, c
   if (!joints.empty()) return joints;
   const std::vector<std::string> names = SpecNames(spec, mjOBJ_JOINT);
   if (names.empty()) Refuse(place, "none of its {} joints has a name", NamelessJoints(spec));
-  Refuse(place, "no hinge or slide joint matches the pattern '{}'; there are {}", Excerpt(pattern),
-         ExcerptOfList(names));
+  Refuse(place, "no hinge or slide joint matches the pattern '{}'; there are {}{}",
+         Excerpt(pattern), ExcerptOfList(names), WildcardRemedy(pattern));
 }
 
 int NamelessJoints(mjSpec& spec) {

@@ -68,7 +68,8 @@ fs::path Locate(const fs::path& file, const fs::path& folder) {
 /// Refuses every attribute that is given with `whole`, which stands for all of friction.
 void RefuseOthers(const std::string& whole, const AttributeTexts& texts, const Place& place) {
   // what does not describe the friction may be given with it
-  static const std::set<std::string> others{"folder", "instance", "initial_energy"};
+  static const std::set<std::string> others{"folder", "instance", "initial_energy",
+                                            "joint_sensors"};
   for (const auto& [name, text] : texts) {
     if (name == whole || others.contains(name)) continue;
     Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", name,

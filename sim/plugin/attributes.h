@@ -38,6 +38,7 @@ struct PluginAttributes {
   std::optional<double> gear;
   std::map<std::string, std::optional<double>> numbers;  // by their names
   Tree joints, maps, initial_energy;
+  bool joint_sensors = false;
 
   template <class A>
   void Serialize(A* a) {
@@ -61,6 +62,9 @@ struct PluginAttributes {
     a->Field("initial_energy", &initial_energy,
              {.unit = "N.m",
               .meaning = "energy state at a reset: of every joint, or of each by its name"});
+    a->Field(
+        "joint_sensors", &joint_sensors,
+        {.meaning = "whether each sensor of the instance reads the joint that it names alone"});
   }
 };
 

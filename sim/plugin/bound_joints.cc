@@ -6,7 +6,9 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/friction/thermal.h"
 #include "sim/plugin/plugin_instances.h"
+#include "sim/plugin/register.h"
 #include "sim/plugin/stability.h"
 
 namespace warmjoint {
@@ -94,14 +96,29 @@ void BoundJoints::ReadDrives(const mjModel* m) {
 }
 
 void BoundJoints::BindSensors(const mjModel* m) {
+  const std::string name = InstanceName(m, instance_);
+  const bool of_joints = PrepareInstance(m, instance_, {name})->joint_sensors;
   for (int i = 0; i < m->nsensor; ++i) {
     if (m->sensor_plugin[i] != instance_) continue;
-    if (m->sensor_objtype[i] != mjOBJ_UNKNOWN) {
-      Refuse(
-          {fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))},
-          "names an object; a sensor of friction reads all joints of its instance, leave it out");
+    const Place place{fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))};
+    if (!of_joints) {
+      if (m->sensor_objtype[i] != mjOBJ_UNKNOWN) {
+        Refuse(place,
+               "names an object, and reads all joints of its instance; leave it out, or give the "
+               "instance joint_sensors");
+      }
+      sensors_.push_back({i});
+      continue;
     }
-    sensors_.push_back(i);
+    // of one joint, which must be the instance's
+    if (m->sensor_objtype[i] != mjOBJ_JOINT) {
+      Refuse(place, "must name a joint, since its instance has joint_sensors");
+    }
+    const auto joint = std::ranges::find(joints_, m->sensor_objid[i], &BoundJoint::joint);
+    if (joint == joints_.end()) {
+      Refuse(place, "names {}, on which {} does not act", JointName(m, m->sensor_objid[i]), name);
+    }
+    sensors_.push_back({i, static_cast<size_t>(joint - joints_.begin())});
   }
 }
 
@@ -113,18 +130,31 @@ void BoundJoints::BindNumbers(const mjModel* m) {
     const std::string name = NameIn(m, mjOBJ_NUMERIC, i);
     if (!name.starts_with(start)) continue;
     const Place place{fmt::format("numeric '{}'", name)};
+    const std::string number = name.substr(start.size());
+
+    // heat at a reset is of the joints that have a gain of that stage
+    NumberArray array;
+    array.name = name;
+    array.address = m->numeric_adr[i];
+    std::string needed = number;
+    for (const size_t stage : {0, 1}) {
+      if (number != kInitialEnergies[stage]) continue;
+      array.stage = stage;
+      needed = fmt::format("{}{}", stage == 0 ? "" : kSecondStage, kGainName);
+    }
 
     // a place in each joint's friction that has the number
-    NumberArray array;
-    array.address = m->numeric_adr[i];
-    const std::string number = name.substr(start.size());
-    array.initial_energy = number == "initial_energy";
-    bool known = array.initial_energy;
     for (const BoundJoint& joint : joints_) {
-      array.places.push_back(joint.friction.FindNumber(number));
-      known = known || array.places.back();
+      const auto found = joint.friction.FindNumber(needed);
+      array.places.push_back(found);
+      const double given = !found        ? 0
+                           : array.stage ? joint.initial_energy[*array.stage]
+                                         : joint.friction.Number(*found);
+      array.given.push_back(given);
     }
-    if (!known) Refuse(place, "no joint's friction has a number '{}'", Excerpt(number));
+    if (std::ranges::none_of(array.places, [](const auto& found) { return found.has_value(); })) {
+      Refuse(place, "no joint's friction has a number '{}'", Excerpt(number));
+    }
     if (static_cast<size_t>(m->numeric_size[i]) != joints_.size()) {
       Refuse(place, "has {} numbers; give {}, one for each joint of {}", m->numeric_size[i],
              joints_.size(), InstanceName(m, instance_));
@@ -132,6 +162,7 @@ void BoundJoints::BindNumbers(const mjModel* m) {
 
     // no number equals this one, so that the first look sets them all
     array.last.assign(joints_.size(), std::numeric_limits<double>::quiet_NaN());
+    array.told.assign(joints_.size(), false);
     numbers_.push_back(std::move(array));
   }
 }
@@ -142,22 +173,40 @@ bool BoundJoints::ReadArrays(const mjModel* m) {
   for (NumberArray& array : numbers_) {
     const mjtNum* now = m->numeric_data + array.address;
     for (size_t i = 0; i < joints_.size(); ++i) {
-      if (now[i] == array.last[i]) continue;
+      if (now[i] == array.last[i] || !array.places[i]) continue;
       array.last[i] = now[i];
-      if (array.initial_energy && std::isfinite(now[i])) joints_[i].initial_energy[0] = now[i];
-      if (array.places[i]) joints_[i].friction.SetNumber(*array.places[i], now[i]);
       any = true;
+      if (SetNumber(array, i, now[i])) continue;
+      SetNumber(array, i, array.given[i]);
+      if (!array.told[i]) WarnOfNumber(m, array, i, now[i]);
     }
   }
   return any;
 }
 
+/// Sets one joint's number; false, and nothing changed, where it is out of its bounds.
+bool BoundJoints::SetNumber(const NumberArray& array, size_t i, double value) {
+  if (!array.stage) return joints_[i].friction.SetNumber(*array.places[i], value);
+  if (!std::isfinite(value)) return false;
+  joints_[i].initial_energy[*array.stage] = value;
+  return true;
+}
+
+void BoundJoints::WarnOfNumber(const mjModel* m, NumberArray& array, size_t i, double value) const {
+  array.told[i] = true;
+  const BoundJoint& joint = joints_[i];
+  const Bounds bounds = array.stage ? Bounds() : joint.friction.NumberBounds(*array.places[i]);
+  const std::string warning =
+      fmt::format("numeric '{}' of {} is {}; it must be {}; {} acts instead", array.name,
+                  JointName(m, joint.joint), value, bounds.Words(), array.given[i]);
+  mju_warning("%s: %s", kFrictionPlugin, warning.c_str());
+}
+
 int SensorSize(const mjModel* m, int instance) {
+  const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
+  if (prepared->joint_sensors) return kSensed;
   // the passive form names its joints, the other has actuators
-  if (!DrivenByActuators(m, instance)) {
-    const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
-    return kSensed * static_cast<int>(prepared->joints.size());
-  }
+  if (!DrivenByActuators(m, instance)) return kSensed * static_cast<int>(prepared->joints.size());
   const int *begin = m->actuator_plugin, *end = begin + m->nactuator;
   return kSensed * static_cast<int>(std::count(begin, end, instance));
 }

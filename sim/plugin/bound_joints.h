@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "models/friction/joint_friction.h"
@@ -32,10 +33,23 @@ struct BoundJoint {
 
 /// An array of the model that holds a number of each joint: <numeric name="INSTANCE/NUMBER">.
 struct NumberArray {
-  int address = 0;  // in numeric_data
-  bool initial_energy = false;
-  std::vector<std::optional<size_t>> places;  // of JointFriction, for each joint
-  std::vector<double> last;                   // what the joints were set to, for each joint
+  std::string name;               // of the array
+  int address = 0;                // in numeric_data
+  std::optional<size_t> stage{};  // of the heat at a reset, whose array it is
+  std::vector<std::optional<size_t>>
+      places;                 // of each joint's number; none where it has no such number
+  std::vector<double> given;  // by the attributes, for each joint
+  std::vector<double> last;   // what each joint's number was set to
+  std::vector<bool> told;     // that it was out of its bounds, for each joint
+};
+
+/// The arrays of the heat at a reset, E1 and E2.
+inline constexpr std::array kInitialEnergies{"initial_energy", "second_initial_energy"};
+
+/// A sensor of the model that reads the instance.
+struct BoundSensor {
+  int sensor = 0;
+  std::optional<size_t> joint{};  // among the instance's; none: all of them
 };
 
 /// The joints of an instance in one model: in the order of its actuators, or of the model's joints
@@ -62,18 +76,23 @@ class BoundJoints {
   std::vector<BoundJoint>& joints() { return joints_; }
   const std::vector<BoundJoint>& joints() const { return joints_; }
   /// The model's sensors that read the instance.
-  const std::vector<int>& sensors() const { return sensors_; }
+  const std::vector<BoundSensor>& sensors() const { return sensors_; }
+  /// The model's arrays of numbers.
+  const std::vector<NumberArray>& numbers() const { return numbers_; }
 
   /// Sets what the model's drives add to its step, which its timestep and integrator change.
   void ReadDrives(const mjModel* m);
 
-  /// Sets the joints' numbers to those of the model's arrays; whether any is new. A number out of
-  /// its bounds, or one that a joint's friction does not have, leaves that as it is.
+  /// Sets the joints' numbers to those of the model's arrays; whether any is new. For a number out of
+  /// its bounds the attributes' one acts, with a warning, once for each; one that a joint's friction
+  /// does not have changes nothing.
   bool ReadNumbers(const mjModel* m) { return !numbers_.empty() && ReadArrays(m); }
 
  private:
   bool IsPlaceOf(const mjModel* m) const { return m == model_ && m->signature == signature_; }
   bool ReadArrays(const mjModel* m);
+  bool SetNumber(const NumberArray& array, size_t joint, double value);
+  void WarnOfNumber(const mjModel* m, NumberArray& array, size_t joint, double value) const;
   void BindActuators(const mjModel* m);
   void BindPassive(const mjModel* m, int states);
   void BindSensors(const mjModel* m);
@@ -85,7 +104,7 @@ class BoundJoints {
   uint64_t signature_;  // of the model
   bool passive_;
   std::vector<BoundJoint> joints_;
-  std::vector<int> sensors_;
+  std::vector<BoundSensor> sensors_;
   std::vector<NumberArray> numbers_;
 };
 
@@ -94,7 +113,8 @@ class BoundJoints {
 /// sliding.
 inline constexpr int kSensed = 5;
 
-/// Numbers of sensordata that a sensor of the instance needs: kSensed for each of its joints.
+/// Numbers of sensordata that a sensor of the instance needs: kSensed for each of its joints, or where
+/// it has joint_sensors for one. While a model is compiled, sensors do not yet know what they name.
 int SensorSize(const mjModel* m, int instance);
 
 }  // namespace warmjoint

@@ -76,14 +76,17 @@ void FrictionSensors::WriteStep(const mjModel* m, mjData* d, const BoundJoints& 
 }
 
 void FrictionSensors::Write(const mjModel* m, mjData* d, const BoundJoints& bound) const {
-  for (const int sensor : bound.sensors()) {
+  for (const auto& [sensor, joint] : bound.sensors()) {
+    // of one joint, or of all
     mjtNum* data = d->sensordata + m->sensor_adr[sensor];
-    std::copy(sensed_.begin(), sensed_.end(), data);
+    const auto begin = sensed_.begin() + static_cast<std::ptrdiff_t>(kSensed * joint.value_or(0));
+    const size_t size = joint ? kSensed : sensed_.size();
+    std::copy_n(begin, size, data);
 
     // the engine clips what stands there at the stage of positions
     const double most = m->sensor_cutoff[sensor];
     if (most <= 0) continue;
-    for (size_t i = 0; i < sensed_.size(); ++i) data[i] = std::clamp(data[i], -most, most);
+    for (size_t i = 0; i < size; ++i) data[i] = std::clamp(data[i], -most, most);
   }
 }
 

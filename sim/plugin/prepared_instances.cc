@@ -78,6 +78,8 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
     prepared->joints.emplace(
         name, PreparedJoint{joint.friction, JointFriction(joint.friction), joint.initial_energy});
   }
+  // DescribeJoints has checked it
+  prepared->joint_sensors = texts.contains("joint_sensors") && texts["joint_sensors"] == "true";
   TheShelf().Keep(key, prepared);
   return prepared;
 }

@@ -26,6 +26,7 @@ struct PreparedJoint {
 /// An instance as its attributes describe it.
 struct PreparedInstance {
   std::string written_name;                     // attribute `instance`; empty where not given
+  bool joint_sensors = false;                   // whether each sensor reads one joint
   std::map<std::string, PreparedJoint> joints;  // by the name in `joints`; "": every joint
 };
 

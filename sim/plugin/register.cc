@@ -19,8 +19,9 @@
 namespace warmjoint {
 namespace {
 
-// Read from 4.0's source; of a later engine read how its mj_makeData frees data after a plugin's -1.
-static_assert(mjVERSION_HEADER / 1000 == 4000, "RefuseData frees data as the engine 4.0 does");
+// Read from the sources of 3.11 to 4.0; of a later engine read how its mj_initPlugin frees data after a plugin's -1.
+static_assert(mjVERSION_HEADER >= 3011000 && mjVERSION_HEADER / 1000 <= 4000,
+              "RefuseData frees data as the engines 3.11 to 4.0 do");
 
 /// Refuses data from within a plugin's init. The data is freed as the engine frees it after a -1, with
 /// what the instances before have made for it, which the engine leaves, and the refusal is given once,

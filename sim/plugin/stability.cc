@@ -12,6 +12,15 @@
 namespace warmjoint {
 namespace {
 
+/// Earlier engines have no such integrator.
+bool IsDiscrete([[maybe_unused]] int integrator) {
+#if mjVERSION_HEADER >= 3017000
+  return integrator == mjINT_DISCRETE;
+#else
+  return false;
+#endif
+}
+
 /// Eigenvalues up to this change no BristlesOf. Why: 3.6 of instances that share a tree + 0.3 = kCarried.
 constexpr double kMinor = 0.3;
 
@@ -106,7 +115,7 @@ std::vector<double> StiffestDrives(const mjModel* m, int integrator) {
     const double inertia = EffectiveInertia(m, dof);
     if (inertia > 0) sum += std::max(0.0, added[dof]) / inertia;
   }
-  if (sum <= kMinor || integrator == mjINT_DISCRETE || integrator == mjINT_RK4) return stiffest;
+  if (sum <= kMinor || IsDiscrete(integrator) || integrator == mjINT_RK4) return stiffest;
 
   // data of a model with plugins would ask for this instance again
   const std::unique_ptr<mjModel, void (*)(mjModel*)> bare(mj_copyModel(nullptr, m), mj_deleteModel);

@@ -177,7 +177,7 @@ Change WithFriction(const Friction& friction, FrictionForm form) {
   return [friction, form](mjSpec& spec, const std::vector<std::string>& joints) {
     std::vector<FrictionForJoint> frictions;
     for (const std::string& joint : joints) frictions.push_back({joint, friction});
-    AddFriction(spec, frictions, {"bench"}, form);
+    AddFriction(spec, frictions, {"bench"}, {.form = form});
   };
 }
 

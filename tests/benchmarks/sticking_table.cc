@@ -58,7 +58,7 @@ void AddOurs(mjSpec& spec, const std::vector<Holding>& joints) {
     friction.parameters = {{"coulomb", joint.level}};
     frictions.push_back({joint.joint, friction});
   }
-  AddFriction(spec, frictions, {"sticking_table"}, form);
+  AddFriction(spec, frictions, {"sticking_table"}, {.form = form});
 }
 
 void AddFrictionLoss(mjSpec& spec, const std::vector<Holding>& joints) {

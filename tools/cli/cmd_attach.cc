@@ -148,6 +148,13 @@ Command AddAttachCommand(CLI::App& program) {
       ->type_name("TEXT")
       ->capture_default_str();
 
+  // what else the model gets
+  parser->add_flag(
+      "--sensors", arguments->options.sensors,
+      "a sensor JOINT_friction for each joint: force, heat, rise of temperature, loss, held");
+  parser->add_flag("--numbers", arguments->options.numbers,
+                   "the frictions' numbers as arrays of the model, which may change at run time");
+
   // the rest of the model, and where it goes
   AddModelOptions(*parser, *arguments);
   parser->add_option("-o,--output", arguments->output, "the model with friction, MJCF")

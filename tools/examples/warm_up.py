@@ -3,7 +3,7 @@
 
     warm_up.py MODEL JOINT [MINUTES [SPEED]]
 
-MODEL: what `warmjoint attach ... -o MODEL` wrote, actuator form. SPEED: rad/s or m/s. Takes MuJoCo 4.0.0 and NumPy from
+MODEL: what `warmjoint attach ... -o MODEL` wrote, in either form. SPEED: rad/s or m/s. Takes MuJoCo and NumPy from
 Python where they are installed, else those in build/deps.
 """
 
@@ -26,16 +26,19 @@ def main():
     minutes = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     speed = float(sys.argv[4]) if len(sys.argv) > 4 else 0.5
 
-    if mujoco.__version__ != "4.0.0":
-        sys.exit(f"error: this Python has MuJoCo {mujoco.__version__}; the plugin loads into 4.0.0: pip install mujoco==4.0.0")
-
-    # the plugin is loaded once, before the model
-    mujoco.mj_loadPluginLibrary(str(ROOT / "build/libwarmjoint_friction.so"))
+    # the plugin of this MuJoCo is loaded once, before the model
+    plugins = ROOT / "build/plugins"
+    plugin = plugins / mujoco.__version__ / "libwarmjoint_friction.so"
+    if not plugin.exists():
+        built = " and ".join(sorted(folder.name for folder in plugins.iterdir()))
+        sys.exit(f"error: this Python has MuJoCo {mujoco.__version__}; {plugins} holds the plugin for {built}")
+    mujoco.mj_loadPluginLibrary(str(plugin))
     model = mujoco.MjModel.from_xml_path(sys.argv[1])
     data = mujoco.MjData(model)
     joint = model.joint(sys.argv[2])
     dof, at = joint.dofadr[0], joint.qposadr[0]
-    friction = data.actuator(sys.argv[2] + "_friction")
+    actuators = {model.actuator(i).name for i in range(model.nactuator)}
+    friction = sys.argv[2] + "_friction"
     pose = data.qpos.copy()
 
     def slide(seconds):
@@ -48,7 +51,9 @@ def main():
             data.qvel[dof] = speed if since < HOLD else -speed
             mujoco.mj_step(model, data)
             if HOLD / 2 < since < HOLD:
-                forces.append(-friction.force[0])
+                # in the passive form among the joint's passive forces
+                force = data.actuator(friction).force[0] if friction in actuators else data.qfrc_passive[dof]
+                forces.append(-force)
         return sum(forces) / len(forces)
 
     print("minutes of motion   friction forwards, N.m or N")

@@ -47,25 +47,38 @@ struct AttachOptions {
   std::optional<mjtIntegrator> integrator{};
   std::optional<double> timestep{};  // s
   PackageFolders packages{};         // of a URDF's meshes
+  /// A sensor "JOINT_friction" for each joint: force on it (N.m or N), heat E (N.m or N), rise of its
+  /// temperature (K), loss (W), 1 held or 0 sliding.
+  bool sensors = false;
+  /// An array "INSTANCE/NUMBER" of the model for each number of the frictions, which may change at run
+  /// time; an entry for each joint, 0 where its friction has no such number.
+  bool numbers = false;
 };
 
 /// What was attached.
 struct Attached {
-  std::vector<std::string> joints;   // that carry the friction now
+  std::vector<std::string> joints;   // that carry the friction now, in the order of its instance
   std::vector<std::string> notices;  // of reading and of what was changed, one sentence each
 };
 
-/// Reads an MJCF or URDF model and writes it to `out` as MJCF, with friction on the given joints:
+/// Puts friction on joints of a model:
 /// - `joint` of each friction is a name or a pattern (MatchJoints);
 /// - the joint's own damping and frictionloss, which the friction replaces, are removed;
 /// - as actuators: an effort limit of the joint, which would clip friction too, is moved
 ///   (MoveEffortLimits); in the passive form it stays;
-/// - everything else compiles to the same bits as before; meshes and textures are still found in
-///   the folder of the original.
-/// Throws BadInput for a model that does not load, a joint that is unknown (with the nearest name),
+/// - everything else compiles to the same bits as before.
+/// name: of the model, in messages; files: meshes and textures that lie in memory.
+/// Throws BadInput for a model that does not compile, a joint that is unknown (with the nearest name),
 /// that two frictions name, that is neither hinge nor slide or has friction already, joints too
-/// light for their friction (RefuseLightJoints), and what the plugin refuses; then `out` is not
-/// written.
+/// light for their friction (RefuseLightJoints), and what the plugin refuses; then the spec is half
+/// changed.
+Attached AttachFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                        const AttachOptions& options, const std::string& name,
+                        const mjVFS* files = nullptr);
+
+/// Reads an MJCF or URDF model and writes it to `out` as MJCF, with friction on the given joints, as
+/// above; meshes and textures are still found in the folder of the original. Where it throws, `out` is
+/// not written.
 Attached AttachFriction(const std::filesystem::path& model,
                         const std::vector<FrictionForJoint>& frictions,
                         const std::filesystem::path& out, const AttachOptions& options = {});

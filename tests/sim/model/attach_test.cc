@@ -174,6 +174,38 @@ TEST_F(Attach, LeavesActuatorsControlsAndLimitsAsTheyAreInThePassiveForm) {
   EXPECT_GT(data->qvel[1], 0.1);
 }
 
+TEST_F(Attach, WritesSensorsAndNumbersThatChangeNothing) {
+  for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
+    for (const std::string joints : {"elbow", ".*"}) {
+      To(two_joints_.path(), {joints}, {.form = form});
+      const LoadedModel plain = LoadModel(out_);
+      const Attached attached =
+          To(two_joints_.path(), {joints}, {.form = form, .sensors = true, .numbers = true});
+      const LoadedModel loaded = LoadModel(out_);
+      const mjModel *a = plain.model.get(), *b = loaded.model.get();
+      const size_t count = attached.joints.size();
+      const DataPtr c(mj_makeData(a)), d(mj_makeData(b));
+      for (int i = 0; i < 200; ++i) mj_step(a, c.get()), mj_step(b, d.get());
+      EXPECT_EQ(c->qpos[1], d->qpos[1]);
+
+      // a sensor for each joint, an entry for each in every array
+      for (const std::string& joint : attached.joints) {
+        const int sensor = mj_name2id(b, mjOBJ_SENSOR, (joint + "_friction").c_str());
+        ASSERT_GE(sensor, 0);
+        EXPECT_LT(d->sensordata[b->sensor_adr[sensor] + 1], 0);
+      }
+      for (const char* number :
+           {"coulomb", "thermal_gain", "thermal_time_constant", "initial_energy"}) {
+        const int array = mj_name2id(b, mjOBJ_NUMERIC, (std::string("friction/") + number).c_str());
+        ASSERT_GE(array, 0) << number;
+        EXPECT_EQ(b->numeric_size[array], static_cast<int>(count));
+      }
+      EXPECT_EQ(b->nnumeric, 4);
+      EXPECT_EQ(b->numeric_data[0], 0.5);
+    }
+  }
+}
+
 TEST_F(Attach, LetsTheRobotMoveInASceneUnderAPrefixAsAlone) {
   for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
     AttachOptions options;

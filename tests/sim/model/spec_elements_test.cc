@@ -58,6 +58,8 @@ TEST_F(MatchJointsOf, RefusesWhatMeansNoJoint) {
   test::ExpectNamed(refusal("slid"), {"robot.xml: ", "'slid'", "did you mean 'slide'"});
   test::ExpectNamed(refusal("ba.*"), {"robot.xml: ", "'ba.*'", "left.elbow"});
   test::ExpectNamed(refusal("left[.elbow"), {"robot.xml: ", "'left[.elbow'", "regular expression"});
+  test::ExpectNamed(refusal("*"), {"robot.xml: ", "write '.*', as '.*'"});
+  test::ExpectNamed(refusal("elbow_*"), {"robot.xml: ", "as 'elbow_.*'"});
 }
 
 }  // namespace

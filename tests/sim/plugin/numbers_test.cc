@@ -60,7 +60,7 @@ TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
     ExpectAlike(arrays, {0.5, 0.3, -0.05}, second, a, b);
     ExpectAlike(arrays, {0.7, 0.1, -0.02}, first, a, b);
 
-    // of the load, too, where a number out of its bounds leaves the one before
+    // of the load, too, where the attributes' number acts for one out of its bounds
     Friction friction = Law(0.3, 0.1, -0.02);
     friction.load_gain = 0.05;
     const Model load =
@@ -70,8 +70,19 @@ TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
     const Model text = MustCompile(ArmXml(friction, form, "implicitfast"));
     const Data c(mj_makeData(load.get())), d(mj_makeData(text.get()));
     ExpectAlike(load, {0.2}, text, c, d);
-    ExpectAlike(load, {-1}, text, c, d);
-    ExpectAlike(load, {std::nan("")}, text, c, d);
+    friction.load_gain = 0.05;
+    const Model given = MustCompile(ArmXml(friction, form, "implicitfast"));
+    const Warnings warnings;
+    for (const double out : {-1.0, std::nan(""), kInfinity}) {
+      mj_resetData(load.get(), c.get());
+      const Data e(mj_makeData(given.get()));
+      ExpectAlike(load, {out}, given, c, e);
+    }
+    // told once, by its name
+    EXPECT_EQ(Warnings::text().find("numeric 'arm/load_gain' of joint 'j0' is -1; it must be"),
+              std::string("warmjoint.friction: ").size());
+    EXPECT_EQ(Warnings::text().find("nan"), std::string::npos);
+    ExpectNamed(Warnings::text(), {"joint 'j2'", "of at least 0", "0.05 acts instead"});
   }
 }
 

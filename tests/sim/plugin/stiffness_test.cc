@@ -109,7 +109,8 @@ test::Model Finger(double stiffness, FrictionForm form) {
   Friction friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", 0.005 * stiffness}};
-  AddFriction(*spec, {{"a", friction}, {"b", friction}, {"c", friction}}, {"finger"}, form);
+  AddFriction(*spec, {{"a", friction}, {"b", friction}, {"c", friction}}, {"finger"},
+              {.form = form});
   return CompileModel(*spec, {"finger"});
 }
 
@@ -152,7 +153,7 @@ ModelPtr WithFriction(const test::Robot& robot, double step, mjtIntegrator integ
     friction.parameters = {{"coulomb", levels[frictions.size()]}};
     frictions.push_back({joint, friction});
   }
-  AddFriction(*spec, frictions, {robot.path}, form);
+  AddFriction(*spec, frictions, {robot.path}, {.form = form});
   return CompileModel(*spec, {robot.path});
 }
 

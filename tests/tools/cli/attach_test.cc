@@ -61,15 +61,18 @@ TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
 TEST(AttachCommand, TakesPatternsFormAndChangesOfTheModel) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out.xml";
-  const ProgramAnswer answer = RunWarmjoint(
-      {"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"), "--armature",
-       "joint_.*=0.125", "--timestep", "0.00025", "--integrator", "implicitfast", "-o", out});
+  const ProgramAnswer answer =
+      RunWarmjoint({"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"),
+                    "--armature", "joint_.*=0.125", "--timestep", "0.00025", "--integrator",
+                    "implicitfast", "--sensors", "--numbers", "-o", out});
   ASSERT_EQ(answer.status, 0) << answer.err;
   const LoadedModel loaded = LoadModel(out);
   const mjModel* m = loaded.model.get();
   EXPECT_EQ(m->opt.timestep, 0.00025);
   EXPECT_EQ(m->opt.integrator, mjINT_IMPLICITFAST);
   for (int i = 0; i < m->nv; ++i) EXPECT_EQ(m->dof_armature[i], 0.125);
+  EXPECT_EQ(m->nsensor, m->njnt);
+  EXPECT_GE(mj_name2id(m, mjOBJ_NUMERIC, "friction/coulomb_positive"), 0);
   EXPECT_THAT(answer.out, HasSubstr(fmt::format("on {} of its joints", m->njnt)));
 }
 

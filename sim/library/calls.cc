@@ -1,0 +1,203 @@
+// What Python calls in the shared library, by ctypes: text in, text out, both JSON.
+//
+// Each answer is an object; {"error": "..."} where the request is refused. It stays until the thread's next call.
+#include <mujoco/mujoco.h>
+#include <warmjoint/attach.h>
+#include <warmjoint/friction_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/node.h"
+#include "models/foundation/serialize.h"
+#include "models/friction/friction_json.h"
+#include "sim/model/spec_elements.h"
+#include "sim/plugin/bound_joints.h"
+#include "sim/plugin/friction_reports.h"
+#include "sim/plugin/plugin_instances.h"
+#include "sim/plugin/register.h"
+
+namespace warmjoint {
+namespace {
+
+/// Friction for the joints that a name or pattern means.
+struct JointRequest {
+  std::string joint;
+  Friction friction;
+  std::vector<double> initial_energy;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("joint", &joint, {.needed = "give a name or pattern"});
+    a->Field("friction", &friction, {.needed = "give a friction"});
+    a->Field("initial_energy", &initial_energy, {.unit = "N.m"});
+  }
+};
+
+struct AttachRequest {
+  std::string model;  // its name, in messages
+  std::vector<JointRequest> frictions;
+  AttachOptions options;
+  std::map<std::string, double> armatures;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("model", &model);
+    a->Field("frictions", &frictions, {.needed = "give a list"});
+    a->Field("form", &options.form);
+    a->Field("sensors", &options.sensors);
+    a->Field("numbers", &options.numbers);
+    a->Field("armatures", &armatures, {.unit = "kg.m^2"});
+    a->Field("timestep", &options.timestep, {.unit = "s"});
+  }
+};
+
+Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
+  auto request = ReadAs<AttachRequest>(ParseJsonNode(text, "attach"));
+  std::vector<FrictionForJoint> frictions;
+  for (const auto& [joint, friction, energy] : request.frictions) {
+    RefuseAmperes(friction, {joint});
+    frictions.push_back({joint, friction, energy});
+  }
+  for (const auto& [joints, armature] : request.armatures) {
+    request.options.armatures.push_back({joints, armature});
+  }
+  // a copy goes first, so that what is refused leaves the model as it was
+  const SpecPtr copy(mj_copySpec(&spec));
+  if (!copy) Refuse({request.model}, "MuJoCo cannot copy it");
+  AttachFriction(*copy, frictions, request.options, request.model, files);
+  const Attached attached = AttachFriction(spec, frictions, request.options, request.model, files);
+  // each joint with the place of its friction in the request
+  Tree joints = Tree::array();
+  for (const std::string& name : attached.joints) {
+    for (size_t i = 0; i < frictions.size(); ++i) {
+      const std::vector<std::string> meant = MatchJoints(spec, frictions[i].joint, {});
+      if (std::ranges::find(meant, name) == meant.end()) continue;
+      joints.push_back({{"name", name}, {"given", i}});
+    }
+  }
+  return {{"joints", joints}, {"notices", attached.notices}};
+}
+
+/// What is finite, else null.
+Tree FiniteOrNull(double value) { return std::isfinite(value) ? Tree(value) : Tree(); }
+
+/// The numbers of one joint that may change at run time, by their names: where each stands in numeric_data,
+/// and what it may be.
+Tree NumbersOf(const BoundJoints& bound, size_t joint, const std::string& instance) {
+  Tree numbers = Tree::object();
+  for (const NumberArray& array : bound.numbers()) {
+    if (!array.places[joint]) continue;
+    const Bounds bounds =
+        array.stage ? Bounds() : bound.joints()[joint].friction.NumberBounds(*array.places[joint]);
+    numbers[array.name.substr(instance.size() + 1)] = {
+        {"place", array.address + static_cast<int>(joint)},
+        {"least", FiniteOrNull(bounds.at_least)},
+        {"above", FiniteOrNull(bounds.above)},
+        {"most", FiniteOrNull(bounds.at_most)},
+        {"words", bounds.Words()}};
+  }
+  return numbers;
+}
+
+/// Where the five numbers of a joint begin in sensordata; null where no sensor reads it.
+Tree SensorOf(const mjModel* m, const BoundJoints& bound, size_t joint) {
+  for (const BoundSensor& sensor : bound.sensors()) {
+    const int address = m->sensor_adr[sensor.sensor];
+    if (!sensor.joint) return address + kSensed * static_cast<int>(joint);
+    if (*sensor.joint == joint) return address;
+  }
+  return nullptr;
+}
+
+/// The joints of each instance, and where their numbers stand in the model's data.
+Tree Describe(const mjModel* m) {
+  int plugin = -1;
+  mjp_getPlugin(kFrictionPlugin, &plugin);
+  Tree joints = Tree::array();
+  for (int instance = 0; instance < m->nplugin; ++instance) {
+    if (m->plugin[instance] != plugin) continue;
+    const BoundJoints bound(m, instance, kFrictionReports);
+    const std::string name = NameIn(m, mjOBJ_PLUGIN, instance);
+    const auto prepared = PrepareInstance(m, instance, {name});
+    const std::vector<ActingJoint> acting = FindJoints(m, instance, *prepared);
+    for (size_t i = 0; i < acting.size(); ++i) {
+      std::vector<std::string> states;
+      for (const StateMember& member : acting[i].prepared->friction.state()) {
+        states.emplace_back(member.name);
+      }
+      joints.push_back({{"name", NameIn(m, mjOBJ_JOINT, acting[i].joint)},
+                        {"instance", name},
+                        {"form", bound.passive() ? "passive" : "actuator"},
+                        {"linear", m->jnt_type[acting[i].joint] == mjJNT_SLIDE},
+                        {"state", bound.joints()[i].state},
+                        {"states", states},
+                        {"report", m->plugin_stateadr[instance]},
+                        {"sensor", SensorOf(m, bound, i)},
+                        {"numbers", NumbersOf(bound, i, name)},
+                        {"friction", FrictionToTree(acting[i].prepared->description)}});
+    }
+  }
+  return {{"joints", joints}};
+}
+
+Tree Settled(const char* text, double speed) {
+  const Friction friction = FrictionFromJson(text);
+  const auto energies = SettledEnergy(friction, speed);
+  if (!energies) {
+    Refuse(
+        {"friction"},
+        "never settles at {} rad/s or m/s: thermal_gain times the speed must stay below 1; give a "
+        "smaller speed",
+        speed);
+  }
+  return {{"energies", *energies}};
+}
+
+/// Keeps an answer, or what was refused, for the thread that asks.
+template <typename Call>
+const char* Answer(const Call& call) {
+  static thread_local std::string answer;
+  try {
+    answer = call().dump();
+  } catch (const std::exception& refusal) {
+    answer = Tree{{"error", refusal.what()}}.dump();
+  }
+  return answer.c_str();
+}
+
+}  // namespace
+}  // namespace warmjoint
+
+extern "C" {
+
+/// Puts friction on joints of a spec (AttachFriction); a spec that is refused stays as it was.
+/// files: meshes and textures in memory, or null. request: {model: name for messages, frictions: [{joint: name
+/// or pattern, friction: as in a friction file, initial_energy: [E1, E2]}], form, sensors, numbers, armatures:
+/// {joint: number}, timestep}. Answer: {joints: [{name, given: place in
+/// frictions}], notices: [sentence]}.
+[[gnu::visibility("default")]] const char* warmjoint_attach(mjSpec* spec, const mjVFS* files,
+                                                            const char* request) {
+  return warmjoint::Answer([&] { return warmjoint::Attach(*spec, files, request); });
+}
+
+/// The joints with friction of a model, in the order of instances and their joints. Answer: {joints: [{name,
+/// instance, form, linear, state: first place in act (actuator) or plugin_state (passive), states: [name], report:
+/// of the instance's entries in plugin_state, sensor: place in sensordata or null, numbers: {name: {place in
+/// numeric_data, least, above, most, words}}, friction}]}.
+[[gnu::visibility("default")]] const char* warmjoint_joints(const mjModel* model) {
+  return warmjoint::Answer([&] { return warmjoint::Describe(model); });
+}
+
+/// The heat that a friction settles at while it slides at a speed, rad/s or m/s (SettledEnergy). friction: as in a
+/// friction file. Answer: {energies: [E1, E2]}, empty where nothing warms.
+[[gnu::visibility("default")]] const char* warmjoint_settled(const char* friction, double speed) {
+  return warmjoint::Answer([&] { return warmjoint::Settled(friction, speed); });
+}
+}

@@ -1,0 +1,109 @@
+"""The MuJoCo plugin `warmjoint.friction` for the MuJoCo of this Python, loaded when this module is imported.
+
+Each version of MuJoCo has a library of its own: VERSION/libwarmjoint_friction.so in the package's folder `plugins`, in
+build/plugins of a source tree, or in the folder that WARMJOINT_PLUGINS names.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import pathlib
+from typing import Any
+
+import mujoco  # type: ignore[import-untyped, unused-ignore]
+
+VERSIONS = ("3.11.0", "3.17.0", "4.0.0")
+
+_HERE = pathlib.Path(__file__).resolve().parent
+_NAME = "libwarmjoint_friction.so"
+
+
+def library_path(version: str) -> pathlib.Path:
+    """The plugin's library for a version of MuJoCo, "4.0.0". Raises ImportError where there is none."""
+    if version not in VERSIONS:
+        raise ImportError(
+            f"warmjoint's friction works with MuJoCo {', '.join(VERSIONS[:-1])} and {VERSIONS[-1]}, and this Python has "
+            f"{version}: pip install mujoco=={VERSIONS[-1]}"
+        )
+    given = os.environ.get("WARMJOINT_PLUGINS")
+    folders = [pathlib.Path(given)] if given else [_HERE / "plugins", *(up / "build/plugins" for up in _HERE.parents[2:3])]
+    for folder in folders:
+        if (folder / version / _NAME).exists():
+            return folder / version / _NAME
+    raise ImportError(
+        f"there is no {_NAME} for MuJoCo {version} in {' or '.join(map(str, folders))}; in a source tree build it: "
+        f'tools/build -DWARMJOINT_PLUGIN_MUJOCOS="{version}"'
+    )
+
+
+def _load() -> ctypes.CDLL:
+    path = library_path(mujoco.__version__)
+    # MuJoCo loads it, which registers the plugin; then its functions are at hand
+    mujoco.mj_loadPluginLibrary(str(path))
+    library = ctypes.CDLL(str(path))
+    for function, takes in (
+        ("warmjoint_attach", [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p]),
+        ("warmjoint_joints", [ctypes.c_void_p]),
+        ("warmjoint_settled", [ctypes.c_char_p, ctypes.c_double]),
+    ):
+        getattr(library, function).argtypes = takes
+        getattr(library, function).restype = ctypes.c_char_p
+    return library
+
+
+_library = _load()
+
+
+def _call(function: str, *arguments: Any) -> Any:
+    answer = json.loads(getattr(_library, function)(*arguments))
+    if "error" in answer:
+        raise ValueError(answer["error"])
+    return answer
+
+
+class _Files:
+    """Meshes and textures in memory, as MuJoCo's compiler takes them: a mjVFS, which is one pointer."""
+
+    def __init__(self, assets: dict[str, bytes]):
+        self._assets = assets
+        self._vfs = ctypes.c_void_p()
+
+    def __enter__(self) -> ctypes.c_void_p | None:
+        if not self._assets:
+            return None
+        self.address = ctypes.c_void_p(ctypes.addressof(self._vfs))
+        _library.mj_defaultVFS(self.address)
+        for name, content in self._assets.items():
+            data = content.encode() if isinstance(content, str) else bytes(content)
+            _library.mj_addBufferVFS(self.address, name.encode(), data, len(data))
+        return self.address
+
+    def __exit__(self, *_: object) -> None:
+        if self._assets:
+            _library.mj_deleteVFS(self.address)
+
+
+def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
+    """Puts friction on joints of a spec; one that is refused stays as it was. request and answer: sim/library/calls.cc.
+
+    Raises ValueError with the text of the command line.
+    """
+    with _Files(dict(spec.assets)) as files:
+        return _call("warmjoint_attach", spec._address, files, json.dumps(request).encode())
+
+
+def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
+    """The joints with friction of a model, each with the places of its numbers (sim/library/calls.cc)."""
+    joints: list[dict[str, Any]] = _call("warmjoint_joints", model._address)["joints"]
+    return joints
+
+
+def settled_heat(friction: dict[str, Any], speed: float) -> list[float]:
+    """The heat E1 and, with a second stage, E2, N.m or N, that sliding at a speed, rad/s or m/s, settles at.
+
+    friction: as in a friction file. Empty where nothing warms. Raises ValueError where the losses grow for ever.
+    """
+    energies: list[float] = _call("warmjoint_settled", json.dumps(friction).encode(), float(speed))["energies"]
+    return energies
