@@ -2,7 +2,6 @@
 build/deps, in the other versions that the plugin is for."""
 
 import importlib
-import importlib.util
 import json
 import os
 import pathlib
@@ -15,12 +14,8 @@ import pytest
 mujoco = pytest.importorskip("mujoco")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-if importlib.util.find_spec("warmjoint") is None:
-    # no wheel is installed: the sources
-    sys.path.insert(0, str(ROOT / "tools/python"))
 
-from warmjoint import mujoco_attach, mujoco_plugin
-from warmjoint.mujoco_attach import attach
+from warmjoint import attach, mujoco_attach, mujoco_plugin  # noqa: E402
 
 ROBOT = """
 <mujoco model="arm">
@@ -277,7 +272,7 @@ def test_a_number_out_of_its_bounds_warns_once(tmp_path, monkeypatch):
 
 
 def test_refuses_another_mujoco():
-    with pytest.raises(ImportError, match="3.11.0, 3.17.0 and 4.0.0, and this Python has 3.5.0"):
+    with pytest.raises(ImportError, match=r"3\.11\.0, 3\.17\.0 and 4\.0\.0, and this Python has 3\.5\.0"):
         mujoco_plugin.library_path("3.5.0")
 
 

@@ -3,14 +3,9 @@
 # Defines the imported target mujoco::mujoco, MuJoCo_VERSION and MuJoCo_LIBRARY_DIR.
 set(MUJOCO_ROOT "${PROJECT_BINARY_DIR}/deps/mujoco" CACHE PATH "unpacked wheel or release archive of MuJoCo")
 
-# pip unpacks the wheel into a prefix of its own
-set(roots ${MUJOCO_ROOT} ${CMAKE_PREFIX_PATH})
-find_path(MuJoCo_INCLUDE_DIR mujoco/mujoco.h PATHS ${roots} PATH_SUFFIXES include mujoco/include NO_DEFAULT_PATH)
-set(MuJoCo_LIBRARY)
-foreach(root IN LISTS roots)
-  file(GLOB found ${root}/lib/libmujoco.so.* ${root}/lib/*/libmujoco.so.* ${root}/mujoco/libmujoco.so.* ${root}/libmujoco.so.*)
-  list(APPEND MuJoCo_LIBRARY ${found})
-endforeach()
+find_path(MuJoCo_INCLUDE_DIR mujoco/mujoco.h
+  PATHS ${MUJOCO_ROOT} PATH_SUFFIXES include mujoco/include NO_DEFAULT_PATH)
+file(GLOB MuJoCo_LIBRARY ${MUJOCO_ROOT}/lib/libmujoco.so.* ${MUJOCO_ROOT}/lib/*/libmujoco.so.* ${MUJOCO_ROOT}/mujoco/libmujoco.so.* ${MUJOCO_ROOT}/libmujoco.so.*)
 if(MuJoCo_LIBRARY)
   list(GET MuJoCo_LIBRARY 0 MuJoCo_LIBRARY)
   get_filename_component(MuJoCo_LIBRARY_DIR ${MuJoCo_LIBRARY} DIRECTORY)

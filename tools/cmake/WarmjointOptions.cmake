@@ -5,12 +5,16 @@ option(WARMJOINT_INSTALL "install program, plugin, libraries and the CMake packa
 option(WARMJOINT_TESTS "build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(WARMJOINT_PYTHON "build the Python package's modules; needs nanobind and Python's headers" OFF)
 
-# pip builds with what is there: say at once what lacks
+# pip builds with what is there: say at once what lacks. The package holds a plugin for each version of MuJoCo
 if(SKBUILD)
-  execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/setup/packages --no-install --without-tests RESULT_VARIABLE lacking ERROR_VARIABLE words)
-  if(lacking)
-    message(FATAL_ERROR "${words}")
-  endif()
+  set(WARMJOINT_PLUGIN_MUJOCOS 3.11.0 3.17.0)
+  set(setup ${PROJECT_SOURCE_DIR}/tools/setup)
+  foreach(command "packages;--no-install;--without-tests" "fetch;${PROJECT_BINARY_DIR}/deps;${WARMJOINT_PLUGIN_MUJOCOS}")
+    execute_process(COMMAND ${setup}/${command} RESULT_VARIABLE failed ERROR_VARIABLE words)
+    if(failed)
+      message(FATAL_ERROR "${words}")
+    endif()
+  endforeach()
 endif()
 
 # on with the compiler that the tests are run with; a newer one may warn of what this one does not

@@ -5,10 +5,13 @@
     log = wj.read("log.csv")                  # or wj.Log(time=t, position=q, torque=tau)
     estimate = wj.identify(log)
     print(estimate["coulomb"].value, estimate["coulomb"].ci95)
+    robot = wj.attach("robot.xml", {"elbow": estimate})       # needs MuJoCo
 
 Angles are in rad, lengths in m, torques in N.m, forces in N, times in s. What cannot be used raises BadInput with the
 program's own sentence; a fit that fails is an Estimate whose `status` and `message` say so.
 """
+
+from typing import TYPE_CHECKING, Any
 
 from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
@@ -17,6 +20,19 @@ from warmjoint.estimate import Estimate, Parameter, Prediction, Rejected, identi
 from warmjoint.friction import Friction, laws
 from warmjoint.log import Check, Log, check, read
 
+if TYPE_CHECKING:
+    from warmjoint.mujoco_attach import attach
+
+
+def __getattr__(name: str) -> Any:
+    """`attach`, which needs MuJoCo, where it is asked for."""
+    if name == "attach":
+        from warmjoint.mujoco_attach import attach
+
+        return attach
+    raise AttributeError(f"module 'warmjoint' has no attribute '{name}'")
+
+
 __all__ = ["BadInput", "Check", "Estimate", "Friction", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected", "Run",
-           "Simulated", "__version__", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
+           "Simulated", "__version__", "attach", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
            "simulate"]

@@ -19,11 +19,12 @@ import pathlib
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, Protocol
 
-import mujoco  # type: ignore[import-untyped, unused-ignore]
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from . import mujoco_plugin
+from warmjoint import mujoco_plugin
+from warmjoint._core import BadInput
 
 Floats = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ def _read(joints: str, given: FrictionLike) -> _Given:
     friction = tree.get("friction", tree)
     status = tree.get("status", "ok")
     if friction is None:
-        raise ValueError(f"{name}: is {status} and holds no friction; identify again with force to use it anyway")
+        raise BadInput(f"{name}: is {status} and holds no friction; identify again with force to use it anyway")
     notice = "" if status == "ok" else f"{name} is {status}: its friction is void, and so is that of the model"
 
     # the heat that the log left, each a number or an object with its value
@@ -140,7 +141,7 @@ def attach(
     sensors: a sensor JOINT_friction for each joint, which torque, loss and held need.
     randomisable: the numbers as arrays of the model, which randomise needs.
     armatures: kg.m^2 or kg by joint or pattern, in place of the model's; timestep: s, in place of the model's.
-    Raises ValueError, and leaves the spec as it was, for a joint that is unknown, given twice, no hinge or slide, or too
+    Raises BadInput, and leaves the spec as it was, for a joint that is unknown, given twice, no hinge or slide, or too
     light for its friction.
     """
     given = [_read(joints, friction) for joints, friction in frictions.items()]
@@ -194,10 +195,10 @@ class BoundFriction:
         self.data = data
         described = {joint["name"]: joint for joint in mujoco_plugin.joints_of(model)}
         if not described:
-            raise ValueError("no joint of the model has friction of warmjoint; attach it")
+            raise BadInput("no joint of the model has friction of warmjoint; attach it")
         lacking = [joint for joint in joints or [] if joint not in described]
         if lacking:
-            raise ValueError(f"joint '{lacking[0]}' has no friction in this model; bind a model that was compiled from the spec")
+            raise BadInput(f"joint '{lacking[0]}' has no friction in this model; bind a model that was compiled from the spec")
         self._joints = list(described.values()) if joints is None else [described[joint] for joint in joints]
         self._ends = ends
         self.joints = [joint["name"] for joint in self._joints]
@@ -208,7 +209,7 @@ class BoundFriction:
     def _sensed(self, which: str) -> Floats:
         if (self._sensors < 0).any():
             joint = self.joints[int(np.argmin(self._sensors))]
-            raise ValueError(f"no sensor reads the friction of '{joint}'; attach with sensors")
+            raise BadInput(f"no sensor reads the friction of '{joint}'; attach with sensors")
         sensed: Floats = self.data.sensordata[self._sensors + _SENSED.index(which)]
         return sensed
 
@@ -270,12 +271,12 @@ class BoundFriction:
         """
         if isinstance(warm, str):
             if warm != "end":
-                raise ValueError(f"warm is '{warm}'; it must be a number of 0 or more, or 'end'")
+                raise BadInput(f"warm is '{warm}'; it must be a number of 0 or more, or 'end'")
             heats = [self._end(joint) for joint in self.joints]
         else:
             share = self._by_joint(warm, "warm")
             if not np.isfinite(share).all() or (share < 0).any():
-                raise ValueError(f"warm is {warm}; it must be 0 or more, or 'end'")
+                raise BadInput(f"warm is {warm}; it must be 0 or more, or 'end'")
             heats = [[one * energy for energy in heat] for one, heat in zip(share, self._settled(speed))]
         for joint, heat in zip(self._joints, heats):
             states = self._states(self.data, joint)
@@ -300,7 +301,7 @@ class BoundFriction:
         warm: the least and the largest share of the heat at which the world's own friction settles at `speed` (reset);
             the worlds have it now and after each of their resets.
         Returns what was drawn, [worlds x joints] each: factors by their names and the shares, "warm".
-        Raises ValueError that names number, joint, world and bound, and changes nothing, where a number would be out of
+        Raises BadInput that names number, joint, world and bound, and changes nothing, where a number would be out of
         its bounds.
         """
         random = np.random.default_rng(rng)
@@ -327,8 +328,8 @@ class BoundFriction:
             return places
         known = sorted({number for joint in self._joints for number in joint["numbers"]})
         if not known:
-            raise ValueError("the model holds no arrays of friction's numbers; attach with randomisable")
-        raise ValueError(f"no joint's friction has a number '{name}'{_nearest(name, known)}; there are {', '.join(known)}")
+            raise BadInput("the model holds no arrays of friction's numbers; attach with randomisable")
+        raise BadInput(f"no joint's friction has a number '{name}'{_nearest(name, known)}; there are {', '.join(known)}")
 
     def _check(self, name: str, i: int, values: Floats) -> None:
         allowed = self._joints[i]["numbers"][name]
@@ -337,7 +338,7 @@ class BoundFriction:
         wrong |= values <= (-np.inf if allowed["above"] is None else allowed["above"])
         wrong |= values > (np.inf if allowed["most"] is None else allowed["most"])
         for world in np.flatnonzero(wrong):
-            raise ValueError(f"{name} of '{self.joints[i]}' would be {values[world]:g} in world {world}; it must be {allowed['words']}")
+            raise BadInput(f"{name} of '{self.joints[i]}' would be {values[world]:g} in world {world}; it must be {allowed['words']}")
 
     def _check_static(self, new: Floats) -> None:
         """A joint at rest holds at least what it slides with."""
@@ -346,7 +347,7 @@ class BoundFriction:
                 continue
             static, coulomb = (new[:, joint["numbers"][name]["place"]] for name in ("static", "coulomb"))
             for world in np.flatnonzero(static < coulomb):
-                raise ValueError(
+                raise BadInput(
                     f"static of '{self.joints[i]}' would be {static[world]:g} in world {world}; it must be at least coulomb, "
                     f"{coulomb[world]:g}"
                 )
@@ -377,7 +378,7 @@ class BoundFriction:
     def _by_joint(self, given: float | Sequence[float] | Floats, what: str) -> Floats:
         values = np.asarray(given, dtype=np.float64)
         if values.shape not in ((), (len(self.joints),)):
-            raise ValueError(f"{what} has shape {values.shape}; give one number, or {len(self.joints)}, one for each joint")
+            raise BadInput(f"{what} has shape {values.shape}; give one number, or {len(self.joints)}, one for each joint")
         return np.broadcast_to(values, (len(self.joints),))
 
     def _speeds(self, speed: float | Sequence[float] | Floats | None) -> Floats:
@@ -391,13 +392,13 @@ class BoundFriction:
             try:
                 heats.append(mujoco_plugin.settled_heat(_with_numbers(joint, self.model.numeric_data), own))
             except ValueError as refusal:
-                raise ValueError(f"joint '{joint['name']}': {refusal}") from None
+                raise BadInput(f"joint '{joint['name']}': {refusal}") from None
         return heats
 
     def _end(self, joint: str) -> list[float]:
         end = self._ends.get(joint)
         if end is None:
-            raise ValueError(f"the friction of '{joint}' is no estimate with a state_end; give reset a share of warm")
+            raise BadInput(f"the friction of '{joint}' is no estimate with a state_end; give reset a share of warm")
         return end
 
 

@@ -12,7 +12,9 @@ import os
 import pathlib
 from typing import Any
 
-import mujoco  # type: ignore[import-untyped, unused-ignore]
+import mujoco
+
+from warmjoint._core import BadInput
 
 VERSIONS = ("3.11.0", "3.17.0", "4.0.0")
 
@@ -59,7 +61,7 @@ _library = _load()
 def _call(function: str, *arguments: Any) -> Any:
     answer = json.loads(getattr(_library, function)(*arguments))
     if "error" in answer:
-        raise ValueError(answer["error"])
+        raise BadInput(answer["error"])
     return answer
 
 
@@ -88,7 +90,7 @@ class _Files:
 def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
     """Puts friction on joints of a spec; one that is refused stays as it was. request and answer: sim/library/calls.cc.
 
-    Raises ValueError with the text of the command line.
+    Raises BadInput with the text of the command line.
     """
     with _Files(dict(spec.assets)) as files:
         return _call("warmjoint_attach", spec._address, files, json.dumps(request).encode())
@@ -103,7 +105,7 @@ def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
 def settled_heat(friction: dict[str, Any], speed: float) -> list[float]:
     """The heat E1 and, with a second stage, E2, N.m or N, that sliding at a speed, rad/s or m/s, settles at.
 
-    friction: as in a friction file. Empty where nothing warms. Raises ValueError where the losses grow for ever.
+    friction: as in a friction file. Empty where nothing warms. Raises BadInput where the losses grow for ever.
     """
     energies: list[float] = _call("warmjoint_settled", json.dumps(friction).encode(), float(speed))["energies"]
     return energies
