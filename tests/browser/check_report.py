@@ -23,7 +23,7 @@ import sys
 import tempfile
 
 from barriers import check_barriers
-from page_checks import SIZES, arguments_of, check_silence, in_browser
+from page_checks import CUT, SIZES, arguments_of, check_silence, in_browser
 
 TABLES = """[...document.querySelectorAll('table')].filter(table => !table.closest('#list')).map(table => ({
   caption: table.caption ? table.caption.innerText : '',
@@ -138,6 +138,8 @@ def look(browser, checks, name, size, scheme, folder):
     browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
     wide = browser.value(WIDE)
     checks.expect(not wide, f"{name}: wider than the screen: {wide[:5]}")
+    cut = browser.value(CUT) if name == "desktop" else []
+    checks.expect(not cut, f"{name}: cut at the right edge: {cut}")
     nameless = browser.value(NAMELESS)
     checks.expect(not nameless, f"{name}: rows lose their names where {nameless} scroll")
     small = browser.value(SMALL)
