@@ -68,8 +68,8 @@ Passed PassedCells(const FitView& view, const Across& across, double fastest) {
     if (std::abs(here - before) > kColumns / 2) before = here;
     // columns that were crossed between two samples count too
     const Eigen::Index left = std::min(here, before), columns = std::abs(here - before) + 1;
-    const auto [low, high] = std::minmax(row_of((1 - kSpare) * v), row_of((1 + kSpare) * v));
-    passed.block(low, left, high - low + 1, columns) = true;
+    const Eigen::Index near = row_of((1 - kSpare) * v), far = row_of((1 + kSpare) * v);
+    passed.block(std::min(near, far), left, std::abs(far - near) + 1, columns) = true;
   }
   return passed;
 }

@@ -17,6 +17,7 @@
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/mapped_recording.h"
 #include "tests/tools/figures/warm_recording.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {
@@ -51,7 +52,9 @@ TEST(EstimateFigures, AreTidyAndNamedAsTheirFiles) {
   for (const EstimateFigure& one : EstimateFigures()) {
     SCOPED_TRACE(one.name);
     const std::optional<Figure> figure = one.make(view);
-    ASSERT_TRUE(figure.has_value());
+    // the envelope of a ripple would guess a wrong warming
+    ASSERT_EQ(figure.has_value(), one.name != "envelope");
+    if (!figure) continue;
     EXPECT_EQ(figure->name, one.name);
     EXPECT_FALSE(one.summary.empty());
     EXPECT_TRUE(names.insert(one.name).second) << "taken";

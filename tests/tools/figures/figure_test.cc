@@ -33,11 +33,11 @@ Tree ShapeOf(const Figure& figure) {
 TEST(FigureJson, SaysOfEachThingWhichKindItIs) {
   const Figure figure =
       FigureOf(Line{Eigen::Vector2d(0, 1), Eigen::Vector2d(2, std::nan("")), 3}, 0, 1);
-  EXPECT_EQ(ShapeOf(figure), (Tree{{"kind", "line"},
-                                   {"x", {0.0, 1.0}},
+  EXPECT_EQ(ShapeOf(figure), (Tree{{"x", {0.0, 1.0}},
                                    {"y", {2.0, nullptr}},
                                    {"width", 3.0},
-                                   {"dash", "solid"}}));
+                                   {"dash", "solid"},
+                                   {"kind", "line"}}));
   const Tree panel = FigureJson(figure)["panels"][0];
   EXPECT_EQ(panel["content"]["kind"], "plot");
   EXPECT_EQ(panel["content"]["x"]["scale"], "linear");

@@ -10,6 +10,7 @@
 #include "tools/figures/log_figure.h"
 #include "tools/figures/predicted.h"
 #include "tools/figures/run/error_by_iteration.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

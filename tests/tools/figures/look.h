@@ -11,7 +11,7 @@
 
 namespace warmjoint::figures {
 
-/// A series with the range of its finite values.
+/// A series with the range of its points that are known.
 struct ShownSeries {
   std::string label;
   Hue hue = Hue::blue;
@@ -65,9 +65,10 @@ struct Taking {
     for (Eigen::Index i = 0; i < x.size(); ++i) Point(x[i], y[i]);
   }
   void Point(double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
     ++shown.points;
-    if (std::isfinite(x)) shown.x = {std::min(shown.x.first, x), std::max(shown.x.second, x)};
-    if (std::isfinite(y)) shown.y = {std::min(shown.y.first, y), std::max(shown.y.second, y)};
+    shown.x = {std::min(shown.x.first, x), std::max(shown.x.second, x)};
+    shown.y = {std::min(shown.y.first, y), std::max(shown.y.second, y)};
   }
 };
 

@@ -48,7 +48,7 @@ def _look(**look):
     return look
 
 
-# scale: points of the page for each of the figure, whose words have 11 to 16; width: mm; dpi: pixels an inch
+# scale: points of the page for each of the figure, whose words have 9.4 to 13.7; width: mm; dpi: pixels an inch
 _LIGHT = dict(scale=1.0, width=0.0, dpi=144, background="#ffffff", text="#1c2026", faint="#545b66", axis="#6e7580",
               grid="#e2e5ea", minor_grid="#f1f3f5", rc={},
               hues="#1c2026 #80868f #0072b2 #d55e00 #008c66 #aa4d8c #d68f00 #43a5de #965c00")
@@ -251,7 +251,7 @@ def _draw_table(sheet, content, area):
         for i, (text, width) in enumerate(zip(row, widths)):
             sheet.write(text, x + (shrink * width if i else 0), y, shrink * layout.TICK, row is rows[0], side="right" if i else "left")
             x += shrink * width + gap
-        y += 1.65 * layout.TICK
+        y += layout.ROW_STEP
         sheet.rule(area[0], x - gap, y - 2.5, sheet.look["axis" if row is rows[0] else "grid"])
 
 

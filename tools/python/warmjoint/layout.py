@@ -13,12 +13,13 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import text_to_path
 from matplotlib.ticker import FixedLocator, Formatter, LogLocator, MaxNLocator
 
-TITLE, TEXT, TICK = 16, 12, 11  # sizes of words, points of the figure as all that follows
+ROW_STEP = 18  # of tables
 ROW = 24  # of the numbers of an upright axis
 PAD, MARGIN, GAP, MARK, KEY, BAR = 6, 16, 20, 4, 20, 12
 NARROWEST = 230  # of a plot whose numbers can be read
 LEAST = (40, 30)  # between the axes
 LINE, ASCENT = 2384 / 2048, 1901 / 2048  # of DejaVu Sans, in ems
+TITLE, TEXT, TICK = 16 / LINE, 12 / LINE, 11 / LINE  # sizes of words whose lines are 16, 12 and 11 high
 
 
 class TooSmall(ValueError):
@@ -206,7 +207,7 @@ def margins_of(plot, width, height):
 def natural_height(content, width):
     if content["kind"] == "words":
         return sum(height_of(p["text"], TEXT, p["bold"], width) + PAD for p in content["paragraphs"])
-    return 1.65 * TICK * len(content["rows"]) if content["kind"] == "table" else 0
+    return ROW_STEP * len(content["rows"]) if content["kind"] == "table" else 0
 
 
 def tracks(lengths, begin):

@@ -7,6 +7,7 @@
 #include "tests/tools/figures/run/run_example.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/figures/run/run_view.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {
