@@ -16,7 +16,7 @@ import tempfile
 import time
 
 from barriers import check_barriers
-from page_checks import SIZES, arguments_of, check_silence, in_browser
+from page_checks import CUT, SIZES, arguments_of, check_silence, in_browser
 
 SECTIONS = ("verdict", "next", "parameters", "recording", "pictures", "tests", "assumptions", "mujoco", "terms", "repeat")
 DRAWN = """[...document.querySelectorAll('.chart')].length === 3 && [...document.querySelectorAll('.chart')].every(chart =>
@@ -66,6 +66,8 @@ def look(browser, checks, url, size, media, shots):
         print(f"{size}, {media}: charts drawn after {took:.2f} s")
         checks.expect(took < 3, f"{size}: the charts are drawn after {took:.1f} s")
     checks.expect(browser.value(WIDE) == [], f"{size}: wider than the screen: {browser.value(WIDE)[:3]}")
+    cut = browser.value(CUT) if size == "desktop" and media != "print" else []
+    checks.expect(not cut, f"{size}: cut at the right edge: {cut}")
     alts = browser.value("[...document.images].map(image => image.naturalWidth > 0 ? image.alt : '')")
     checks.expect(alts and all(len(alt) > 30 for alt in alts), f"{size}: pictures without words: {alts}")
     if shots:

@@ -23,7 +23,7 @@ import sys
 import tempfile
 
 from barriers import check_barriers
-from page_checks import SIZES, arguments_of, check_silence, in_browser
+from page_checks import CUT, SIZES, arguments_of, check_silence, in_browser
 
 TABLES = """[...document.querySelectorAll('table')].filter(table => !table.closest('#list')).map(table => ({
   caption: table.caption ? table.caption.innerText : '',
@@ -88,7 +88,7 @@ def check_numbers(browser, checks, board):
             row = rows.get(cells[name_column]) if name_column is not None else None
             for head, cell in zip(table["head"], cells):
                 key = next((key for key in columns if row and (head == key or head.startswith(key + " "))), None)
-                if key is None or key == "NPE median" and "NPE median" != head:
+                if key is None or (key == "NPE median" and head != "NPE median"):
                     continue
                 expected, shown = columns[key](row), shown_number(cell)
                 if expected is None or not math.isfinite(expected):
@@ -138,6 +138,8 @@ def look(browser, checks, name, size, scheme, folder):
     browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
     wide = browser.value(WIDE)
     checks.expect(not wide, f"{name}: wider than the screen: {wide[:5]}")
+    cut = browser.value(CUT) if name == "desktop" else []
+    checks.expect(not cut, f"{name}: cut at the right edge: {cut}")
     nameless = browser.value(NAMELESS)
     checks.expect(not nameless, f"{name}: rows lose their names where {nameless} scroll")
     small = browser.value(SMALL)

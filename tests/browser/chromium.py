@@ -1,5 +1,6 @@
 """A headless Chromium, driven over its DevTools pipe; needs nothing but Python and the browser."""
 
+import contextlib
 import json
 import os
 import shutil
@@ -86,9 +87,7 @@ class Browser:
         return answer["result"].get("value")
 
     def close(self):
-        try:
+        with contextlib.suppress(RuntimeError, OSError):
             self.call("Browser.close")
-        except (RuntimeError, OSError):
-            pass
         self._process.wait(timeout=20)
         shutil.rmtree(self._home, ignore_errors=True)

@@ -8,6 +8,9 @@ import sys
 from chromium import Browser, find_browser
 
 SIZES = {"phone": (390, 844), "desktop": (1280, 900)}
+# tables and commands that are cut at the right edge, but for the list of realizations, which scrolls
+CUT = """[...document.querySelectorAll('.scroll, pre')].filter(box => !box.closest('#list, details') && box.scrollWidth > box.clientWidth + 1)
+  .map(box => box.textContent.trim().slice(0, 40))"""
 
 
 class Checks:

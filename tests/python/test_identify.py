@@ -141,6 +141,25 @@ def test_a_friction_file_reads_back(tmp_path):
     assert friction.changed("coulomb", 0.5).parameters["coulomb"] == 3.5
 
 
+def test_figures_are_drawn_and_the_page_is_written(columns, tmp_path):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    estimate = wj.identify(wj.Log(**columns), "energy-ml")
+    drawn = estimate.plot()
+    assert len(drawn.axes) > 2
+    drawn.savefig(tmp_path / "fit.png")
+    _, ax = pyplot.subplots()
+    assert estimate.plot(ax=ax) is ax.figure and ax.get_xlabel().startswith("velocity")
+    with pytest.raises(wj.BadInput, match="friction_curve"):
+        estimate.plot("fitt")
+    # without its log an estimate has fewer
+    estimate.save(tmp_path / "estimate.json")
+    assert "log" in estimate.figures() and "log" not in wj.load(tmp_path / "estimate.json").figures()
+    pytest.importorskip("jinja2")
+    estimate.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    assert "coulomb" in page and "data:image/png;base64" in page and "http://" not in page.split("<style")[0]
+
+
 def test_lists_are_those_of_the_program(program):
     assert list(wj.identifiers()) == program("list", "identifiers", "--format", "names").split()
     laws = [name for name in program("list", "laws", "--format", "names").split() if name in wj.laws()]

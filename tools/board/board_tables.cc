@@ -44,12 +44,12 @@ std::string BehindCell(const LeaderboardRow& row) {
                      Percent(row.behind->lower, ""), Percent(row.behind->upper, ""));
 }
 
-/// A row's cell in a group: median NPE, and how many failed.
+/// A row's cell in a group: rms NPE, which the bound is one of, and how many failed.
 std::string GroupCell(const Leaderboard& group, const std::string& identifier) {
   for (const LeaderboardRow& row : group.rows) {
     if (row.identifier != identifier) continue;
-    const std::string median = PercentText(row.npe_continuous.median);
-    return row.failed() == 0 ? median : fmt::format("{} ({} failed)", median, row.failed());
+    const std::string error = PercentText(row.npe_continuous.rms);
+    return row.failed() == 0 ? error : fmt::format("{} ({} failed)", error, row.failed());
   }
   return kUnknown;
 }
@@ -99,15 +99,30 @@ Table GroupTable(const Leaderboard& board) {
 }
 
 Table AgreementTable(const Leaderboard& board) {
-  Table table{{"identifier", fmt::format("RMSE {}", kTorqueUnit.For(board.joint)),
-               fmt::format("MAE {}", kTorqueUnit.For(board.joint)), "Fit %",
-               fmt::format("FPE ({})^2", kTorqueUnit.For(board.joint)), "time"},
+  const std::string_view unit = kTorqueUnit.For(board.joint);
+  Table table{{"identifier", fmt::format("RMSE {}", unit), fmt::format("MAE {}", unit), "Fit %",
+               fmt::format("FPE ({})^2", unit), "time"},
               {}};
   // medians over the runs
-  for (const LeaderboardRow& row : board.rows) {
-    table.rows.push_back({row.identifier, NumberText(row.rmse.median), NumberText(row.mae.median),
-                          NumberText(row.fit.median), NumberText(row.fpe.median),
-                          Seconds(row.seconds.median)});
+  const auto add = [&](const Leaderboard& part) {
+    for (const LeaderboardRow& row : part.rows) {
+      table.rows.push_back({row.identifier, NumberText(row.rmse.median), NumberText(row.mae.median),
+                            NumberText(row.fit.median), NumberText(row.fpe.median),
+                            Seconds(row.seconds.median)});
+    }
+  };
+  if (board.groups.size() < 2) {
+    add(board);
+    return table;
+  }
+  // of each variant by itself: medians over different noise say nothing
+  table.header.insert(table.header.begin(), board.variable.empty() ? "variant" : board.variable);
+  for (const Leaderboard& group : board.groups) {
+    const std::size_t first = table.rows.size();
+    add(group);
+    for (std::size_t i = first; i < table.rows.size(); ++i) {
+      table.rows[i].insert(table.rows[i].begin(), i == first ? group.variant : "");
+    }
   }
   return table;
 }

@@ -60,11 +60,11 @@ std::string BoardToText(const Leaderboard& board) {
   // variants beside each other, where there are some
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
-    text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1));
+    text += fmt::format("Rms NPE by group, beside the bound:\n{}\n", TableToText(groups, 1));
   }
 
   // how well torques agree, how well each parameter is known, and what remains to be said
-  text += TableToText(AgreementTable(board), 1) + "\n";
+  text += TableToText(AgreementTable(board), board.groups.size() < 2 ? 1 : 2) + "\n";
   const Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) text += TableToText(parameters, 2) + "\n";
   for (const std::string& note : Notes(board)) text += fmt::format("* {}\n", note);
@@ -79,11 +79,11 @@ std::string BoardToMarkdown(const Leaderboard& board) {
   // variants beside each other, where there are some
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
-    text += fmt::format("Median NPE by group:\n\n{}\n", TableToMarkdown(groups, 1));
+    text += fmt::format("Rms NPE by group, beside the bound:\n\n{}\n", TableToMarkdown(groups, 1));
   }
 
   // how well torques agree, how well each parameter is known, and what remains to be said
-  text += TableToMarkdown(AgreementTable(board), 1) + "\n";
+  text += TableToMarkdown(AgreementTable(board), board.groups.size() < 2 ? 1 : 2) + "\n";
   const Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) text += TableToMarkdown(parameters, 2) + "\n";
   for (const std::string& note : Notes(board)) text += fmt::format("- {}\n", note);

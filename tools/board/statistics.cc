@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
-#include <limits>
+
+#include "models/foundation/quantile.h"
 
 namespace warmjoint {
 namespace {
@@ -31,18 +32,6 @@ std::size_t BootstrapRank(std::size_t n, double level) {
 }
 
 }  // namespace
-
-double Quantile(const std::vector<double>& sorted, double share) {
-  // between two neighbours in proportion; no difference of infinities is taken
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double position = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const double beyond = position - static_cast<double>(below);
-  const double lower = sorted[below];
-  if (beyond == 0) return lower;
-  const double upper = sorted[below + 1];
-  return lower == upper ? lower : lower + beyond * (upper - lower);  // may be infinite
-}
 
 double RootMeanSquareOf(const std::vector<double>& values) {
   double sum = 0;

@@ -7,10 +7,6 @@
 
 namespace warmjoint {
 
-/// The quantile of `sorted` (ascending) at `share` in [0, 1], linear between neighbours; NaN where
-/// it is empty.
-double Quantile(const std::vector<double>& sorted, double share);
-
 /// Root of the mean square of `values`; NaN among them are left out.
 double RootMeanSquareOf(const std::vector<double>& values);
 

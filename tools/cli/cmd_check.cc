@@ -11,11 +11,11 @@
 #include "identification/preparation/check.h"
 #include "models/foundation/atomic_file.h"
 #include "tools/actions/outputs.h"
+#include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/report/draw/draw_figure.h"
-#include "tools/report/figures/log_figure.h"
+#include "tools/figures/log_figure.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"
@@ -39,11 +39,6 @@ void AppendSegments(const PreparedLog& log, int number, std::string& csv) {
     csv += fmt::format("{},{},{},{},{}\n", number, m.time[segment.begin], m.time[segment.end - 1],
                        segment.velocity, kept);
   }
-}
-
-void Draw(const PreparedLog& log, const std::string& file, const report::PageSetting& setting) {
-  const report::Figure figure = report::MakeLogFigure(report::MakeFitView(log, {}));
-  WriteWholeFile(file, report::EncodeFigure(figure, setting).bytes);
 }
 
 /// One recording, or why it could not be read.
@@ -132,10 +127,11 @@ nlohmann::json Json(const std::vector<CheckedFile>& files) {
 ExitStatus Check(const CheckArguments& arguments) {
   // outputs are refused before any time is spent
   const std::vector<std::filesystem::path> outputs{arguments.segments, arguments.plot};
-  report::PageSetting setting;
+  std::optional<Backend> backend;
   if (!arguments.plot.empty()) {
-    setting.format = report::FormatOf(arguments.plot);
+    FormatOf(arguments.plot);
     AtomicFile{arguments.plot};
+    backend.emplace();
   }
   if (!arguments.segments.empty()) AtomicFile{arguments.segments};
   KeepApart(outputs, {arguments.recording.files.begin(), arguments.recording.files.end()});
@@ -154,7 +150,10 @@ ExitStatus Check(const CheckArguments& arguments) {
     if (!log) continue;
     // numbers and picture of what could be read
     AppendSegments(*log, static_cast<int>(files.size()), segments);
-    if (files.size() == 1 && !arguments.plot.empty()) Draw(*log, arguments.plot, setting);
+    if (files.size() == 1 && backend) {
+      WritePicture(*backend, figures::MakeLogFigure(figures::MakeFitView(*log, {})),
+                   arguments.plot);
+    }
   }
   if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);
 

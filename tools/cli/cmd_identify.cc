@@ -12,13 +12,13 @@
 #include "sim/model/friction_sections.h"
 #include "tools/actions/identify_by_command.h"
 #include "tools/actions/outputs.h"
+#include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
+#include "tools/figures/fit_page.h"
 #include "tools/identify/identify_recording.h"
-#include "tools/report/draw/page_setting.h"
-#include "tools/report/figures/fit_page.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
@@ -92,8 +92,9 @@ std::vector<std::filesystem::path> OutputsOf(const IdentifyArguments& arguments)
   return {arguments.output, arguments.mjcf, arguments.plot};
 }
 
-/// Refuses outputs that are inputs too, or cannot be written, before any time is spent.
-void CheckOutputs(const IdentifyArguments& arguments) {
+/// Refuses outputs that are inputs too, or cannot be written, before any time is spent; returns what draws the picture,
+/// where one is asked for.
+std::optional<Backend> CheckOutputs(const IdentifyArguments& arguments) {
   // several identifiers give a table and no files
   const std::pair<const char*, const std::string&> of_one[]{{"--output", arguments.output},
                                                             {"--mjcf", arguments.mjcf},
@@ -115,7 +116,9 @@ void CheckOutputs(const IdentifyArguments& arguments) {
   for (const std::filesystem::path& path : OutputsOf(arguments)) {
     if (!path.empty()) AtomicFile{path};
   }
-  if (!arguments.plot.empty()) report::FormatOf(arguments.plot);
+  if (arguments.plot.empty()) return std::nullopt;
+  FormatOf(arguments.plot);
+  return Backend();
 }
 
 /// Fits and judges, or asks the command.
@@ -156,7 +159,8 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
 
 /// Writes, draws and prints an estimate of the log.
 void Deliver(const IdentifyArguments& arguments, const Identified& identified,
-             const std::optional<CarriedHeat>& heat, const PreparedLog& log, Activity& activity) {
+             const std::optional<CarriedHeat>& heat, const PreparedLog& log,
+             const std::optional<Backend>& backend, Activity& activity) {
   const Measurements& measurements = log.taken().measurements;
   // friction in amperes is no use to MuJoCo, and says so where it is written
   const auto& [estimate, shown] = identified;
@@ -169,9 +173,9 @@ void Deliver(const IdentifyArguments& arguments, const Identified& identified,
   written.follows = heat;
   const std::string file = EstimateToJson(written, arguments.output);
   WriteOutputs(arguments, written, file, measurements, activity);
-  if (!arguments.plot.empty()) {
+  if (backend) {
     activity.Is("drawing " + arguments.plot);
-    report::WriteFitPage(log, shown, arguments.plot);
+    WritePicture(*backend, figures::MakeFitPage(figures::MakeFitView(log, shown)), arguments.plot);
   }
 
   // then the words, in the format that was asked for
@@ -218,7 +222,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
     asked.push_back(CheckIdentifier(arguments, identifier));
     if (asked.back().command) commands.push_back(asked.back().command->command);
   }
-  CheckOutputs(arguments);
+  const std::optional<Backend> backend = CheckOutputs(arguments);
   ReportConfinement(commands, {}, arguments.confinement);
 
   // what is held out, the log, and the heat that an earlier recording left
@@ -245,7 +249,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   if (answers.size() > 1) {
     activity.Aside([&] { PrintSeveral(arguments, answers, log.taken().measurements.torque_unit); });
   } else if (first.identified) {
-    Deliver(arguments, *first.identified, heat, log, activity);
+    Deliver(arguments, *first.identified, heat, log, backend, activity);
   } else {
     activity.Aside([&] {
       Say(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);

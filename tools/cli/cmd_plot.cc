@@ -9,13 +9,11 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tools/actions/outputs.h"
+#include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/pictures.h"
 #include "tools/cli/recording_options.h"
-#include "tools/report/draw/draw_figure.h"
-#include "tools/report/draw/figure_data.h"
-#include "tools/report/draw/layout.h"
-#include "tools/report/estimate/overlay.h"
+#include "tools/figures/overlay.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
@@ -32,39 +30,43 @@ struct PlotArguments {
   std::string output;
 };
 
-/// Draws figures into files and prints what each shows.
-class Album {
- public:
-  Album(const report::PageSetting& setting, Activity& activity)
-      : setting_(setting), activity_(activity) {}
+/// A figure with the folder of its picture.
+struct Wanted {
+  fs::path folder;
+  figures::Figure figure;
+  bool required = false;  // asked for by name
+  std::string source;
+};
 
-  /// recordings: that must not be written over by the numbers of --data.
-  void Draw(const report::Figure& figure, const fs::path& folder, bool with_data,
-            const std::vector<fs::path>& recordings) {
+/// Writes the picture and, where wanted, the numbers of each figure, and prints what each shows.
+void WriteAll(const std::vector<Wanted>& wanted, const std::vector<DrawnFigure>& drawn,
+              const PlotArguments& arguments, const std::vector<fs::path>& recordings,
+              Activity& activity) {
+  const auto print = [&](const fs::path& path, const std::string& finding) {
+    activity.Aside([&] { Say(stdout, "{}: {}\n", path.string(), finding); });
+  };
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const figures::Figure& figure = wanted[i].figure;
+    // one that was not asked for by name is no reason to lose the others
+    if (!drawn[i].refusal.empty()) {
+      if (wanted[i].required) Refuse({}, "{}", drawn[i].refusal);
+      activity.Aside([&] { SayNotice("{}: left out: {}\n", wanted[i].source, drawn[i].refusal); });
+      continue;
+    }
     // the file is called as the figure
     const fs::path path =
-        folder / fmt::format("{}.{}", figure.name, report::NameOf(setting_.format));
-    activity_.Is("drawing " + path.string());
-    const report::PictureFile file = report::EncodeFigure(figure, setting_);
-    WriteWholeFile(path, file.bytes);
-    Print(path, file.caption);
+        wanted[i].folder / fmt::format("{}.{}", figure.name, arguments.pictures.format);
+    WriteWholeFile(path, drawn[i].bytes);
+    print(path, figure.finding);
 
     // the numbers that it shows
-    if (!with_data) return;
-    const fs::path data = folder / (figure.name + ".csv");
+    if (!arguments.data) continue;
+    const fs::path data = wanted[i].folder / (figure.name + ".csv");
     KeepApart({data}, recordings);
-    WriteWholeFile(data, report::FigureCsv(figure));
-    Print(data, "the series of " + figure.name);
+    WriteWholeFile(data, figures::FigureCsv(figure));
+    print(data, "the series of " + figure.name);
   }
-
- private:
-  void Print(const fs::path& path, const std::string& finding) {
-    activity_.Aside([&] { Say(stdout, "{}: {}\n", path.string(), finding); });
-  }
-
-  const report::PageSetting& setting_;
-  Activity& activity_;
-};
+}
 
 /// The folder of each source: DIR for one, DIR/NAME for several.
 std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
@@ -99,20 +101,23 @@ void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
 
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
-  // refused before the pictures are drawn
-  const report::PageSetting setting = SettingOf(arguments.pictures);
+  // refused before anything is read
+  const PictureSetting setting = SettingOf(arguments.pictures);
+  const Backend backend;
   Activity activity("preparing to draw");
-  Album album(setting, activity);
-  std::vector<report::NamedEstimate> estimates;
+  std::vector<Wanted> wanted;
+  std::vector<figures::NamedEstimate> estimates;
   std::vector<fs::path> recordings;
+  // without --figure the whole family, and word of what it lacks
+  const bool all = arguments.pictures.figures.empty();
   for (std::size_t i = 0; i < folders.size(); ++i) {
-    activity.Is("reading " + arguments.sources[i]);
-    SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording);
-    // without --figure the whole family, and word of what it lacks
-    const bool all = arguments.pictures.figures.empty();
-    if (all) activity.Aside([&] { TellLeftOut(arguments.sources[i], pictures); });
-    const std::vector<report::Figure> figures =
-        Chosen(arguments.pictures, arguments.sources[i], pictures);
+    const std::string& source = arguments.sources[i];
+    activity.Is("reading " + source);
+    SourcePictures pictures = PicturesOf(source, arguments.recording);
+    if (all) activity.Aside([&] { TellLeftOut(source, pictures); });
+    for (figures::Figure& figure : Chosen(arguments.pictures, source, pictures)) {
+      wanted.push_back({folders[i], std::move(figure), !all, source});
+    }
 
     // their folder, made where it is absent
     std::error_code error;
@@ -121,28 +126,21 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
       Refuse({folders[i].string()}, "cannot be made ({}); give a directory",
              error ? error.message() : "it is a file");
     }
-    for (const report::Figure& figure : figures) {
-      try {
-        album.Draw(figure, folders[i], arguments.data, pictures.recordings);
-      } catch (const report::TooSmall& refusal) {
-        // one that was not asked for by name is no reason to lose the others
-        if (!all) throw;
-        activity.Aside(
-            [&] { SayNotice("{}: left out: {}\n", arguments.sources[i], refusal.what()); });
-      }
-    }
     recordings.insert(recordings.end(), pictures.recordings.begin(), pictures.recordings.end());
     if (pictures.estimate) {
-      const std::string name = fs::path(arguments.sources[i]).stem().string();
-      estimates.emplace_back(name, *std::move(pictures.estimate));
+      estimates.emplace_back(fs::path(source).stem().string(), *std::move(pictures.estimate));
     }
   }
-
   // several estimates in one figure
-  const bool all_figures = arguments.pictures.figures.empty();
-  if (const auto overlay = report::MakeOverlay(estimates); overlay && all_figures) {
-    album.Draw(*overlay, arguments.output, arguments.data, recordings);
+  if (auto overlay = figures::MakeOverlay(estimates); overlay && all) {
+    wanted.push_back({arguments.output, *std::move(overlay), false, arguments.output});
   }
+
+  // all of them at once
+  activity.Is(fmt::format("drawing {} pictures", wanted.size()));
+  std::vector<figures::Figure> figures;
+  for (const Wanted& one : wanted) figures.push_back(one.figure);
+  WriteAll(wanted, backend.Draw(figures, setting), arguments, recordings, activity);
   return ExitStatus::done;
 }
 

@@ -12,14 +12,15 @@
 #include "models/foundation/read_json.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/replay_unit.h"
+#include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
+#include "tools/figures/estimate_view.h"
+#include "tools/figures/log_page.h"
+#include "tools/figures/run/extremes.h"
+#include "tools/figures/run/run_figures.h"
+#include "tools/figures/run/run_page.h"
 #include "tools/identify/identify_recording.h"
-#include "tools/report/estimate/estimate_view.h"
-#include "tools/report/page/log_page.h"
-#include "tools/report/page/run_page.h"
-#include "tools/report/run/extremes.h"
-#include "tools/report/run/run_figures.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 
@@ -36,14 +37,15 @@ struct ReportArguments {
   std::vector<std::string> set;
 };
 
-/// A finished page.
+/// What a template shows, and where the page goes.
 struct Page {
   fs::path target;
-  std::string html;
+  std::string kind;  // of template
+  Tree data;
 };
 
 /// Position of the best identifier of the suite that is none from outside; nothing where all are.
-std::optional<std::size_t> BestOfOurs(const report::RunPage& page) {
+std::optional<std::size_t> BestOfOurs(const figures::RunPage& page) {
   // by rank on the board, then by its place in the suite
   for (const LeaderboardRow& best : page.view.board.rows) {
     for (std::size_t i = 0; i < page.suite.identifiers.size(); ++i) {
@@ -56,27 +58,27 @@ std::optional<std::size_t> BestOfOurs(const report::RunPage& page) {
 
 /// Torque and fit of the extremes of that identifier, each simulated and identified once more; or why there
 /// are none.
-void ReplayExtremes(report::RunPage& page, Activity& activity) {
+void ReplayExtremes(figures::RunPage& page, Activity& activity) {
   // what the page says where it shows no extremes
   page.without_extremes = "No identifier of warmjoint's own gave numbers that could be shown.";
   const std::optional<std::size_t> best = BestOfOurs(page);
   if (!best) return;
-  const report::RunRow& row = page.view.rows[*best];
-  std::vector<report::ReplayedExtreme> replayed;
+  const figures::RunRow& row = page.view.rows[*best];
+  std::vector<figures::ReplayedExtreme> replayed;
   // the extremes are simulated again by their seed, and identified again
   try {
-    for (const report::Extreme& extreme : report::ExtremesOf(row)) {
+    for (const figures::Extreme& extreme : figures::ExtremesOf(row)) {
       activity.Is(fmt::format("simulating the {} realization again", extreme.rank));
       const Replayed again = ReplayUnit(page.suite, extreme.unit, page.suite.identifiers[*best]);
       replayed.push_back({extreme, NameOf(page.suite, extreme.unit),
-                          report::MakeFitView(again.log, again.estimate)});
+                          figures::MakeFitView(again.log, again.estimate)});
     }
   } catch (const BadInput& refusal) {
     // a realization that cannot be repeated is no reason to lose the page
     page.without_extremes = fmt::format("No realization is shown: {}.", refusal.what());
     return;
   }
-  if (!replayed.empty()) page.extremes = report::ExtremesFigure(row.label, replayed);
+  if (!replayed.empty()) page.extremes = figures::ExtremesFigure(row.label, replayed);
 }
 
 /// Refuses, before time is spent, a page that would be written over what it is made of, or cannot be written.
@@ -92,19 +94,18 @@ Page RunReport(const ReportArguments& arguments, Activity& activity) {
   ClaimOutput(target, {store.results_file(), store.suite_file()});
   NoticeEditedSuite(store);
   // all that the run itself gives
-  report::RunPage page{report::ReadRunView(store), store.suite(), store.description(), {}};
-  for (const report::RunFigure& figure : report::RunFigures()) {
+  figures::RunPage page{figures::ReadRunView(store), store.suite(), store.description(), {}};
+  for (const figures::RunFigure& figure : figures::RunFigures()) {
     if (auto made = figure.make(page.view)) page.figures.push_back(*std::move(made));
   }
   // then what is simulated again for this page
   ReplayExtremes(page, activity);
-  activity.Is(fmt::format("drawing {} pictures", page.figures.size()));
-  return {target, report::MakeRunPage(page)};
+  return {target, "run", figures::RunPageData(page)};
 }
 
-std::string LogReport(const PreparedLog& log, const Estimate& estimate,
-                      const std::vector<std::string>& commands) {
-  return report::MakeLogPage({report::MakeFitView(log, estimate), CheckRecording(log), commands});
+Tree LogReport(const PreparedLog& log, const Estimate& estimate,
+               const std::vector<std::string>& commands) {
+  return figures::LogPageData({figures::MakeFitView(log, estimate), CheckRecording(log), commands});
 }
 
 bool IsEstimate(const fs::path& source) { return source.extension() == ".json"; }
@@ -114,7 +115,7 @@ bool IsRecording(const fs::path& source) {
 }
 
 /// Of a log that is identified here, so that the page can show a void fit, too.
-std::string RecordingReport(const ReportArguments& arguments, Activity& activity) {
+Tree RecordingReport(const ReportArguments& arguments, Activity& activity) {
   const RecordingSource& recording = arguments.recording;
   // identified as `identify` would
   IdentifySettings settings = arguments.settings;
@@ -125,7 +126,6 @@ std::string RecordingReport(const ReportArguments& arguments, Activity& activity
                           log.taken().measurements.size()));
   // of a void fit the numbers too
   const Estimate shown = IdentifyLog(task, log, HoldOutSource{}).shown;
-  activity.Is("drawing");
   // the command line that makes the same estimate
   std::vector<std::string> words{"warmjoint", "identify"};
   const std::vector<std::string> typed = WordsOf(recording);
@@ -137,7 +137,7 @@ std::string RecordingReport(const ReportArguments& arguments, Activity& activity
 }
 
 /// Of an estimate file, with the recording that it remembers.
-std::string EstimateReport(const ReportArguments& arguments) {
+Tree EstimateReport(const ReportArguments& arguments) {
   // the estimate, and the recording that it remembers
   const Estimate estimate = ReadEstimate(arguments.source);
   const std::optional<RecordingSource> recording = RecordingOf(estimate, arguments.source);
@@ -147,7 +147,7 @@ std::string EstimateReport(const ReportArguments& arguments) {
   const PreparedLog log = ReadAndPrepare(*recording);
   // of a refused estimate the fit is made again, so that the page can show it
   return LogReport(
-      log, report::WithFitAgain(estimate, log),
+      log, figures::WithFitAgain(estimate, log),
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
@@ -169,6 +169,7 @@ ExitStatus Report(const ReportArguments& arguments) {
     Refuse({arguments.source},
            "is not there; give a directory of `run`, a recording or an estimate file");
   }
+  const Backend backend;
   Page page;
   if (fs::is_directory(arguments.source)) {
     page = RunReport(arguments, activity);
@@ -178,12 +179,14 @@ ExitStatus Report(const ReportArguments& arguments) {
       Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
     }
     ClaimOutput(arguments.output, {arguments.source});
-    page = {arguments.output, IsEstimate(arguments.source) ? EstimateReport(arguments)
-                                                           : RecordingReport(arguments, activity)};
+    page = {arguments.output, "log",
+            IsEstimate(arguments.source) ? EstimateReport(arguments)
+                                         : RecordingReport(arguments, activity)};
   }
 
   // the page as a whole, and where it lies
-  WriteWholeFile(page.target, page.html);
+  activity.Is("drawing the page");
+  WriteWholeFile(page.target, backend.FillPage(page.kind, page.data));
   activity.Aside([&] { fmt::print(WordsBeside({page.target}), "{}\n", page.target.string()); });
   return ExitStatus::done;
 }

@@ -8,8 +8,8 @@
 
 #include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
-#include "tools/report/estimate/remarks.h"
-#include "tools/report/estimate/shown_parameters.h"
+#include "tools/figures/remarks.h"
+#include "tools/figures/shown_parameters.h"
 #include "tools/terminal/table.h"
 
 namespace warmjoint {

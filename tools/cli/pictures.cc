@@ -12,11 +12,11 @@
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
 #include "tools/cli/typed_options.h"
-#include "tools/report/estimate/estimate_figures.h"
-#include "tools/report/figures/kernels.h"
-#include "tools/report/run/run_figures.h"
-#include "tools/report/simulation/simulation_figures.h"
-#include "tools/report/simulation/warm_robot.h"
+#include "tools/figures/estimate_figures.h"
+#include "tools/figures/kernels.h"
+#include "tools/figures/run/run_figures.h"
+#include "tools/figures/run/simulation_figures.h"
+#include "tools/figures/run/warm_robot.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 /// All members of a family that have something to show, and what the others lack.
 template <typename View>
-SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const View& view) {
+SourcePictures Make(const std::vector<figures::NamedFigure<View>>& family, const View& view) {
   SourcePictures pictures;
   // who has nothing to draw says what is needed for it
   for (const auto& one : family) {
@@ -59,13 +59,13 @@ RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) 
 }
 
 /// The estimate beside the recording that is given, else beside its own, else alone.
-report::EstimateView ViewOf(Estimate estimate, const RecordingSource& given,
-                            const RecordingSource& own) {
+figures::EstimateView ViewOf(Estimate estimate, const RecordingSource& given,
+                             const RecordingSource& own) {
   if (!given.files.empty()) {
-    return report::MakeEstimateView(std::move(estimate), ReadAndPrepare(given));
+    return figures::MakeEstimateView(std::move(estimate), ReadAndPrepare(given));
   }
-  if (own.files.empty()) return report::MakeEstimateView(std::move(estimate));
-  return report::ViewOwnRecording(std::move(estimate), ReadAndPrepare(own));
+  if (own.files.empty()) return figures::MakeEstimateView(std::move(estimate));
+  return figures::ViewOwnRecording(std::move(estimate), ReadAndPrepare(own));
 }
 
 SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& given) {
@@ -73,10 +73,10 @@ SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& g
   Estimate estimate = ReadEstimate(path);
   RecordingSource own;
   if (given.files.empty()) own = OwnRecording(estimate, path);
-  report::EstimateView view = ViewOf(std::move(estimate), given, own);
+  figures::EstimateView view = ViewOf(std::move(estimate), given, own);
 
   // what it gives, and itself for the figure of several
-  SourcePictures pictures = Make(report::EstimateFigures(), view);
+  SourcePictures pictures = Make(figures::EstimateFigures(), view);
   pictures.estimate = std::move(view);
   const RecordingSource& shown = given.files.empty() ? own : given;
   pictures.recordings.assign(shown.files.begin(), shown.files.end());
@@ -84,13 +84,13 @@ SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& g
 }
 
 SourcePictures PicturesOfSimulation(const fs::path& directory) {
-  const report::SimulationView view = report::ReadSimulationView(directory);
+  const figures::SimulationView view = figures::ReadSimulationView(directory);
   // a robot that warms needs OpenGL for its pictures
-  SourcePictures pictures = Make(report::SimulationFigures(), view);
+  SourcePictures pictures = Make(figures::SimulationFigures(), view);
   pictures.recordings = {directory / "recording.csv"};
-  if (!report::HasWarmRobot(view)) return pictures;
-  const std::unique_ptr<report::GlContext> context = report::MakeGlContext();
-  pictures.figures.push_back(*report::MakeWarmRobot(view, *context));
+  if (!figures::HasWarmRobot(view)) return pictures;
+  const std::unique_ptr<scene::GlContext> context = scene::MakeGlContext();
+  pictures.figures.push_back(*figures::MakeWarmRobot(view, *context));
   return pictures;
 }
 
@@ -132,9 +132,9 @@ double Millimetres(const std::string& text, const std::string& size) {
   return *number;
 }
 
-Names NamesOf(const std::vector<report::Figure>& figures) {
+Names NamesOf(const std::vector<figures::Figure>& figures) {
   Names names;
-  for (const report::Figure& figure : figures) names.push_back(figure.name);
+  for (const figures::Figure& figure : figures) names.push_back(figure.name);
   return names;
 }
 
@@ -151,22 +151,19 @@ std::string Lacking(const std::string& figure, const SourcePictures& pictures) {
 
 SourcePictures PicturesOf(const std::string& source, const RecordingSource& recording) {
   // by what stands there, of a file by its kind, of a directory by what it holds
-  if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}, {}, {}};
+  if (source == kKernelsSource && !fs::exists(source))
+    return {{figures::MakeKernels()}, {}, {}, {}};
   if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
-  if (report::IsSimulation(source)) return PicturesOfSimulation(source);
-  return Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source)));
+  if (figures::IsSimulation(source)) return PicturesOfSimulation(source);
+  return Make(figures::RunFigures(), figures::ReadRunView(RunStore::OpenToRead(source)));
 }
 
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
   // format and style
   AddChoice(parser, "--format", arguments.format, {"png", "svg", "pdf"}, "of the pictures");
-  Names styles;
-  std::string summary;
-  for (const report::Style& style : report::Styles()) {
-    styles.emplace_back(style.name);
-    summary += fmt::format("{}{}: {}", summary.empty() ? "" : "; ", style.name, style.summary);
-  }
-  AddChoice(parser, "--style", arguments.style, styles, summary);
+  AddChoice(parser, "--style", arguments.style, {"screen", "dark", "paper"},
+            "screen: words of 10 points, 144 pixels an inch; dark: the same for dark screens; "
+            "paper: 180 mm wide, words of 8 points, black, 300 pixels an inch");
 
   // size and resolution
   parser
@@ -187,14 +184,11 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
       ->take_all();
 }
 
-report::PageSetting SettingOf(const PictureArguments& arguments) {
-  report::PageSetting setting;
+PictureSetting SettingOf(const PictureArguments& arguments) {
+  PictureSetting setting;
   // format, style and resolution by name
-  for (report::FileFormat format :
-       {report::FileFormat::png, report::FileFormat::svg, report::FileFormat::pdf}) {
-    if (report::NameOf(format) == arguments.format) setting.format = format;
-  }
-  setting.style = report::StyleNamed(arguments.style);
+  setting.format = FormatOf("picture." + arguments.format);
+  setting.style = arguments.style;
   setting.dpi = arguments.dpi;
   setting.titled = arguments.title != "none";
   // one number is the width, and the height follows
@@ -208,9 +202,9 @@ report::PageSetting SettingOf(const PictureArguments& arguments) {
   return setting;
 }
 
-std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
-                                   const SourcePictures& pictures) {
-  std::vector<report::Figure> figures = pictures.figures;
+std::vector<figures::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
+                                    const SourcePictures& pictures) {
+  std::vector<figures::Figure> figures = pictures.figures;
   if (arguments.figures.empty()) return figures;
   Names wanted;
   // each by the name of the figure, or by the paper's number for it
@@ -234,7 +228,7 @@ std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std:
   }
 
   // in the family's own order, each once
-  std::erase_if(figures, [&](const report::Figure& figure) {
+  std::erase_if(figures, [&](const figures::Figure& figure) {
     return std::find(wanted.begin(), wanted.end(), figure.name) == wanted.end();
   });
   return figures;

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "tools/cli/backend.h"
 #include "tools/cli/recording_options.h"
-#include "tools/report/draw/figure.h"
-#include "tools/report/draw/page_setting.h"
-#include "tools/report/estimate/estimate_view.h"
+#include "tools/figures/estimate_view.h"
+#include "tools/figures/figure.h"
 
 namespace warmjoint {
 
@@ -20,10 +20,10 @@ inline constexpr const char* kKernelsSource = "kernels";
 
 /// The pictures of one source.
 struct SourcePictures {
-  std::vector<report::Figure> figures;
+  std::vector<figures::Figure> figures;
   /// Figures that this source does not give, and what they need.
   std::vector<std::pair<std::string, std::string>> left_out;
-  std::optional<report::EstimateView> estimate = std::nullopt;
+  std::optional<figures::EstimateView> estimate = std::nullopt;
   std::vector<std::filesystem::path> recordings{};  // that were read for them
 };
 
@@ -46,12 +46,12 @@ struct PictureArguments {
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments);
 
 /// What the options ask for. Throws BadInput for a size that is none.
-report::PageSetting SettingOf(const PictureArguments& arguments);
+PictureSetting SettingOf(const PictureArguments& arguments);
 
 /// Leaves the figures that --figure names, by name or by the number that the paper gives them; all
 /// without it. source: what they are of. Throws BadInput where one of them is not among them, and says
 /// what it needs.
-std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
-                                   const SourcePictures& pictures);
+std::vector<figures::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
+                                    const SourcePictures& pictures);
 
 }  // namespace warmjoint

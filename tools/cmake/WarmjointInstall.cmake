@@ -41,6 +41,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots DESTINATION ${CMAKE_INSTAL
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites ${PROJECT_SOURCE_DIR}/scenarios/templates
   DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios
   COMPONENT program)
+# what draws pictures and fills pages
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/python/warmjoint DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/tools/python
+  COMPONENT program FILES_MATCHING PATTERN "draw.py" PATTERN "layout.py" PATTERN "page.py" PATTERN "templates/*")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/docs/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 

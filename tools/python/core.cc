@@ -24,6 +24,9 @@
 #include "identification/preparation/check.h"
 #include "models/friction/check_friction.h"
 #include "models/recording/join_recordings.h"
+#include "tools/figures/estimate_figures.h"
+#include "tools/figures/fit_view.h"
+#include "tools/figures/log_page.h"
 #include "tools/identify/identify_recording.h"
 #include "tools/identify/predict_recording.h"
 #include "tools/python/interrupt.h"
@@ -148,6 +151,27 @@ nb::object ScoreInPython(nb::handle estimate, const Log& log, nb::handle truth) 
       ScoreEstimate(EstimateOf(estimate), log.prepared, FieldsFromPython<Truth>(truth, "truth")));
 }
 
+// Figures and pages as data.
+
+/// {name: figure}, as tools/figures/figure.h describes them: what an estimate gives with its log, or without.
+nb::object FiguresInPython(nb::handle given, const std::optional<Log>& log) {
+  const Estimate estimate = EstimateOf(given);
+  const figures::EstimateView view = log ? figures::ViewOwnRecording(estimate, log->prepared)
+                                         : figures::MakeEstimateView(estimate);
+  Tree all = Tree::object();
+  for (const figures::EstimateFigure& one : figures::EstimateFigures()) {
+    if (auto made = one.make(view)) all[one.name] = figures::FigureJson(*std::move(made));
+  }
+  return ToPython(all);
+}
+
+/// What the page of a log and its estimate shows.
+nb::object LogPageInPython(nb::handle given, const Log& log) {
+  const Estimate shown = figures::WithFitAgain(EstimateOf(given), log.prepared);
+  return ToPython(figures::LogPageData(
+      {figures::MakeFitView(log.prepared, shown), CheckRecording(log.prepared), {}}));
+}
+
 // Friction.
 
 Friction FrictionOf(nb::handle given) {
@@ -270,6 +294,12 @@ void AddIdentification(nb::module_& module) {
         WriteEstimate(EstimateOf(estimate), file);
       },
       nb::sig("def write_estimate(estimate: dict[str, typing.Any], file: str) -> None"));
+  module.def("figures", &FiguresInPython, nb::arg("estimate"), nb::arg("log").none(),
+             nb::sig("def figures(estimate: dict[str, typing.Any], log: Log | None) -> dict[str, "
+                     "dict[str, typing.Any]]"));
+  module.def(
+      "log_page", &LogPageInPython,
+      nb::sig("def log_page(estimate: dict[str, typing.Any], log: Log) -> dict[str, typing.Any]"));
   module.def("score", &ScoreInPython,
              nb::sig("def score(estimate: dict[str, typing.Any], log: Log, truth: dict[str, "
                      "typing.Any]) -> dict[str, "

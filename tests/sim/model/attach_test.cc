@@ -194,13 +194,13 @@ TEST_F(Attach, WritesSensorsAndNumbersThatChangeNothing) {
         ASSERT_GE(sensor, 0);
         EXPECT_LT(d->sensordata[b->sensor_adr[sensor] + 1], 0);
       }
-      for (const char* number :
-           {"coulomb", "thermal_gain", "thermal_time_constant", "initial_energy"}) {
+      for (const char* number : {"coulomb", "thermal_gain", "thermal_time_constant",
+                                 "viscous_per_energy", "initial_energy"}) {
         const int array = mj_name2id(b, mjOBJ_NUMERIC, (std::string("friction/") + number).c_str());
         ASSERT_GE(array, 0) << number;
         EXPECT_EQ(b->numeric_size[array], static_cast<int>(count));
       }
-      EXPECT_EQ(b->nnumeric, 4);
+      EXPECT_EQ(b->nnumeric, 5);
       EXPECT_EQ(b->numeric_data[0], 0.5);
     }
   }

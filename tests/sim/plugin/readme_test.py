@@ -50,7 +50,7 @@ ESTIMATE = {
 def take_sources():
     """The package's part for MuJoCo, from the sources: the rest needs no MuJoCo."""
     package = types.ModuleType("warmjoint")
-    package.__path__ = [str(ROOT / "tools/python/warmjoint")]
+    package.__path__ = [str(ROOT / "tools/python/warmjoint"), str(BUILD / "python/warmjoint")]
     sys.modules["warmjoint"] = package
     from warmjoint import mujoco_attach
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "models/foundation/quantile.h"
 #include "models/foundation/random_stream.h"
 #include "tests/tools/scratch_directory.h"
 #include "tests/tools/store/little_suite.h"

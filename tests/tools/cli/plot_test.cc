@@ -10,7 +10,7 @@
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
-#include "tools/report/page/html.h"
+#include "tools/figures/figure.h"
 
 namespace warmjoint {
 namespace {
@@ -67,7 +67,8 @@ TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   const std::string page = ReadWholeFile(at("run/report.html"));
   for (const auto& [name, bytes] : once) {
     EXPECT_TRUE(bytes == twice.at(name)) << name;
-    EXPECT_NE(page.find(report::Base64(bytes)), std::string::npos) << name << " in the report";
+    EXPECT_NE(page.find(figures::Picture::Base64(bytes)), std::string::npos)
+        << name << " in the report";
   }
 
   // what one sees, on stdout and in the file

@@ -113,8 +113,8 @@ def compare(run: Run | str | os.PathLike[str]) -> Any:
     return pandas.DataFrame(rows)
 
 
-def _engine() -> ModuleType:
-    """The module that needs MuJoCo 4.0, whose library the package mujoco loads."""
+def require_mujoco() -> None:
+    """Loads MuJoCo's library. Raises ImportError where MuJoCo 4.0 is not installed."""
     try:
         import mujoco
     except ImportError:
@@ -122,6 +122,11 @@ def _engine() -> ModuleType:
     if not mujoco.__version__.startswith("4.0."):
         raise ImportError(f"simulation needs MuJoCo 4.0, and {mujoco.__version__} is installed: pip install 'mujoco==4.0.*'; "
                           "identification and attach work with it as it is")
+
+
+def _engine() -> ModuleType:
+    """The module that needs MuJoCo 4.0."""
+    require_mujoco()
     from warmjoint import _engine
 
     # the robots and suites of an installed package

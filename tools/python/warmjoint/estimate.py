@@ -144,6 +144,32 @@ class Estimate:
         found = _core.predict(self.data, log._core, self._energies(initial))
         return Prediction(found["time"], found["torque"], found["energy"], found["compared"] > 0, found["metrics"])
 
+    def figures(self) -> dict[str, dict[str, Any]]:
+        """Every figure of this estimate as data, {name: figure}: panels, series and axes, which plot() draws. Figures of the log need
+        the log that it was identified from."""
+        return _core.figures(self.data, self.log._core if self.log else None)
+
+    def plot(self, figure: str = "", ax: Any = None, style: str | dict[str, Any] = "screen") -> Any:
+        """Draws one of figures() and returns the matplotlib Figure: "fit" where none is named, data, fit and verdict on one page.
+        ax: axes that a figure of one plot is drawn into, "friction_curve" where none is named. style: screen, paper, or changes of
+        them as {"base": "paper", "rc": {"font.family": "serif"}}."""
+        from warmjoint import draw
+
+        found = self.figures()
+        name = figure or ("fit" if ax is None else "friction_curve")
+        if name not in found:
+            raise _core.BadInput(f"figure: this estimate gives no '{name}'; it gives {', '.join(found)}")
+        return draw.draw(found[name], style=style, ax=ax)
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Writes one self-contained web page: verdict, what to do next, parameters, the log, pictures, tests and assumptions."""
+        from warmjoint import draw, page
+
+        if self.log is None:
+            raise _core.BadInput("report: the estimate comes from a file; identify its log again, or use `warmjoint report`")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(page.fill("log", _core.log_page(self.data, self.log._core), draw))
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes estimate.json, which `warmjoint attach`, scenarios and the plugin read."""
         _core.write_estimate(self.data, os.fspath(path))

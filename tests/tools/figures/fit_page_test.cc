@@ -1,0 +1,249 @@
+#include "tools/figures/fit_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+
+#include <Eigen/LU>
+
+#include "identification/answer/identify.h"
+#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/moving_view.h"
+#include "models/foundation/low_pass.h"
+#include "models/recording/course_of.h"
+#include "tests/support/excited_recording.h"
+#include "tests/tools/figures/look.h"
+#include "tests/tools/figures/warm_recording.h"
+#include "tools/figures/estimate_figures.h"
+#include "tools/figures/fit_panels.h"
+#include "tools/figures/fit_view.h"
+#include "tools/figures/friction_spread.h"
+#include "tools/figures/predicted.h"
+
+namespace warmjoint::figures {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string AllText(const Words& words) {
+  std::string text;
+  for (const Words::Paragraph& paragraph : words.paragraphs) text += paragraph.text + "\n";
+  return text;
+}
+
+TEST(FitPage, TellsTheStoryOfAWarmFit) {
+  const WarmRecording warm;
+  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  const Shown drawn = Look(MakeFitPage(view));
+  EXPECT_EQ(drawn.plots.size(), 10u);
+
+  // data and fit are where they belong
+  const ShownPlot& level = PlotNamed(drawn, "Level of friction over time");
+  EXPECT_EQ(SeriesNamed(level, "fit").hue, Hue::blue);
+  EXPECT_NEAR(SeriesNamed(level, "measured").x.second, 20, 0.1) << "minutes";
+  const ShownPlot& curve = PlotNamed(drawn, "Friction over velocity");
+  EXPECT_GT(SeriesNamed(curve, "fit, cold").y.second, SeriesNamed(curve, "fit, warmest").y.second);
+
+  // E starts at 0 and falls to what the prediction says
+  const ShownSeries& energy = SeriesNamed(PlotNamed(drawn, "Warm-up"), "E");
+  EXPECT_EQ(energy.y.second, 0);
+  EXPECT_NEAR(energy.y.first, warm.prediction.energy.minCoeff(), 1e-9);
+}
+
+TEST(FitPage, ExplainsWhyThereIsNoFit) {
+  WarmRecording warm;
+  warm.estimate = {};
+  warm.estimate.identifier = "nominal-ls";
+  warm.estimate.status = Status::not_identifiable;
+  warm.estimate.message = "one speed alone";
+  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  EXPECT_THAT(AllText(VerdictOf(view)),
+              HasSubstr("there are no numbers to use.\nOne speed alone."));
+  Look(MakeFitPage(view));
+}
+
+TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
+  WarmRecording warm;
+  const auto bands = [&] {
+    const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+    return std::count_if(plot.series.begin(), plot.series.end(), [](const Series& series) {
+      return std::holds_alternative<Band>(series.shape);
+    });
+  };
+  EXPECT_EQ(bands(), 4) << "cold and warm, either way";
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
+  map.weights = {0.1, 0, -0.1};
+  warm.estimate.friction->maps = {map};
+  EXPECT_EQ(bands(), 0);
+}
+
+TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
+  WarmRecording warm;
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
+  map.weights = {4, 4, 4};
+  warm.estimate.friction->maps = {map};
+  warm.estimate.friction->parameters["coulomb"] = 11;
+  const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  // 11 + 5 v of the law and 4 of the map, forwards at the fastest
+  for (const Series& series : plot.series) {
+    if (series.label != "fit, mean at each speed, cold") continue;
+    const Line& line = std::get<Line>(series.shape);
+    EXPECT_NEAR(line.y.tail(1)[0], 15 + 5 * line.x.tail(1)[0], 0.01);
+    return;
+  }
+  FAIL() << "no curve";
+}
+
+TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
+  WarmRecording warm;
+  warm.estimate.status = Status::inadequate_model;
+  Diagnostic direction;
+  direction.test = "direction";
+  direction.made = direction.rejected = true;
+  warm.estimate.diagnostics = {direction};
+  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  int framed = 0;
+  for (const Panel& panel : page.panels) {
+    if (!panel.frame) continue;
+    ++framed;
+    EXPECT_EQ(panel.title, "Residuals over velocity: decided by direction");
+    EXPECT_EQ(*panel.frame, Hue::vermilion);
+  }
+  EXPECT_EQ(framed, 1);
+  const Shown drawn = Look(page);
+  EXPECT_GT(SeriesNamed(PlotNamed(drawn, "Level of friction over time"), "fit (void)").points, 100);
+  for (const Series& series :
+       FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate)).series) {
+    const auto* line = std::get_if<Line>(&series.shape);
+    EXPECT_TRUE(!line || line->dash == Dash::dashed);
+  }
+}
+
+TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
+  // without warming the covariance is s^2 (A^T A)^-1 of the rows [v, sign v]
+  WarmRecording warm;
+  warm.estimate.friction->thermal.reset();
+  const Eigen::VectorXd& v = warm.measurements.velocity;
+  Eigen::MatrixXd rows(v.size(), 2);
+  rows << v, v.array().sign().matrix();
+  const Eigen::MatrixXd covariance = 0.25 * (rows.transpose() * rows).inverse();
+  warm.estimate.parameters = {
+      {"viscous", 5, "", std::sqrt(covariance(0, 0)), {}},
+      {"coulomb", 15, "", std::sqrt(covariance(1, 1)), {}},
+  };
+  const FrictionSpread spread =
+      SpreadOf(warm.estimate, CourseOf(warm.measurements), {}, warm.selection);
+  ASSERT_EQ(spread.names, (std::vector<std::string>{"coulomb", "viscous"}));
+  // derivatives by central differences of a linear function: rounding alone
+  EXPECT_NEAR(spread.covariance(0, 1), covariance(0, 1), 1e-6 * std::abs(covariance(0, 1)));
+  EXPECT_NEAR(spread.covariance(1, 1), covariance(0, 0), 1e-6 * covariance(0, 0));
+
+  // the deviation of F at v = 0.5
+  const auto predict = [](const Friction& friction) {
+    const double force =
+        friction.parameters.at("viscous") * 0.5 + friction.parameters.at("coulomb");
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, force));
+  };
+  const Eigen::Vector2d row(0.5, 1);
+  EXPECT_NEAR(SpreadOfPrediction(spread, *warm.estimate.friction, predict)[0],
+              std::sqrt(row.dot(covariance * row)), 1e-6);
+}
+
+struct Identified {
+  PreparedLog log;
+  Estimate estimate;
+};
+
+Identified Identify(const Measurements& m, const std::map<std::string, std::string>& given) {
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options = identifier.options.Read(given);
+  PreparedLog log = Prepare(m);
+  Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+  return {std::move(log), std::move(estimate)};
+}
+
+Friction Warm() {
+  Friction friction = test::TableOne();
+  friction.thermal->time_constant = 100;
+  return friction;
+}
+
+TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
+  const auto [log, estimate] = Identify(test::Excited(Warm(), 12000, 4), {{"gravity", "sincos"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ASSERT_TRUE(estimate.Find("inertia"));
+  const FitView view = MakeFitView(log, estimate);
+  EXPECT_TRUE(IsOfAnyMotion(view));
+
+  // the residual that is shown is that of the fit
+  const Eigen::VectorXd residuals = Residuals(view);
+  ASSERT_EQ(residuals.size(), estimate.metrics->n);
+  EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
+              estimate.metrics->rmse, 1e-9);
+  // and what is taken off is gravity and inertia
+  const Measurements& m = MovingView(log).measurements;
+  const Eigen::VectorXd rigid =
+      estimate.Find("inertia")->value * *m.acceleration + estimate.gravity->Torque(m.position);
+  EXPECT_LT((view.rigid - rigid).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((view.torque + view.rigid - m.torque).cwiseAbs().maxCoeff(), 1e-12);
+
+  const std::optional<Figure> predicted = MakePredicted(view);
+  ASSERT_TRUE(predicted);
+  const auto& scatter =
+      std::get<Scatter>(std::get<Plot>(predicted->panels[0].content).series[0].shape);
+  EXPECT_GT(scatter.y.maxCoeff(), view.fitted.maxCoeff() + 1) << "the fitted torque has all parts";
+  for (const EstimateFigure& one : EstimateFigures()) {
+    SCOPED_TRACE(one.name);
+    if (const auto figure = one.make({estimate, m, view, std::nullopt})) Look(*figure);
+  }
+}
+
+/// The labels of all axes of a figure, one behind the other.
+std::string AxesOf(const Figure& figure) {
+  std::string labels;
+  for (const Panel& panel : figure.panels) {
+    if (const Plot* plot = std::get_if<Plot>(&panel.content)) {
+      labels += plot->x.label + "|" + plot->y.label + "|";
+    }
+  }
+  return labels;
+}
+
+TEST(FitView, OfACurrentSaysAmperesEverywhere) {
+  Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.3, 1);
+  m.torque_unit = "A";
+  const auto [log, estimate] = Identify(m, {});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  const FitView view = MakeFitView(log, estimate);
+  int figures = 0;
+  for (const EstimateFigure& one : EstimateFigures()) {
+    const auto figure = one.make({estimate, m, view, std::nullopt});
+    if (!figure) continue;
+    SCOPED_TRACE(one.name);
+    ++figures;
+    const std::string words = figure->subtitle + figure->finding + AxesOf(*figure);
+    EXPECT_EQ(words.find("N·m"), std::string::npos) << words;
+    EXPECT_EQ(words.find("N.m"), std::string::npos) << words;
+    EXPECT_THAT(words, testing::AnyOf(HasSubstr("(A)"), HasSubstr(" A"))) << words;
+    Look(*figure);
+  }
+  EXPECT_GE(figures, 8);
+}
+
+TEST(FitView, ShowsTheFitBehindALagOfTheTorque) {
+  constexpr double lag = 3;  // s
+  WarmRecording warm;
+  const FitView plain = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  Measurements& m = warm.measurements;
+  m.torque = LowPass(m.time, plain.fitted, lag);
+  EXPECT_GT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1);
+  warm.estimate.parameters.push_back({"torque_lag", lag, "s", {}, {}});
+  EXPECT_LT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace warmjoint::figures

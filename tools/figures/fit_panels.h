@@ -1,0 +1,62 @@
+// The panels of a story about one recording; each may stand in a figure of its own.
+#pragma once
+
+#include <utility>
+
+#include "tools/figures/figure.h"
+#include "tools/figures/fit_view.h"
+
+namespace warmjoint::figures {
+
+/// sign(v) torque over time at the kept samples with the fit: how the level of friction falls.
+Plot LevelOverTime(const FitView& view);
+
+/// Means over the kept samples of each segment, as strokes from its first sample to its last. values: [N].
+Line SegmentMeans(const FitView& fit, const Eigen::VectorXd& values);
+
+/// Part of a recording, samples [begin, end).
+struct Window {
+  Eigen::Index begin = 0;
+  Eigen::Index end = 0;
+};
+
+/// The first and the last `segments` moving segments, half of them where they are few, and a little
+/// around them; a twelfth of a recording without.
+Window ColdWindow(const FitView& view, int segments = 6);
+Window WarmWindow(const FitView& view, int segments = 6);
+
+/// Torque and fit as they were logged. Both windows get the limits of `all` over torque.
+Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, double>& limits);
+/// Limits that hold the torque of both windows at constant speed.
+std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, const Window& b);
+
+/// Torque over velocity: samples, the fitted curve cold and warm with their 95 % bands where these
+/// are wider than a line. With maps, the mean at each speed over the places where the joint moved so.
+Plot FrictionCurve(const FitView& view);
+
+/// E over time with its 95 % band, over what the samples say of it, Eq. (23).
+Plot WarmUpCurve(const FitView& view);
+
+/// What residuals are looked at against.
+enum class Against { time, position, velocity, energy, motor_angle };
+
+/// Residuals over one of these with their median in 40 bins: flat where the model is complete.
+Plot ResidualsOver(const FitView& view, Against what);
+
+/// Correlation of residuals with those one sample later and more, over a logarithmic axis; within
+/// the dashed lines where white.
+Plot ResidualMemory(const FitView& view);
+
+/// Correlation of the residuals with those `lag` samples later, over pairs that are both kept.
+double ResidualCorrelation(const FitView& view, Eigen::Index lag);
+
+/// Parameters with units and 95 % intervals.
+Table ParametersOf(const FitView& view);
+
+/// Verdict, agreement and data used, in words.
+Words VerdictOf(const FitView& view);
+
+/// The verdict in one sentence.
+std::string VerdictSentence(const FitView& view);
+
+}  // namespace warmjoint::figures

@@ -1,0 +1,205 @@
+#include "tools/figures/fit_view.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "identification/find_parameter.h"
+#include "identification/preparation/moving_view.h"
+#include "identification/warming/estimated_start.h"
+#include "models/foundation/low_pass.h"
+#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
+#include "tools/figures/friction_spread.h"
+#include "tools/figures/number_text.h"
+
+namespace warmjoint::figures {
+namespace {
+
+struct TimeScale {
+  double seconds;
+  const char* unit;
+};
+
+TimeScale ScaleOf(const FitView& view) {
+  const double duration = view.time.size() ? view.time.tail(1)[0] : 0;
+  if (duration > 3 * 3600) return {3600, "h"};
+  if (duration > 300) return {60, "min"};
+  return {1, "s"};
+}
+
+/// Leaves friction in the torque, where gravity and inertia are known.
+void TakeRigidOff(const Estimate& estimate, const Measurements& measurements, FitView& view) {
+  view.rigid = Eigen::VectorXd::Zero(measurements.size());
+
+  // the inertia's torque, and gravity's
+  const EstimatedParameter* inertia = Find(Role::inertia, estimate);
+  if (inertia && measurements.acceleration)
+    view.rigid += inertia->value * *measurements.acceleration;
+  if (estimate.gravity) view.rigid += estimate.gravity->Torque(view.position);
+  view.torque -= view.rigid;
+
+  // beyond the places that gravity is known at, nothing can be compared
+  if (!estimate.gravity) return;
+  const GravityModel& gravity = *estimate.gravity;
+  for (Eigen::Index i = 0; i < view.position.size(); ++i) {
+    view.selection.keep[i] = view.selection.keep[i] && gravity.Covers(view.position[i]);
+  }
+}
+
+Eigen::VectorXd MotorAngle(const Measurements& measurements) {
+  const auto turn = [](double angle) {
+    return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
+  };
+  if (!KnowsMotorAngle(measurements)) return {};
+  return MotorPosition(measurements).unaryExpr(turn);
+}
+
+/// The file with the folder that it is in: many are called recording.csv.
+std::string NameInFolder(const std::filesystem::path& path) {
+  return path.parent_path().filename() / path.filename();
+}
+
+FitView WithoutFit(const Measurements& measurements, const Selection& selection,
+                   const Estimate& estimate) {
+  FitView view;
+  // the recording, its time counted from the first sample
+  view.source = NameInFolder(measurements.source);
+  view.joint = measurements.joint;
+  view.torque_unit = UnitText(measurements.torque_unit);
+  view.estimate = estimate;
+  view.selection = selection;
+  view.time = measurements.time.array() - measurements.time[0];
+  view.position = measurements.position;
+  view.velocity = measurements.velocity;
+  view.torque = measurements.torque;
+  // less the torque of inertia and gravity, what is left is friction
+  TakeRigidOff(estimate, measurements, view);
+  view.motor_angle = MotorAngle(measurements);
+
+  // the motion as the prediction needs it, with the heat that it starts from
+  view.course = CourseOf(measurements);
+  view.start = StartOf(estimate, measurements);
+  return view;
+}
+
+}  // namespace
+
+FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
+  const auto& [measurements, selection] =
+      Find(Role::inertia, estimate) ? MovingView(log) : log.taken();
+  return MakeFitView(measurements, selection, estimate);
+}
+
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate) {
+  if (!estimate.friction) return WithoutFit(measurements, selection, estimate);
+  return MakeFitView(measurements, selection, estimate,
+                     PredictFriction(*estimate.friction, measurements,
+                                     StartOf(estimate, measurements), BristleStart::torque));
+}
+
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate, const Prediction& given) {
+  FitView view = WithoutFit(measurements, selection, estimate);
+
+  // the fit as the log would have it, behind the torque's lag
+  view.has_fit = true;
+  view.fitted = given.force;
+  if (const EstimatedParameter* lag = Find(Role::lag, estimate)) {
+    view.fitted = LowPass(view.time, given.force + view.rigid, lag->value) - view.rigid;
+  }
+
+  // how sure the heat is
+  view.energy = given.energy;
+  if (view.warms()) {
+    const FrictionSpread spread = SpreadOf(estimate, view.course, view.start, selection);
+    view.energy_std = SpreadOfPrediction(
+        spread, *estimate.friction, [&](const Friction& friction) -> Eigen::VectorXd {
+          return AlongMotion(friction).Predict(view.course, view.start).energy;
+        });
+  }
+  return view;
+}
+
+bool IsOfAnyMotion(const FitView& view) { return Find(Role::inertia, view.estimate) != nullptr; }
+
+Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
+  Eigen::VectorXd kept(view.selection.count());
+  Eigen::Index n = 0;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (view.selection.keep[i]) kept[n++] = all[i];
+  }
+  return kept;
+}
+
+Eigen::VectorXd Residuals(const FitView& view) { return KeptOf(view, view.torque - view.fitted); }
+
+std::string FitLabel(const FitView& view) { return view.is_void() ? "fit (void)" : "fit"; }
+
+Dash FitDash(const FitView& view) { return view.is_void() ? Dash::dashed : Dash::solid; }
+
+Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
+  Eigen::VectorXd result = all;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (!view.selection.keep[i]) result[i] = std::nan("");
+  }
+  return result;
+}
+
+JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps) {
+  Friction friction = *view.estimate.friction;
+  friction.maps = std::move(maps);
+  return JointFriction(friction);
+}
+
+JointPlace PlaceAt(const FitView& view, Eigen::Index i) {
+  const double load = view.course.load.size() > 0 ? view.course.load[i] : 0;
+  return {view.position[i], view.energy[i], load, view.course.motor_position[i]};
+}
+
+double WarmestEnergy(const FitView& view) {
+  Eigen::Index at = 0;
+  view.energy.cwiseAbs().maxCoeff(&at);
+  return view.energy[at];
+}
+
+std::string OriginOf(const FitView& view) {
+  const std::string& identifier = view.estimate.identifier;
+  return identifier.empty() ? fmt::format("{}, the truth", view.source)
+                            : fmt::format("{}, identified by {}", view.source, identifier);
+}
+
+std::string TakenOff(const FitView& view) {
+  const bool gravity = view.estimate.gravity.has_value(), inertia = IsOfAnyMotion(view);
+  if (gravity && inertia) return "gravity and inertia";
+  return gravity ? "gravity" : inertia ? "inertia" : "";
+}
+
+std::string BeyondText(Eigen::Index samples) {
+  if (samples == 0) return "";
+  return fmt::format("; {} of the samples {} beyond the axes", samples,
+                     samples == 1 ? "is" : "are");
+}
+
+std::string TimeLabel(const FitView& view) { return fmt::format("time ({})", ScaleOf(view).unit); }
+
+double TimeUnit(const FitView& view) { return ScaleOf(view).seconds; }
+
+std::string TimeUnitName(const FitView& view) { return ScaleOf(view).unit; }
+
+std::string PositionLabel(const FitView& view) {
+  return fmt::format("position ({})", UnitText(kPositionUnit.For(view.joint)));
+}
+
+std::string SpeedLabel(const FitView& view) {
+  return fmt::format("velocity ({})", UnitText(kVelocityUnit.For(view.joint)));
+}
+
+std::string TorqueLabel(const FitView& view, const std::string& what) {
+  return fmt::format("{} ({})", what, view.torque_unit);
+}
+
+}  // namespace warmjoint::figures

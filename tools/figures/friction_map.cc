@@ -1,0 +1,192 @@
+#include "tools/figures/friction_map.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tools/figures/axes.h"
+#include "tools/figures/number_text.h"
+
+namespace warmjoint::figures {
+namespace {
+
+constexpr Eigen::Index kColumns = 180, kRows = 120;
+
+/// The angle that the maps are drawn over, with its axis.
+struct Across {
+  MapQuantity quantity;
+  Axis axis;
+};
+
+std::optional<Across> AcrossOf(const FitView& view) {
+  // a map over the motor's angle goes first
+  for (const FrictionMap& map : view.estimate.friction->maps) {
+    if (FindAxis(map, MapQuantity::motor_position)) {
+      return Across{MapQuantity::motor_position, AngleAxis("motor angle (rad)")};
+    }
+  }
+  // otherwise one over the joint's position
+  for (const FrictionMap& map : view.estimate.friction->maps) {
+    if (!FindAxis(map, MapQuantity::position)) continue;
+    const auto [lower, upper] = RangeOf({view.position});
+    return Across{MapQuantity::position, {PositionLabel(view), lower, upper, Scale::linear, {}}};
+  }
+  return std::nullopt;
+}
+
+/// Velocity in the middle of a row of the map.
+double VelocityAt(Eigen::Index row, double fastest) {
+  return fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
+}
+
+/// Whether the joint moved about so fast at a place, [kRows x kColumns]: at its kept samples, and between two of them that
+/// follow each other.
+using Passed = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+Passed PassedCells(const FitView& view, const Across& across, double fastest) {
+  constexpr double kSpare = 0.1;  // of a speed: over so little no friction changes much
+  Passed passed = Passed::Constant(kRows, kColumns, false);
+  const Eigen::VectorXd& angle =
+      across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
+  const double lower = across.axis.lower, width = across.axis.upper - lower;
+  const auto column_of = [&](Eigen::Index i) {
+    const auto column = static_cast<Eigen::Index>(kColumns * (angle[i] - lower) / width);
+    return std::clamp<Eigen::Index>(column, 0, kColumns - 1);
+  };
+  const auto row_of = [&](double velocity) {
+    const auto row = static_cast<Eigen::Index>(kRows * (velocity / fastest + 1) / 2);
+    return std::clamp<Eigen::Index>(row, 0, kRows - 1);
+  };
+  for (Eigen::Index i = 0; i < view.time.size(); ++i) {
+    const double v = view.velocity[i];
+    if (!view.selection.keep[i] || v == 0) continue;
+    const Eigen::Index here = column_of(i);
+    const bool follows = i > 0 && view.selection.keep[i - 1];
+    Eigen::Index before = follows ? column_of(i - 1) : here;
+    // a motor's angle begins anew after each turn
+    if (std::abs(here - before) > kColumns / 2) before = here;
+    // columns that were crossed between two samples count too
+    const Eigen::Index left = std::min(here, before), columns = std::abs(here - before) + 1;
+    const Eigen::Index near = row_of((1 - kSpare) * v), far = row_of((1 + kSpare) * v);
+    passed.block(std::min(near, far), left, std::abs(far - near) + 1, columns) = true;
+  }
+  return passed;
+}
+
+/// sign(v) F with its rows at velocities from -fastest to fastest; NaN where the joint did not move about
+/// so fast at that place.
+HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
+  const double fastest = KeptOf(view, view.velocity).cwiseAbs().maxCoeff();
+  HeatMap map{Eigen::MatrixXd(kRows, kColumns),
+              {across.axis.lower, across.axis.upper},
+              {-fastest, fastest},
+              {0, 1},
+              TorqueLabel(view, "sign(v) · friction")};
+  // a map over the motor's angle is shown at the mean position of the joint
+  const double middle = KeptOf(view, view.position).mean();
+  const Passed passed = PassedCells(view, across, fastest);
+  const JointFriction sliding(*view.estimate.friction);
+  // the level of steady friction at the middle of each cell
+  for (Eigen::Index row = 0; row < kRows; ++row) {
+    const double v = VelocityAt(row, fastest);
+    for (Eigen::Index column = 0; column < kColumns; ++column) {
+      const double share = (static_cast<double>(column) + 0.5) / kColumns;
+      const double angle = across.axis.lower + share * (across.axis.upper - across.axis.lower);
+      const bool over_motor = across.quantity == MapQuantity::motor_position;
+      const JointPlace place{over_motor ? middle : angle, energy, 0, over_motor ? angle : 0};
+      // empty where the joint never moved so
+      map.values(row, column) =
+          passed(row, column) ? Sign(v) * sliding.SlidingForce(v, place) : std::nan("");
+    }
+  }
+  return map;
+}
+
+/// A direction's half of the map with its own colours, and the samples in it.
+Plot PanelOf(const FitView& view, const Across& across, HeatMap map, int direction,
+             const std::pair<double, double>& colours) {
+  map.limits = colours;
+  const Eigen::VectorXd& angle =
+      across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
+  Plot plot;
+  // one direction fills the panel
+  plot.x = across.axis;
+  plot.y = {SpeedLabel(view),
+            direction > 0 ? 0 : map.y.first,
+            direction > 0 ? map.y.second : 0,
+            Scale::linear,
+            {}};
+  // dots show what the map rests on
+  plot.series.push_back({"", Hue::text, map});
+  plot.series.push_back(
+      {"samples", Hue::grey,
+       Scatter{KeptOf(view, angle), KeptOf(view, view.velocity), 0.7, Marker::circle, 0.6}});
+  return plot;
+}
+
+/// Lowest and highest level of one direction over all maps.
+std::pair<double, double> ColoursOf(const std::vector<std::pair<std::string, HeatMap>>& maps,
+                                    int direction) {
+  std::vector<Eigen::VectorXd> all;
+  for (const auto& [title, map] : maps) {
+    const Eigen::MatrixXd half =
+        direction > 0 ? map.values.bottomRows(kRows / 2) : map.values.topRows(kRows / 2);
+    all.emplace_back(half.reshaped());
+  }
+  return RangeOf(all);
+}
+
+}  // namespace
+
+std::optional<Figure> MakeFrictionMap(const FitView& view) {
+  if (!view.has_fit || view.selection.count() == 0) return std::nullopt;
+  const std::optional<Across> across = AcrossOf(view);
+  if (!across) return std::nullopt;
+
+  // cold, and at its warmest where the joint warms
+  std::vector<std::pair<std::string, HeatMap>> maps{{"cold", LevelMap(view, *across, 0)}};
+  if (view.warms()) {
+    const double warmest = WarmestEnergy(view);
+    maps.emplace_back(fmt::format("warmest: E = {} {}", SignificantText(warmest), view.torque_unit),
+                      LevelMap(view, *across, warmest));
+  }
+
+  // title and origin, with what the empty places mean
+  Figure figure;
+  figure.name = "friction_map";
+  const bool motor = across->quantity == MapQuantity::motor_position;
+  figure.title = fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position");
+  figure.subtitle = OriginOf(view) + "; empty where the joint did not move about so fast";
+  // in words: how far friction reaches over the map
+  const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
+  figure.finding = "Friction";
+  for (const auto& [title, map] : maps) {
+    figure.finding += fmt::format(" {} {} to {} {},", &map == &maps[0].second ? "cold" : "warm",
+                                  SignificantText(range(map).first),
+                                  SignificantText(range(map).second), view.torque_unit);
+  }
+  figure.finding.back() = '.';
+  figure.height = 0;
+  figure.rows.clear();
+  figure.columns.assign(maps.size(), 1);
+  // a row for each direction, with colours that cold and warm share
+  for (int direction : {1, -1}) {
+    const auto [lowest, highest] = ColoursOf(maps, direction);
+    if (!std::isfinite(lowest)) continue;  // it never moved so
+    const std::pair<double, double> colours{lowest, highest > lowest ? highest : lowest + 1};
+    // cold beside warm
+    const auto row = static_cast<int>(figure.rows.size());
+    figure.rows.push_back(260);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const std::string title =
+          fmt::format("{}, {}", direction > 0 ? "Forwards" : "Backwards", maps[i].first);
+      figure.panels.push_back({title, PanelOf(view, *across, maps[i].second, direction, colours),
+                               row, static_cast<int>(i)});
+    }
+  }
+  if (figure.panels.empty()) return std::nullopt;
+  return figure;
+}
+
+}  // namespace warmjoint::figures

@@ -1,0 +1,100 @@
+#include "tools/figures/overlay.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iterator>
+
+#include "tools/figures/axes.h"
+#include "tools/figures/fit_panels.h"
+#include "tools/figures/number_text.h"
+
+namespace warmjoint::figures {
+namespace {
+
+constexpr Hue kHues[] = {Hue::blue, Hue::vermilion, Hue::green, Hue::purple, Hue::orange, Hue::sky};
+constexpr Dash kDashes[] = {Dash::solid, Dash::dashed, Dash::dotted};
+
+using Fits = std::vector<std::pair<std::string, const FitView*>>;
+
+Fits FitsOf(const std::vector<NamedEstimate>& estimates) {
+  Fits fits;
+  for (const auto& [name, view] : estimates) {
+    if (view.fit && view.fit->has_fit && view.fit->selection.count() > 0) {
+      fits.emplace_back(name, &*view.fit);
+    }
+  }
+  return fits;
+}
+
+/// The look of the estimate at a place: a colour each, then other strokes.
+Hue HueAt(std::size_t place) { return kHues[place % std::size(kHues)]; }
+Dash DashAt(std::size_t place) { return kDashes[place / std::size(kHues) % std::size(kDashes)]; }
+
+/// The cold curves of all over the samples of the first; each curve without warming is cold all along.
+Plot Curves(const Fits& fits) {
+  Plot plot = FrictionCurve(*fits.front().second);
+  // of the first plot only its measured samples stay
+  std::vector<Series> series = plot.series;
+  std::erase_if(series, [](const Series& one) {
+    return !std::holds_alternative<Scatter>(one.shape) || one.label.empty();
+  });
+  // each estimate adds its cold curve
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    std::string label = fits[i].first;
+    for (const Series& own : FrictionCurve(*fits[i].second).series) {
+      const auto* line = std::get_if<Line>(&own.shape);
+      if (!line || own.hue != Hue::blue) continue;
+      series.push_back({label, HueAt(i), Line{line->x, line->y, 2.0, DashAt(i)}});
+      label.clear();
+    }
+  }
+  plot.series = series;
+  return plot;
+}
+
+/// E over time of those that warm.
+Plot WarmUps(const Fits& fits) {
+  Plot plot;
+  std::vector<Eigen::VectorXd> times, energies;
+  const FitView& first = *fits.front().second;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const FitView& fit = *fits[i].second;
+    // an estimate without warming has no course
+    if (!fit.warms()) continue;
+    times.push_back(fit.time / TimeUnit(first));
+    energies.push_back(fit.energy);
+    plot.series.push_back(
+        {fits[i].first, HueAt(i), Line{times.back(), energies.back(), 2.0, DashAt(i)}});
+  }
+  plot.x = LinearAxis(TimeLabel(first), times);
+  plot.y = LinearAxis(TorqueLabel(first, "E"), energies);
+  return plot;
+}
+
+}  // namespace
+
+std::optional<Figure> MakeOverlay(const std::vector<NamedEstimate>& estimates) {
+  const Fits fits = FitsOf(estimates);
+  if (fits.size() < 2) return std::nullopt;
+  // who is compared, and on whose samples
+  std::vector<std::string> names;
+  for (const auto& [name, fit] : fits) names.push_back(name);
+  Figure figure;
+  figure.name = "estimates";
+  figure.title = "Friction by several estimates";
+  figure.subtitle = fmt::format("samples are of {}", fits.front().second->source);
+  // friction over velocity, all while cold
+  figure.finding = fmt::format("Cold friction over velocity by {}.", fmt::join(names, ", "));
+  figure.height = 430;
+  figure.panels.push_back({"Friction over velocity, cold", Curves(fits), 0, 0});
+  // their warm-ups beside it, where some warm
+  const Plot warm_ups = WarmUps(fits);
+  if (!warm_ups.series.empty()) {
+    figure.columns = {1, 1};
+    figure.panels.push_back({"Warm-up", warm_ups, 0, 1});
+  }
+  return figure;
+}
+
+}  // namespace warmjoint::figures

@@ -1,0 +1,85 @@
+#include "tools/figures/remarks.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace warmjoint {
+namespace {
+
+constexpr std::size_t kBriefly = 3;  // remarks
+
+/// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
+std::string AsSentence(std::string clause) {
+  const std::size_t word = clause.find_first_of(" :_.=");
+  const bool is_word = word == std::string::npos || clause[word] == ' ' || clause[word] == ':';
+  if (is_word && !clause.empty()) {
+    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
+  }
+  const bool stops =
+      !clause.empty() && std::string_view(".?!").find(clause.back()) != std::string_view::npos;
+  return stops ? clause : clause + ".";
+}
+
+/// Whether the stop at `i` ends a sentence: behind a word or a bracket and before a capital, so neither
+/// that of "0.5 N.m" nor that of "Eq. (22)".
+bool IsFullStop(std::string_view text, std::size_t i) {
+  if (text[i] != '.' || i == 0 || i + 2 >= text.size()) return false;
+  const auto before = static_cast<unsigned char>(text[i - 1]);
+  const auto next = static_cast<unsigned char>(text[i + 2]);
+  return (std::isalpha(before) || before == ')') && std::isupper(next);
+}
+
+/// Where a sentence or a clause ends: after "; " or ". " outside of brackets; the end of the text else.
+std::size_t EndOfClause(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    const bool ends = text[i] == ';' || IsFullStop(text, i);
+    if (depth <= 0 && ends && text[i + 1] == ' ') return i;
+  }
+  return text.size();
+}
+
+void AddClauses(std::string_view text, std::vector<std::string>& sentences) {
+  while (!text.empty()) {
+    const std::size_t end = EndOfClause(text);
+    if (end > 0) sentences.push_back(AsSentence(std::string(text.substr(0, end))));
+    text.remove_prefix(std::min(end + 2, text.size()));
+  }
+}
+
+std::vector<std::string> Clauses(std::string_view text) {
+  std::vector<std::string> sentences;
+  AddClauses(text, sentences);
+  return sentences;
+}
+
+/// A warning's first clause and its last: what was found, and what would help.
+std::string Shortened(const std::string& warning) {
+  const std::vector<std::string> clauses = Clauses(warning);
+  if (clauses.size() < 3) return AsSentence(warning);
+  return clauses.front() + " " + clauses.back();
+}
+
+}  // namespace
+
+std::vector<std::string> Remarks(const Estimate& estimate) {
+  std::vector<std::string> remarks = Clauses(estimate.message);
+  for (const std::string& warning : estimate.warnings) remarks.push_back(AsSentence(warning));
+  return remarks;
+}
+
+std::vector<std::string> BriefRemarks(const Estimate& estimate) {
+  const std::vector<std::string> message = Clauses(estimate.message);
+  std::vector<std::string> brief;
+  if (!message.empty()) brief.push_back(message.front());
+  if (estimate.status != Status::ok && message.size() > 1) brief.push_back(message.back());
+  for (const std::string& warning : estimate.warnings) {
+    if (brief.size() < kBriefly) brief.push_back(Shortened(warning));
+  }
+  return brief;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,43 @@
+#include "tools/figures/run/quartiles.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "models/foundation/quantile.h"
+
+namespace warmjoint::figures {
+
+std::string MediansSubtitle(const std::string& suite, int realizations) {
+  return fmt::format(
+      "{}: {} realization{}; lines are medians, bands reach from quartile to quartile", suite,
+      realizations, realizations == 1 ? "" : "s");
+}
+
+double RootMeanSquare(const Eigen::VectorXd& values) {
+  const auto finite = values.array().isFinite();
+  return std::sqrt(finite.select(values.array().square(), 0).sum() /
+                   static_cast<double>(finite.count()));
+}
+
+QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values) {
+  const Eigen::Index columns = values.cols();
+  QuartileCurve curve{x, Eigen::VectorXd(columns), Eigen::VectorXd(columns),
+                      Eigen::VectorXd(columns)};
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    // of each column only what is known
+    std::vector<double> known;
+    for (const double value : values.col(k)) {
+      if (!std::isnan(value)) known.push_back(value);
+    }
+    std::sort(known.begin(), known.end());
+    curve.q25[k] = Quantile(known, 0.25);
+    curve.median[k] = Quantile(known, 0.5);
+    curve.q75[k] = Quantile(known, 0.75);
+  }
+  return curve;
+}
+
+}  // namespace warmjoint::figures

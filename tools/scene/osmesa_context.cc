@@ -1,0 +1,65 @@
+// OSMesa: Mesa's software rasteriser, drawing into memory.
+#include <GL/osmesa.h>
+
+#include <vector>
+
+#include "tools/scene/context.h"
+#include "tools/scene/shared_library.h"
+
+namespace warmjoint::scene {
+namespace {
+
+struct OsMesa {
+  SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+  decltype(&OSMesaCreateContextExt) create{};
+  decltype(&OSMesaDestroyContext) destroy{};
+  decltype(&OSMesaMakeCurrent) make_current{};
+  decltype(&OSMesaGetProcAddress) find{};
+
+  bool Load() {
+    if (!library.is_open()) return false;
+    create = library.Find<decltype(create)>("OSMesaCreateContextExt");
+    destroy = library.Find<decltype(destroy)>("OSMesaDestroyContext");
+    make_current = library.Find<decltype(make_current)>("OSMesaMakeCurrent");
+    find = library.Find<decltype(find)>("OSMesaGetProcAddress");
+    return create && destroy && make_current && find;
+  }
+};
+
+class OsMesaContext : public GlContext {
+ public:
+  explicit OsMesaContext(const OsMesa& mesa) : mesa_(mesa) {
+    context_ = mesa_.create(OSMESA_RGBA, 24, 8, 0, nullptr);
+  }
+  ~OsMesaContext() override {
+    if (context_) mesa_.destroy(context_);
+  }
+
+  bool is_valid() const { return context_ != nullptr; }
+  std::string Name() const override { return "osmesa"; }
+  void Publish() const override { mesa_.library.Publish(); }
+  Procedure Find(const char* function) const override { return mesa_.find(function); }
+  void MakeCurrent() override {
+    mesa_.make_current(context_, window_.data(), GL_UNSIGNED_BYTE, kSide, kSide);
+  }
+
+ private:
+  static constexpr int kSide = 16;  // pixels; the window is not used: all drawing has own buffers
+
+  OsMesa mesa_;
+  OSMesaContext context_ = nullptr;
+  std::vector<unsigned char> window_ = std::vector<unsigned char>(4 * kSide * kSide);
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> MakeOsMesaContext() {
+  OsMesa mesa;
+  if (!mesa.Load()) return nullptr;
+  auto context = std::make_unique<OsMesaContext>(mesa);
+  if (!context->is_valid()) return nullptr;
+  context->MakeCurrent();
+  return context;
+}
+
+}  // namespace warmjoint::scene
