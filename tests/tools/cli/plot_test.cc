@@ -67,7 +67,8 @@ TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   const std::string page = ReadWholeFile(at("run/report.html"));
   for (const auto& [name, bytes] : once) {
     EXPECT_TRUE(bytes == twice.at(name)) << name;
-    EXPECT_NE(page.find(figures::Picture::Base64(bytes)), std::string::npos) << name << " in the report";
+    EXPECT_NE(page.find(figures::Picture::Base64(bytes)), std::string::npos)
+        << name << " in the report";
   }
 
   // what one sees, on stdout and in the file
