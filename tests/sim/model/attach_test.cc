@@ -200,7 +200,7 @@ TEST_F(Attach, WritesSensorsAndNumbersThatChangeNothing) {
         ASSERT_GE(array, 0) << number;
         EXPECT_EQ(b->numeric_size[array], static_cast<int>(count));
       }
-      EXPECT_EQ(b->nnumeric, 4);
+      EXPECT_EQ(b->nnumeric, 5);  // with viscous_per_energy
       EXPECT_EQ(b->numeric_data[0], 0.5);
     }
   }
