@@ -255,6 +255,9 @@ def on_page(figure, look, width=0, height=0, titled=True):
     head = head_height(figure)
     if height:
         figure["height"] = points * height
+    elif len(figure["panels"]) == 1 and figure["height"]:
+        # one plot keeps its form in a column of a journal
+        figure["height"] = min(figure["height"], head + 0.75 * figure["width"])
     else:
         figure = stacked(figure, head)
     if not figure["height"]:
