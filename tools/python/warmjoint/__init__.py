@@ -21,18 +21,18 @@ from warmjoint.friction import Friction, laws
 from warmjoint.log import Check, Log, check, read
 
 if TYPE_CHECKING:
-    from warmjoint.mujoco_attach import attach
+    from warmjoint.mujoco_attach import attach, bind
 
 
 def __getattr__(name: str) -> Any:
-    """`attach`, which needs MuJoCo, where it is asked for."""
-    if name == "attach":
-        from warmjoint.mujoco_attach import attach
+    """`attach` and `bind`, which need MuJoCo, where they are asked for."""
+    if name in ("attach", "bind"):
+        from warmjoint import mujoco_attach
 
-        return attach
+        return getattr(mujoco_attach, name)
     raise AttributeError(f"module 'warmjoint' has no attribute '{name}'")
 
 
 __all__ = ["BadInput", "Check", "Estimate", "Friction", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected", "Run",
-           "Simulated", "__version__", "attach", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
+           "Simulated", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
            "simulate"]
