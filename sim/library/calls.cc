@@ -3,10 +3,8 @@
 // Each answer is an object; {"error": "..."} where the request is refused. It stays until the thread's next call.
 #include <mujoco/mujoco.h>
 #include <warmjoint/attach.h>
-#include <warmjoint/friction_model.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -85,9 +83,6 @@ Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
   return {{"joints", joints}, {"notices", attached.notices}};
 }
 
-/// What is finite, else null.
-Tree FiniteOrNull(double value) { return std::isfinite(value) ? Tree(value) : Tree(); }
-
 /// The numbers of one joint that may change at run time, by their names: where each stands in numeric_data,
 /// and what it may be.
 Tree NumbersOf(const BoundJoints& bound, size_t joint, const std::string& instance) {
@@ -98,9 +93,9 @@ Tree NumbersOf(const BoundJoints& bound, size_t joint, const std::string& instan
         array.stage ? Bounds() : bound.joints()[joint].friction.NumberBounds(*array.places[joint]);
     numbers[array.name.substr(instance.size() + 1)] = {
         {"place", array.address + static_cast<int>(joint)},
-        {"least", FiniteOrNull(bounds.at_least)},
-        {"above", FiniteOrNull(bounds.above)},
-        {"most", FiniteOrNull(bounds.at_most)},
+        {"least", WriteValue(bounds.at_least)},
+        {"above", WriteValue(bounds.above)},
+        {"most", WriteValue(bounds.at_most)},
         {"words", bounds.Words()}};
   }
   return numbers;
@@ -147,19 +142,6 @@ Tree Describe(const mjModel* m) {
   return {{"joints", joints}};
 }
 
-Tree Settled(const char* text, double speed) {
-  const Friction friction = FrictionFromJson(text);
-  const auto energies = SettledEnergy(friction, speed);
-  if (!energies) {
-    Refuse(
-        {"friction"},
-        "never settles at {} rad/s or m/s: thermal_gain times the speed must stay below 1; give a "
-        "smaller speed",
-        speed);
-  }
-  return {{"energies", *energies}};
-}
-
 /// Keeps an answer, or what was refused, for the thread that asks.
 template <typename Call>
 const char* Answer(const Call& call) {
@@ -193,11 +175,5 @@ extern "C" {
 /// numeric_data, least, above, most, words}}, friction}]}.
 [[gnu::visibility("default")]] const char* warmjoint_joints(const mjModel* model) {
   return warmjoint::Answer([&] { return warmjoint::Describe(model); });
-}
-
-/// The heat that a friction settles at while it slides at a speed, rad/s or m/s (SettledEnergy). friction: as in a
-/// friction file. Answer: {energies: [E1, E2]}, empty where nothing warms.
-[[gnu::visibility("default")]] const char* warmjoint_settled(const char* friction, double speed) {
-  return warmjoint::Answer([&] { return warmjoint::Settled(friction, speed); });
 }
 }

@@ -1,12 +1,14 @@
 """Simulation, suites and scores from Python are those of the program."""
 
 import json
+import pathlib
 
 import numpy as np
 import pytest
 import warmjoint as wj
 
-pytest.importorskip("mujoco")
+mujoco = pytest.importorskip("mujoco")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 SCENARIO = {"friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, "coulomb": 15},
                          "thermal": {"thermal_gain": -3, "thermal_time_constant": 600}},
@@ -37,6 +39,15 @@ def test_an_estimate_is_scored(program):
     assert coulomb["truth"] == 15 and abs(coulomb["estimate"] - 15) < 5 * coulomb["bound"] and coulomb["covered"] in (True, False)
     parts = [(one["estimate"] - one["truth"]) / one["truth"] for one in score["continuous"].values()]
     np.testing.assert_allclose(score["npe_continuous"], np.hypot.reduce(parts))
+
+
+def test_a_robot_begins_with_the_heat_that_an_estimates_log_left(columns):
+    estimate = wj.identify(wj.Log(**columns), "energy-ml")
+    robot = wj.attach(ROOT / "models/robots/rotary/rotary.xml", {"hinge": estimate})
+    model = robot.spec.compile()
+    friction = robot.bind(model, mujoco.MjData(model))
+    friction.reset(warm="end")
+    assert friction.heat[0] == estimate.state_end < -1
 
 
 def own_identifier(log):

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <warmjoint/errors.h>
@@ -15,48 +14,12 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
+#include "tools/suite/memory_file.h"
 
 namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file in memory that a child reads or writes.
-class Scroll {
- public:
-  Scroll() : file_(memfd_create("picture", MFD_CLOEXEC)) {
-    if (file_ < 0) throw std::system_error(errno, std::generic_category(), "a file in memory");
-  }
-  ~Scroll() { close(file_); }
-  Scroll(const Scroll&) = delete;
-  Scroll& operator=(const Scroll&) = delete;
-
-  int descriptor() const { return file_; }
-
-  void Fill(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t n = write(file_, bytes.data(), bytes.size());
-      if (n < 0) throw std::system_error(errno, std::generic_category(), "a file in memory");
-      bytes.remove_prefix(static_cast<std::size_t>(n));
-    }
-    lseek(file_, 0, SEEK_SET);
-  }
-
-  std::string Bytes() const {
-    std::string bytes(static_cast<std::size_t>(lseek(file_, 0, SEEK_END)), '\0');
-    std::size_t read = 0;
-    while (read < bytes.size()) {
-      const ssize_t n = pread(file_, &bytes[read], bytes.size() - read, static_cast<off_t>(read));
-      if (n <= 0) break;
-      read += static_cast<std::size_t>(n);
-    }
-    bytes.resize(read);
-    return bytes;
-  }
-
- private:
-  int file_;
-};
 
 /// How a child ended, and what it wrote.
 struct Ended {
@@ -67,7 +30,7 @@ struct Ended {
 
 Ended Call(std::vector<std::string> words, std::string_view input) {
   // three files in memory in place of pipes, which could wait for each other
-  Scroll in, out, err;
+  MemoryFile in("picture"), out("picture"), err("picture");
   in.Fill(input);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -84,7 +47,7 @@ Ended Call(std::vector<std::string> words, std::string_view input) {
   if (failed) return {};
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, out.Bytes(), err.Bytes()};
+  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, out.Tail(), err.Tail()};
 }
 
 /// The last line that says something: of a Python that failed, the error itself.

@@ -21,8 +21,8 @@ MARK = re.compile(r"^<!-- (not run|ends with|needs|made as|long page)\b\s*([^:]*
 
 
 def is_output(name):
-    """Whether a folder at the top of the project holds what was made there and no sources."""
-    return name in {"runs", "dist", ".git"} or name.startswith("build")
+    """Whether a folder at the top of the project holds what was made there and no sources; hidden ones are those of tools."""
+    return name in {"runs", "dist"} or name.startswith((".", "build"))
 
 
 @dataclasses.dataclass

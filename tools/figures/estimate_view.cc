@@ -1,5 +1,7 @@
 #include "tools/figures/estimate_view.h"
 
+#include <warmjoint/identify.h>
+
 #include "identification/answer/identify.h"
 #include "identification/find_parameter.h"
 #include "identification/holdout/hold_out.h"
@@ -10,8 +12,6 @@
 
 namespace warmjoint::figures {
 namespace {
-
-constexpr double kHeldOut = 0.3;  // share of a recording, that of HoldOutSource
 
 /// The kept samples from a time (s) on.
 Selection From(double time, const Measurements& measurements, Selection selection) {
@@ -38,7 +38,7 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
 
   // one that chooses a structure has chosen it on all samples
   const Fit all_data = estimate.choice ? identifier->fit(Seen(*identifier, input)) : Fit{};
-  const auto first = FitFirstPart(*identifier, input, kHeldOut, all_data);
+  const auto first = FitFirstPart(*identifier, input, HoldOutSource{}.fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
   const LogView& fitted = first->fit.inertia ? MovingView(before) : before.steady();

@@ -20,13 +20,13 @@
 #include <vector>
 
 #include "identification/estimate.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/check.h"
 #include "models/friction/check_friction.h"
 #include "models/recording/join_recordings.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_view.h"
 #include "tools/figures/log_page.h"
+#include "tools/identify/catalogue.h"
 #include "tools/identify/identify_recording.h"
 #include "tools/identify/predict_recording.h"
 #include "tools/python/interrupt.h"
@@ -78,7 +78,7 @@ Log LogOfColumns(const std::map<std::string, Given>& columns, nb::handle setting
   for (const auto& [name, column] : columns) {
     values[name].assign(column.data(), column.data() + column.size());
   }
-  return Interruptibly([=](const auto&) {
+  return Interruptibly([values = std::move(values), source](const auto&) {
     return Log{Prepare(MakeRecording(values, source.read, source.files.at(0)), source.prepare), {}};
   });
 }
@@ -94,7 +94,9 @@ Log ReadLog(nb::handle settings) {
 Log JoinLogs(const std::vector<Log>& logs) {
   std::vector<Measurements> parts;
   for (const Log& log : logs) parts.push_back(log.measurements());
-  return Interruptibly([parts](const auto&) { return Log{Prepare(JoinRecordings(parts)), {}}; });
+  return Interruptibly([parts = std::move(parts)](const auto&) {
+    return Log{Prepare(JoinRecordings(parts)), {}};
+  });
 }
 
 // Identification.
@@ -127,14 +129,8 @@ nb::dict PredictInPython(nb::handle estimate, const Log& log, const std::vector<
       Interruptibly([=](const auto&) { return PredictLog(stored, log.prepared, start); });
 
   // a row for each sample of the log
-  const auto n = static_cast<std::size_t>(predicted.logged.size());
   const auto column = [&](const Eigen::VectorXd& all) {
-    auto* rows = new std::vector<double>;
-    rows->reserve(n);
-    for (const Index i : predicted.logged) rows->push_back(all[i]);
-    nb::capsule owner(
-        rows, [](void* memory) noexcept { delete static_cast<std::vector<double>*>(memory); });
-    return nb::ndarray<nb::numpy, double, nb::ndim<1>>(rows->data(), {n}, owner);
+    return ToPython(Eigen::VectorXd(all(predicted.logged)));
   };
   nb::dict dict;
   dict["time"] = column(predicted.measurements.time);
@@ -181,52 +177,14 @@ Friction FrictionOf(nb::handle given) {
 /// F of steady sliding at n places, N.m or N. places: speed, position, energy, load, each [n].
 nb::object ForceAt(nb::handle given, const std::map<std::string, Given>& places) {
   const FrictionModel model(FrictionOf(given));
-  const std::size_t n = places.at("speed").size();
-  auto* forces = new std::vector<double>(n);
-  nb::capsule owner(
-      forces, [](void* memory) noexcept { delete static_cast<std::vector<double>*>(memory); });
-  for (std::size_t i = 0; i < n; ++i) {
+  Eigen::VectorXd forces(static_cast<Index>(places.at("speed").size()));
+  for (Index i = 0; i < forces.size(); ++i) {
     const JointPlace place{.position = places.at("position").data()[i],
                            .energy = places.at("energy").data()[i],
                            .load = places.at("load").data()[i]};
-    (*forces)[i] = model.Force(places.at("speed").data()[i], place);
+    forces[i] = model.Force(places.at("speed").data()[i], place);
   }
-  return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(forces->data(), {n}, owner));
-}
-
-/// What is known of parameters: {name: {symbol, unit, meaning, default}}; of a linear joint its units.
-Tree ParametersOf(std::span<const ParameterInfo> parameters, JointKind kind) {
-  Tree rows = Tree::object();
-  for (const ParameterInfo& one : parameters) {
-    rows[std::string(one.name)] = {{"symbol", one.symbol},
-                                   {"unit", one.unit.For(kind)},
-                                   {"meaning", one.meaning},
-                                   {"default", one.default_value}};
-  }
-  return rows;
-}
-
-Tree LawsOf(JointKind kind) {
-  Tree laws = Tree::object();
-  for (const Law& law : Laws()) {
-    laws[std::string(law.name)] = {{"equation", law.equation},
-                                   {"parameters", ParametersOf(law.parameters, kind)}};
-  }
-  return laws;
-}
-
-/// {name: {summary, options{name: {value, allowed, meaning}}}}
-Tree IdentifiersOf() {
-  Tree identifiers = Tree::object();
-  for (const Identifier& one : Identifiers()) {
-    Tree options = Tree::object();
-    for (const OptionInfo& option : one.options.List()) {
-      options[option.name] = {
-          {"value", option.value}, {"allowed", option.allowed}, {"meaning", option.meaning}};
-    }
-    identifiers[one.name] = {{"summary", one.summary}, {"options", options}};
-  }
-  return identifiers;
+  return ToPython(std::move(forces));
 }
 
 constexpr const char* kColumn = "numpy.typing.NDArray[numpy.float64]";
@@ -289,6 +247,9 @@ void AddIdentification(nb::module_& module) {
       [](const std::string& file) { return ToPython(EstimateToTree(ReadEstimate(file))); },
       nb::sig("def read_estimate(file: str) -> dict[str, typing.Any]"));
   module.def(
+      "estimate_to_json", [](nb::handle estimate) { return EstimateToJson(EstimateOf(estimate)); },
+      nb::sig("def estimate_to_json(estimate: dict[str, typing.Any]) -> str"));
+  module.def(
       "write_estimate",
       [](nb::handle estimate, const std::string& file) {
         WriteEstimate(EstimateOf(estimate), file);
@@ -305,8 +266,8 @@ void AddIdentification(nb::module_& module) {
                      "typing.Any]) -> dict[str, "
                      "typing.Any]"));
   module.def(
-      "identifiers", [] { return ToPython(IdentifiersOf()); },
-      nb::sig("def identifiers() -> dict[str, typing.Any]"));
+      "identifiers", [] { return ToPython(IdentifiersJson()); },
+      nb::sig("def identifiers() -> list[dict[str, typing.Any]]"));
 }
 
 void AddFriction(nb::module_& module) {
@@ -329,9 +290,8 @@ void AddFriction(nb::module_& module) {
       nb::sig(
           "def settled_energy(given: dict[str, typing.Any], speed: float) -> list[float] | None"));
   module.def(
-      "laws",
-      [](bool linear) { return ToPython(LawsOf(linear ? JointKind::linear : JointKind::rotary)); },
-      nb::sig("def laws(linear: bool) -> dict[str, typing.Any]"));
+      "laws", [] { return ToPython(LawsJson()); },
+      nb::sig("def laws() -> list[dict[str, typing.Any]]"));
 }
 
 }  // namespace

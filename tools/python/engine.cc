@@ -1,6 +1,5 @@
 // warmjoint._engine: what needs MuJoCo 4.0: simulation, suites and their leaderboards.
 #include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
@@ -25,27 +24,18 @@ namespace {
 
 namespace nb = nanobind;
 
-/// A column as an array of its own, [N].
-nb::object Array(const Eigen::VectorXd& column) {
-  auto* copy = new Eigen::VectorXd(column);
-  nb::capsule owner(copy,
-                    [](void* memory) noexcept { delete static_cast<Eigen::VectorXd*>(memory); });
-  return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(
-      copy->data(), {static_cast<std::size_t>(copy->size())}, owner));
-}
-
 /// The columns of a log and what a reader of its file is told, as arguments of Python's Log.
 nb::dict LogArguments(const Measurements& m) {
   nb::dict log;
   for (const auto& [name, column] :
        {std::pair("time", &m.time), std::pair("position", &m.position),
         std::pair("velocity", &m.velocity), std::pair("torque", &m.torque)}) {
-    log[name] = Array(*column);
+    log[name] = ToPython(*column);
   }
   for (const auto& [name, column] :
        {std::pair("motor_position", &m.motor_position), std::pair("load", &m.load),
         std::pair("temperature", &m.temperature)}) {
-    if (*column) log[name] = Array(**column);
+    if (*column) log[name] = ToPython(**column);
   }
   log["joint"] = std::string(NameOf(m.joint));
   log["gear"] = m.gear;
@@ -66,17 +56,9 @@ nb::object SimulateInPython(const std::string& scenario,
 nb::dict RunInPython(const std::string& suite, const std::string& output, nb::handle options,
                      const std::map<std::string, nb::callable>& functions,
                      const std::function<void(int, int)>& watch) {
-  const Node given(ToTree(options, "run"), "run");
-  RunArguments arguments;
+  auto arguments = FieldsFromPython<RunArguments>(options, "run");
   arguments.suite = suite;
   arguments.output = output;
-  const auto whole = [&](const char* name, std::optional<std::uint64_t>& value) {
-    if (const auto found = given.Find(name)) ReadValue(*found, &value.emplace(), {});
-  };
-  whole("jobs", arguments.jobs);
-  whole("realizations", arguments.realizations);
-  whole("seed", arguments.seed);
-  if (const auto names = given.Find("identifiers")) ReadValue(*names, &arguments.identifiers, {});
   for (const auto& [label, function] : functions) {
     arguments.functions[label] = [call = function.ptr()](const Measurements& measurements) {
       nb::gil_scoped_acquire held;

@@ -1,5 +1,6 @@
 #include "tools/python/trees.h"
 
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 
 #include <utility>
@@ -35,6 +36,14 @@ nb::object ToPython(const Tree& tree) {
     default:
       return nb::none();
   }
+}
+
+nb::object ToPython(Eigen::VectorXd column) {
+  auto* owned = new Eigen::VectorXd(std::move(column));
+  const nb::capsule owner(
+      owned, [](void* memory) noexcept { delete static_cast<Eigen::VectorXd*>(memory); });
+  return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(
+      owned->data(), {static_cast<std::size_t>(owned->size())}, owner));
 }
 
 Tree ToTree(nb::handle value, const std::string& name) {

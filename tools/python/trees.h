@@ -3,6 +3,7 @@
 
 #include <nanobind/nanobind.h>
 
+#include <Eigen/Core>
 #include <string>
 
 #include "models/foundation/node.h"
@@ -15,6 +16,9 @@ nanobind::object ToPython(const Tree& tree);
 
 /// The inverse, also of numbers and arrays of NumPy and of paths. Throws BadInput with `name` for what is none of these.
 Tree ToTree(nanobind::handle value, const std::string& name);
+
+/// A column as an array of NumPy that owns its memory, [N].
+nanobind::object ToPython(Eigen::VectorXd column);
 
 template <Described T>
 nanobind::object FieldsToPython(const T& value) {

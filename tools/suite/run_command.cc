@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include <system_error>
 
 #include "models/foundation/output_failed.h"
+#include "tools/suite/memory_file.h"
 #include "tools/suite/supervisor.h"
 #include "tools/terminal/shell_words.h"
 
@@ -26,34 +26,6 @@ namespace {
 [[noreturn]] void Fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
-
-/// A file in memory, closed at the end of its life.
-class MemoryFile {
- public:
-  MemoryFile() : file_(memfd_create("command", MFD_CLOEXEC)) {
-    if (file_ < 0) Fail("no file for a command");
-  }
-  ~MemoryFile() { close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  int descriptor() const { return file_; }
-
-  /// Its last bytes.
-  std::string Tail(std::size_t most) const {
-    struct stat status {};
-    fstat(file_, &status);
-    const auto size = static_cast<std::size_t>(status.st_size);
-    std::string tail(std::min(most, size), '\0');
-    const ssize_t n =
-        pread(file_, tail.data(), tail.size(), static_cast<off_t>(size - tail.size()));
-    tail.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
-    return tail;
-  }
-
- private:
-  int file_;
-};
 
 /// A verdict in memory that a forked process shares.
 class SharedVerdict {
@@ -137,7 +109,7 @@ CommandEnd RunCommand(const CommandTask& task) {
   std::vector<std::string> removal{"/bin/rm", "-rf", "--one-file-system", directory};
   const std::vector<char*> argv = ExecWords(words), envp = ExecWords(environment),
                            remove = ExecWords(removal);
-  const MemoryFile output, answer;
+  const MemoryFile output("command"), answer("command");
   const SharedVerdict verdict;
   const Sandbox sandbox =
       task.confinement == Confinement::sandbox ? Sandbox(task.readable) : Sandbox();

@@ -9,7 +9,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import types
 
 try:
     import mujoco
@@ -19,6 +18,10 @@ except ImportError as missing:
     sys.exit(77)
 
 ROOT, PROGRAM, BUILD = (pathlib.Path(given).resolve() for given in sys.argv[1:4])
+sys.path.insert(0, str(BUILD / "python"))
+
+import warmjoint  # noqa: E402
+
 ROBOT = """
 <mujoco>
   <option timestep="0.001" integrator="implicitfast"/>
@@ -47,16 +50,6 @@ ESTIMATE = {
 }
 
 
-def take_sources():
-    """The package's part for MuJoCo, from the sources: the rest needs no MuJoCo."""
-    package = types.ModuleType("warmjoint")
-    package.__path__ = [str(ROOT / "tools/python/warmjoint"), str(BUILD / "python/warmjoint")]
-    sys.modules["warmjoint"] = package
-    from warmjoint import mujoco_attach
-
-    package.attach, package.bind = mujoco_attach.attach, mujoco_attach.bind
-
-
 def attach(form):
     command = [PROGRAM, "attach", "robot.xml", "--joint", "joint.*=estimate.json", "--as", form, "--sensors", "--numbers"]
     subprocess.run([*map(str, command), "-o", "runs/warm.xml"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -76,12 +69,10 @@ def check_single_runs(left):
 
 def check_maps(readme):
     """The README's maps act on a joint that slides through them."""
-    from warmjoint import attach
-
     maps = json.loads(re.search(r"```json\n(.*?)```", readme, re.DOTALL).group(1))
     torques = []
     for friction in (FRICTION, FRICTION | {"maps": maps}):
-        attached = attach(ROBOT, {"joint2": friction})
+        attached = warmjoint.attach(ROBOT, {"joint2": friction})
         model = attached.spec.compile()
         data = mujoco.MjData(model)
         data.qpos[1], data.qvel[1] = 0.5, 1
@@ -100,7 +91,6 @@ def warm_up():
 
 
 def main():
-    take_sources()
     readme = (ROOT / "sim/plugin/README.md").read_text()
     snippets = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
     assert len(snippets) >= 5, len(snippets)

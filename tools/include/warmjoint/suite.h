@@ -56,6 +56,15 @@ struct RunArguments {
   bool dry_run = false;
 
   bool in_shards() const { return slurm || local_shards; }
+
+  /// What is no matter of files, functions and machines.
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("identifiers", &identifiers);
+    a->Field("jobs", &jobs);
+    a->Field("realizations", &realizations);
+    a->Field("seed", &seed);
+  }
 };
 
 /// What is said of a run at its end.

@@ -13,13 +13,11 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from warmjoint import _core
 from warmjoint.estimate import Estimate
 from warmjoint.log import Log
 
-Array = npt.NDArray[np.float64]
 Identifier = Callable[[Log], "Estimate | Mapping[str, Any]"]
 Progress = Callable[[int, int], None]
 
@@ -151,7 +149,7 @@ def _file_of(scenario: str | os.PathLike[str] | Mapping[str, Any]) -> Iterator[s
 def _answer(function: Identifier) -> Callable[[dict[str, Any]], str]:
     def answer(arguments: dict[str, Any]) -> str:
         estimate = function(Log(**arguments))
-        return json.dumps(estimate.data if isinstance(estimate, Estimate) else dict(estimate))
+        return estimate.to_json() if isinstance(estimate, Estimate) else json.dumps(dict(estimate))
 
     return answer
 

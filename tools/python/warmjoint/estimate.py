@@ -13,10 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
-from warmjoint.friction import Friction
-from warmjoint.log import Log
-
-Array = npt.NDArray[np.float64]
+from warmjoint.friction import Friction, settled_energies
+from warmjoint.log import Array, Log
 
 
 class Rejected(RuntimeError):
@@ -175,8 +173,8 @@ class Estimate:
         _core.write_estimate(self.data, os.fspath(path))
 
     def to_json(self) -> str:
-        """The text of its friction as a friction file. Raises Rejected where there is none."""
-        return self.fitted.to_json()
+        """The text of estimate.json."""
+        return _core.estimate_to_json(self.data)
 
     def __repr__(self) -> str:
         return "\n".join([f"<Estimate by {self.identifier}: {self.status}>", *(f"  {one!r}" for one in self.parameters.values()),
@@ -196,10 +194,7 @@ class Estimate:
             return [float(rows[name]["value"]) for name in ("energy", "second_energy") if name in rows]
         if isinstance(initial, str):
             raise _core.BadInput(f"initial: is '{initial}'; it must be cold, end or a speed")
-        energies = _core.settled_energy(self.data["friction"], float(initial))
-        if energies is None:
-            raise _core.BadInput(f"initial: friction never settles at {initial}: thermal_gain times the speed must stay below 1")
-        return list(energies)
+        return settled_energies(self.data["friction"], float(initial))
 
     def _deviation(self, fitted: Friction, *place: npt.ArrayLike) -> Array:
         """Standard deviation of the friction at places: sqrt(d^T C d), d its derivatives by the parameters, C their correlations
@@ -246,7 +241,10 @@ def identify(log: Log | Sequence[Log], method: str = "auto", *, gravity: Literal
 
 def identifiers() -> dict[str, Any]:
     """{name: {"summary", "options": {name: {"value", "allowed", "meaning"}}}}"""
-    return _core.identifiers()
+    return {one["name"]: {"summary": one["summary"],
+                          "options": {option["name"]: {"value": option["default"], "allowed": option["allowed"],
+                                                       "meaning": option["meaning"]} for option in one["options"]}}
+            for one in _core.identifiers()}
 
 
 def load(path: str | os.PathLike[str]) -> Estimate:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+import copy
 import os
 from typing import Any, Literal
 
@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
+from warmjoint.log import Array
 
-Array = npt.NDArray[np.float64]
 # heat and what joins a law, which a friction file keeps apart from the law's own parameters
 THERMAL = ("thermal_gain", "thermal_time_constant", "ambient", "second")
 OPTIONS = ("gear", "level_per_temperature", "viscous_per_energy", "load_gain", "torque_unit", "maps")
@@ -83,17 +83,12 @@ class Friction:
 
     def changed(self, name: str, by: float) -> Friction:
         """The same with one parameter, named as in estimates, changed by `by`."""
-        data = json.loads(json.dumps(self.data))
-        if name in data["parameters"]:
-            data["parameters"][name] += by
-        elif name.startswith("second_") and "second" in data.get("thermal", {}):
-            data["thermal"]["second"][name.removeprefix("second_")] += by
-        elif name in data.get("thermal", {}):
-            data["thermal"][name] += by
-        elif name in OPTIONS:
-            data[name] = data.get(name, 0) + by
-        else:
+        data = copy.deepcopy(self.data)
+        found = place_of(data, name)
+        if found is None:
             raise _core.BadInput(f"'{name}' is no parameter of this friction; it has {', '.join(data['parameters'])}")
+        holder, key = found
+        holder[key] = holder.get(key, 0) + by
         return Friction.from_dict(data)
 
     def __eq__(self, other: object) -> bool:
@@ -105,6 +100,36 @@ class Friction:
         return f"Friction({self.law}, " + ", ".join(f"{name}={value:.6g}" for name, value in values.items()) + maps + ")"
 
 
+def place_of(data: dict[str, Any], name: str) -> tuple[dict[str, Any], str] | None:
+    """Where a number that estimates and models call `name` stands in a friction file's content: its map and its key there."""
+    heat = data.get("thermal", {})
+    if name in data["parameters"]:
+        return data["parameters"], name
+    if name.startswith("second_") and name.removeprefix("second_") in heat.get("second", {}):
+        return heat["second"], name.removeprefix("second_")
+    if name in heat:
+        return heat, name
+    return (data, name) if name in OPTIONS else None
+
+
+def settled_energies(data: dict[str, Any], speed: float) -> list[float]:
+    """E1 and, with a second stage, E2, N.m or N, that sliding at a speed (rad/s or m/s) settles at; empty where nothing warms. data: of a
+    friction file. Raises BadInput where the losses grow for ever."""
+    energies = _core.settled_energy(data, speed)
+    if energies is None:
+        raise _core.BadInput(f"friction: never settles at {speed} rad/s or m/s: thermal_gain times the speed must stay below 1; "
+                             "give a smaller speed")
+    return energies
+
+
 def laws(joint: Literal["rotary", "linear"] = "rotary") -> dict[str, Any]:
     """{law: {"equation", "parameters": {name: {"symbol", "unit", "meaning", "default"}}}}"""
-    return _core.laws(joint == "linear")
+    found = {}
+    for law in _core.laws():
+        # behind the laws comes what joins any of them, first its warming
+        if law["name"] == "thermal":
+            break
+        parameters = {one["name"]: {**{key: one[key] for key in ("symbol", "meaning", "default")}, "unit": one["unit"][joint]}
+                      for one in law["parameters"]}
+        found[law["name"]] = {"equation": law["equation"], "parameters": parameters}
+    return found

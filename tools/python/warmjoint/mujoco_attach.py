@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import difflib
 import json
@@ -25,6 +26,7 @@ from numpy.typing import NDArray
 
 from warmjoint import mujoco_plugin
 from warmjoint._core import BadInput
+from warmjoint.friction import place_of, settled_energies
 
 Floats = NDArray[np.float64]
 
@@ -358,7 +360,7 @@ class BoundFriction:
         states = {form: worlds.bind(field) for form, field in (("passive", "plugin_state"), ("actuator", "act"))}
         heats = []
         for i, joint in enumerate(self._joints):
-            own = [mujoco_plugin.settled_heat(_with_numbers(joint, new[world]), speeds[i]) for world in range(len(new))]
+            own = [settled_energies(_with_numbers(joint, new[world]), float(speeds[i])) for world in range(len(new))]
             heats.append(share[:, i, None] * np.array(own).reshape(len(new), -1))
         for joint, heat in zip(self._joints, heats):
             rows = states[joint["form"]]
@@ -390,7 +392,7 @@ class BoundFriction:
         heats = []
         for joint, own in zip(self._joints, self._speeds(speed)):
             try:
-                heats.append(mujoco_plugin.settled_heat(_with_numbers(joint, self.model.numeric_data), own))
+                heats.append(settled_energies(_with_numbers(joint, self.model.numeric_data), float(own)))
             except ValueError as refusal:
                 raise BadInput(f"joint '{joint['name']}': {refusal}") from None
         return heats
@@ -409,18 +411,14 @@ def _heats(joint: dict[str, Any]) -> list[int]:
 
 def _with_numbers(joint: dict[str, Any], numbers: Floats) -> dict[str, Any]:
     """The joint's friction with the numbers that stand in numeric_data."""
-    friction = json.loads(json.dumps(joint["friction"]))
+    friction: dict[str, Any] = copy.deepcopy(joint["friction"])
     for name, number in joint["numbers"].items():
-        value = float(numbers[number["place"]])
-        heat = name.removeprefix("second_")
-        if name in friction["parameters"]:
-            friction["parameters"][name] = value
-        elif heat in ("thermal_gain", "thermal_time_constant"):
-            stage = friction["thermal"] if heat == name else friction["thermal"]["second"]
-            stage[heat] = value
-        elif heat != "initial_energy":
-            friction[name] = value
-    return friction  # type: ignore[no-any-return]
+        # but for the heat at a reset, which is no number of the friction
+        found = place_of(friction, name)
+        if found:
+            holder, key = found
+            holder[key] = float(numbers[number["place"]])
+    return friction
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:

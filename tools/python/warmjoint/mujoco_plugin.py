@@ -48,7 +48,6 @@ def _load() -> ctypes.CDLL:
     for function, takes in (
         ("warmjoint_attach", [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p]),
         ("warmjoint_joints", [ctypes.c_void_p]),
-        ("warmjoint_settled", [ctypes.c_char_p, ctypes.c_double]),
     ):
         getattr(library, function).argtypes = takes
         getattr(library, function).restype = ctypes.c_char_p
@@ -100,12 +99,3 @@ def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
     """The joints with friction of a model, each with the places of its numbers (sim/library/calls.cc)."""
     joints: list[dict[str, Any]] = _call("warmjoint_joints", model._address)["joints"]
     return joints
-
-
-def settled_heat(friction: dict[str, Any], speed: float) -> list[float]:
-    """The heat E1 and, with a second stage, E2, N.m or N, that sliding at a speed, rad/s or m/s, settles at.
-
-    friction: as in a friction file. Empty where nothing warms. Raises BadInput where the losses grow for ever.
-    """
-    energies: list[float] = _call("warmjoint_settled", json.dumps(friction).encode(), float(speed))["energies"]
-    return energies
