@@ -44,7 +44,7 @@ KnownParameter KnownWithin(FitParameter row, double deviation, double quantile) 
 }
 
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
-std::vector<KnownParameter> Intervals(const Fit& fit, const Inference& inference) {
+std::vector<KnownParameter> IntervalsOf(const Fit& fit, const Inference& inference) {
   const Uncertainty& known = inference.known;
   std::vector<KnownParameter> all;
   Eigen::Index column = 0;
@@ -113,7 +113,7 @@ Inference Unjudged(const Fit& fit) {
   }
   inference.without_intervals = fit.without_intervals;
   if (fit.held_structure) HoldStructure(fit, inference);
-  inference.parameters = Intervals(fit, inference);
+  inference.parameters = IntervalsOf(fit, inference);
   inference.message = MessageOf(fit, inference);
   inference.warnings.insert(inference.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   return inference;

@@ -10,9 +10,9 @@ namespace warmjoint {
 namespace {
 
 constexpr double kNormal = 1.4826;  // why: standard deviation over median size of normal noise
-constexpr double kFar = 4;          // standard deviations: one normal sample in 16 000
+constexpr double kFarResidual = 4;  // standard deviations: one normal sample in 16 000
 constexpr int kMostRounds = 100;
-constexpr double kAtRest = 1e-9;  // of the fitted torque between rounds, relative
+constexpr double kConverged = 1e-9;  // of the fitted torque between rounds, relative
 
 }  // namespace
 
@@ -34,11 +34,11 @@ Eigen::VectorXd HuberScores(const Eigen::VectorXd& residual, double threshold) {
 
 std::string DescribeLoss(const Eigen::VectorXd& residual, double threshold) {
   if (std::isinf(threshold)) return "";
-  const double far = kFar / kHuberBend * threshold;
+  const double far = kFarResidual / kHuberBend * threshold;
   return fmt::format(
       "; {} of {} samples lie more than {:.0f} standard deviations off, and Huber's loss bounds "
       "their pull",
-      (residual.array().abs() > far).count(), residual.size(), kFar);
+      (residual.array().abs() > far).count(), residual.size(), kFarResidual);
 }
 
 RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
@@ -57,7 +57,7 @@ RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
     // until the fitted torque changes no more
     const double change = (A * next.solution - fitted).norm();
     robust.fit = next;
-    robust.converged = change <= kAtRest * fitted.norm();
+    robust.converged = change <= kConverged * fitted.norm();
     if (robust.converged) break;
   }
   // the errors follow from plain columns and the scores of the loss

@@ -14,7 +14,7 @@ namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 20;
-constexpr double kAtRest = 1e-4;  // of E between rounds, relative to its range
+constexpr double kConverged = 1e-4;  // of E between rounds, relative to its range
 
 double Range(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
 
@@ -85,7 +85,7 @@ Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* wa
     if (!energy.allFinite()) return Refused(task.identifier, Unsolvable());
     // settled where the energy hardly changes, by its range
     const double change = (energy - task.energy).cwiseAbs().maxCoeff();
-    if (change <= kAtRest * Range(energy)) break;
+    if (change <= kConverged * Range(energy)) break;
     task.energy = energy;
     choice = ChooseAndFit(input, task);
   }

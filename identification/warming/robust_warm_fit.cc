@@ -8,7 +8,7 @@ namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 100;
-constexpr double kAtRest = 1e-4;  // of each parameter between rounds, relative to its deviation
+constexpr double kConverged = 1e-4;  // of each parameter between rounds, relative to its deviation
 
 /// Residuals of the level, 0 where a sample is not kept. [N]
 Eigen::VectorXd Residual(const ClosedLoop& loop, const Eigen::VectorXd& level,
@@ -33,7 +33,7 @@ Eigen::VectorXd OfKept(const Eigen::VectorXd& residual, const Eigen::VectorXd& k
 /// Whether no parameter moved by more than a share of its standard deviation.
 bool AtRest(const WarmFit& before, const WarmFit& after, double threshold) {
   const Eigen::ArrayXd scale = after.normal.diagonal().array().sqrt();
-  return ((after.solution.x - before.solution.x).array().abs() * scale <= kAtRest * threshold)
+  return ((after.solution.x - before.solution.x).array().abs() * scale <= kConverged * threshold)
       .all();
 }
 

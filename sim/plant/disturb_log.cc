@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/foundation/low_pass.h"
+#include "models/friction/sign.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-double Sign(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
 /// What happened since the last change of direction.
 class Direction {
@@ -230,7 +229,7 @@ VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
   }
 
   // what acts whatever the direction
-  VectorXd torque = velocity.unaryExpr(&Sign).cwiseProduct(levels);
+  VectorXd torque = velocity.unaryExpr(&Sign<double>).cast<double>().cwiseProduct(levels);
   torque += hidden.spring.stiffness * position;
   if (hidden.inertia.inertia != 0) {
     const bool known = acceleration.size() > 0;

@@ -54,6 +54,8 @@ endif()
 
 add_library(warmjoint_settings INTERFACE)
 target_include_directories(warmjoint_settings INTERFACE ${PROJECT_SOURCE_DIR})
+# a library takes of its parts what it uses, and calls within it are direct
+target_compile_options(warmjoint_settings INTERFACE -ffunction-sections -fdata-sections -fno-semantic-interposition)
 # no contraction: the same source gives the same bits on every x86-64, with or without FMA
 target_compile_options(warmjoint_settings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
