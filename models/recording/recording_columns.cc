@@ -69,7 +69,8 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
 }
 
 [[noreturn]] void RefuseMissing(const std::vector<const RecordingColumn*>& missing,
-                                const std::vector<std::string>& names, const Place& place) {
+                                const std::vector<std::string>& names, const Place& place,
+                                const std::string& there) {
   // what is lacking, and which names may be meant
   std::vector<std::string> lacking, remedy;
   for (const RecordingColumn* column : missing) {
@@ -84,7 +85,7 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
            fmt::join(lacking, " and no "), Excerpt(fmt::format("{}", fmt::join(names, ","))));
   }
   Refuse(place, "has no column {}; it has: {}. Name them: --map {}", fmt::join(lacking, " and no "),
-         ExcerptOfList(names), fmt::join(remedy, ","));
+         there.empty() ? ExcerptOfList(names) : there, fmt::join(remedy, ","));
 }
 
 /// Index of `theirs`, or the number of names where it is not there.
@@ -187,7 +188,8 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
 }
 
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
-                                      const ReadSettings& layout, const Place& place) {
+                                      const ReadSettings& layout, const Place& place,
+                                      const std::string& there) {
   // options that name no column of ours are mistakes, whatever the file holds
   CheckNames(layout.map, "--map", place);
   CheckNames(layout.unit, "--unit", place);
@@ -225,7 +227,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
              unit->second, column.name);
     }
   }
-  if (!missing.empty()) RefuseMissing(missing, names, place);
+  if (!missing.empty()) RefuseMissing(missing, names, place, there);
   return sources;
 }
 
