@@ -1,10 +1,15 @@
-// warmjoint compare RUN: the leaderboard.
+// warmjoint compare RUN: the leaderboard; compare estimate.json truth.json: an estimate beside its truth.
 #include <fmt/format.h>
+#include <warmjoint/estimate.h>
+#include <warmjoint/score.h>
 
+#include <filesystem>
 #include <memory>
 
+#include "models/friction/friction_json.h"
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
+#include "tools/cli/estimate_table.h"
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
@@ -27,7 +32,28 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   return boards;
 }
 
+/// An estimate beside the friction of a truth file, or of a friction file.
+ComparedEstimate CompareWithTruth(const std::string& estimate_file, const std::string& truth) {
+  const Estimate estimate = ReadEstimate(estimate_file);
+  const Friction friction = ReadFriction(truth);
+  if (estimate.friction && !estimate.friction->torque_unit.empty()) {
+    Refuse({estimate_file}, "is in {}, and its truth in {}; identify with --torque-constant",
+           estimate.friction->torque_unit, kTorqueUnit.For(JointKind::rotary));
+  }
+  ComparedEstimate compared{estimate.identifier, estimate.status,
+                            ScoreParameters(estimate, friction), 0};
+  compared.npe = ParameterError(compared.parameters);
+  return compared;
+}
+
 ExitStatus Compare(const CompareArguments& arguments) {
+  const std::vector<std::string>& files = arguments.runs;
+  if (std::filesystem::is_regular_file(files[0])) {
+    if (files.size() != 2)
+      Refuse({files[0]}, "is no run; give an estimate and its truth, two files");
+    fmt::print("{}", FormatCompared(CompareWithTruth(files[0], files[1]), arguments.format));
+    return ExitStatus::done;
+  }
   const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);
   // the format that was asked for; several runs stand in one table
   for (const BoardFormat& format : BoardFormats()) {
@@ -42,8 +68,10 @@ ExitStatus Compare(const CompareArguments& arguments) {
 Command AddCompareCommand(CLI::App& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
-      program.add_subcommand("compare", "Leaderboard of a run: which identifier to trust");
-  parser->add_option("RUN", arguments->runs, "run directories")->type_name("RUN")->required();
+      program.add_subcommand("compare", "Leaderboard of a run, or an estimate beside its truth");
+  parser->add_option("RUN", arguments->runs, "run directories, or estimate.json and truth.json")
+      ->type_name("RUN")
+      ->required();
 
   std::vector<std::string> names;
   for (const BoardFormat& format : BoardFormats()) names.push_back(format.name);

@@ -8,6 +8,7 @@
 
 #include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/serialize.h"
 #include "tools/figures/remarks.h"
 #include "tools/figures/shown_parameters.h"
 #include "tools/terminal/table.h"
@@ -118,7 +119,47 @@ Colour ColourOf(Status status) {
   return status == Status::bad_data ? Colour::red : Colour::yellow;
 }
 
+Table ComparisonTable(const ComparedEstimate& compared) {
+  Table table{{"parameter", "estimate", "95 % interval", "truth", "in it", "error"}, {}};
+  for (const ParameterScore& one : compared.parameters) {
+    table.rows.push_back(
+        {one.name, one.estimated ? fmt::format("{:.6g}", one.estimate) : "not estimated",
+         one.interval95 ? Interval(*one.interval95) : "-", fmt::format("{:.6g}", one.truth),
+         !one.covered   ? "-"
+         : *one.covered ? "yes"
+                        : "no",
+         one.relative_error ? fmt::format("{:+.3g} %", 100 * *one.relative_error) : "-"});
+  }
+  return table;
+}
+
+std::string ComparisonToCsv(const ComparedEstimate& compared) {
+  const auto cell = [](const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "";
+  };
+  // an empty cell is what is not there
+  std::string csv = "parameter,estimate,lower95,upper95,truth,covered,relative_error\n";
+  for (const ParameterScore& one : compared.parameters) {
+    const auto& interval = one.interval95;
+    csv += fmt::format("{},{},{},{},{},{},{}\n", one.name, one.estimated ? cell(one.estimate) : "",
+                       interval ? cell((*interval)[0]) : "", interval ? cell((*interval)[1]) : "",
+                       one.truth, one.covered ? fmt::format("{:d}", *one.covered) : "",
+                       cell(one.relative_error));
+  }
+  return csv;
+}
+
 }  // namespace
+
+std::string FormatCompared(const ComparedEstimate& compared, const std::string& format) {
+  if (format == "json") return WriteFields(compared).dump(2) + "\n";
+  if (format == "csv") return ComparisonToCsv(compared);
+  const Table table = ComparisonTable(compared);
+  return fmt::format(
+      "{}: {}. NPE {:.3g} %: relative error over all parameters of the truth (26).\n\n{}",
+      Printable(compared.identifier), NameOf(compared.status), 100 * compared.npe,
+      format == "text" ? TableToText(table, 1) : TableToMarkdown(table, 1));
+}
 
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail) {
