@@ -202,9 +202,7 @@ struct PreparedLog::Maker {
     ConstantSpeed found = FindConstantSpeed(measurements);
     if (measurements.position_integrated) {
       TakeOptions(holds, measurements.time, found.selection);
-      Log log = OfColumn(std::move(measurements), std::move(found.selection));
-      log.warnings.emplace_back(kNoPositions);
-      return log;
+      return OfColumn(std::move(measurements), std::move(found.selection));
     }
     if (auto log = WithoutCoarseColumn(measurements, found.selection, holds)) {
       return std::move(*log);

@@ -58,9 +58,8 @@ def simulate(scenario: str | os.PathLike[str] | Mapping[str, Any], *, seed: int 
 
 def score(estimate: Estimate, truth: Simulated | Mapping[str, Any], log: Log | None = None) -> dict[str, Any]:
     """An estimate against the truth: {continuous{parameter: {truth, estimate, estimated, interval95, covered, relative_error,
-    bound}}, discrete,
-    npe_continuous, npe_discrete, ...}. bound: Cramer-Rao standard deviation, SI. log: that it was identified from, where the
-    estimate does not know it."""
+    bound}}, discrete, npe_continuous, npe_discrete, ...}. bound: Cramer-Rao standard deviation, SI. log: that it was identified
+    from, where the estimate does not know it."""
     known = truth.truth if isinstance(truth, Simulated) else dict(truth)
     one = log or estimate.log or (truth.log if isinstance(truth, Simulated) else None)
     if one is None:
