@@ -176,8 +176,9 @@ def make_containers(folder):
     struct = {"t": time, "arm": {"q": np.stack([0 * time, log["position"]], axis=1), "dq": np.stack([0 * time, log["velocity"]]),
                                  "tau": log["torque"]}, "pid": [1.0, 2, 3], "load": [], "name": "elbow"}
     scipy.io.savemat(place / "struct.mat", {"rec": struct, "version": 3})
-    scipy.io.savemat(place / "cells.mat", {"time": time, "q": np.array([log["position"], log["torque"]], object), "s": [struct, struct]},
-                     do_compression=True)
+    cells = np.empty((1, 2), object)
+    cells[0, :] = log["position"], log["torque"]
+    scipy.io.savemat(place / "cells.mat", {"time": time, "q": cells, "s": [struct, struct]}, do_compression=True)
 
 
 def write(folder):
