@@ -81,18 +81,13 @@ std::string ReadTextAttribute(const H5::H5Object& object, const std::string& nam
 /// Adds a dataset of numbers, or one that tools/convert reads.
 void AddDataSet(const H5::DataSet& data, const std::string& path, FileTree& tree) {
   const H5T_class_t type = data.getTypeClass();
-  const bool number = type == H5T_FLOAT || type == H5T_INTEGER;
-  if (!number && type != H5T_COMPOUND && type != H5T_REFERENCE) return;
-  const H5::DataSpace space = data.getSpace();
-  std::vector<hsize_t> shape(static_cast<std::size_t>(space.getSimpleExtentNdims()));
+  const bool numbers = type == H5T_FLOAT || type == H5T_INTEGER;
+  if (!numbers && type != H5T_COMPOUND && type != H5T_REFERENCE) return;
+  std::vector<hsize_t> shape(static_cast<std::size_t>(data.getSpace().getSimpleExtentNdims()));
   if (shape.empty()) return;
-  space.getSimpleExtentDims(shape.data());
-  tree.objects.push_back({path,
-                          {shape.begin(), shape.end()},
-                          number                 ? ""
-                          : type == H5T_COMPOUND ? "compound"
-                                                 : "reference",
-                          ReadTextAttribute(data, "unit")});
+  data.getSpace().getSimpleExtentDims(shape.data());
+  tree.objects.push_back(
+      {path, {shape.begin(), shape.end()}, numbers, ReadTextAttribute(data, "unit")});
 }
 
 /// Adds what a group holds, groups in it included. left: objects that may still be looked at.

@@ -123,24 +123,7 @@ std::string TextOf(const matvar_t& variable) {
   return text;
 }
 
-/// What messages call a variable that is no array of numbers; empty where it is not worth a word.
-std::string KindOf(const matvar_t& variable) {
-  switch (variable.class_type) {
-    case MAT_C_CELL:
-      return "cell";
-    case MAT_C_STRUCT:
-      return "struct";
-    case MAT_C_SPARSE:
-      return "sparse";
-    case MAT_C_OBJECT:
-    case MAT_C_OPAQUE:
-      return "object: save its Time and Data";
-    default:
-      return IsNumber(variable) || !variable.isComplex ? "" : "complex";
-  }
-}
-
-/// Adds a variable, and the fields of structs in it.
+/// Adds a variable, and the fields of structs in it, but no texts and scalars.
 void AddVariable(matvar_t& variable, const std::string& path, int depth, FileTree& tree) {
   if (tree.objects.size() >= kMostObjects || depth > kDeepestGroup) return;
   if (IsStruct(variable)) {
@@ -149,10 +132,10 @@ void AddVariable(matvar_t& variable, const std::string& path, int depth, FileTre
     });
     return;
   }
-  const std::string kind = KindOf(variable);
-  if (kind.empty() && (!IsNumber(variable) || CountOf(variable) < 2)) return;
+  const bool numbers = IsNumber(variable);
+  if (variable.class_type == MAT_C_CHAR || (numbers && CountOf(variable) < 2)) return;
   const auto* dims = variable.dims;
-  tree.objects.push_back({path, {dims, dims + (dims ? variable.rank : 0)}, kind, ""});
+  tree.objects.push_back({path, {dims, dims + (dims ? variable.rank : 0)}, numbers});
 }
 
 /// joint, gear and units, as far as the file holds them.
@@ -199,7 +182,6 @@ FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layou
   }
   // what the file holds, without any values yet
   FileTree tree;
-  tree.separator = '.';
   while (const Variable variable{Mat_VarReadNextInfo(file.get())}) {
     if (variable->name) AddVariable(*variable, variable->name, 0, tree);
   }

@@ -31,7 +31,7 @@ const Values* Get(const Measurements& measurements) {
 
 /// The position, where it was logged.
 const Values* LoggedPosition(const Measurements& measurements) {
-  return measurements.position_integrated ? nullptr : &measurements.position;
+  return measurements.position_integrated ? nullptr : Get<&Measurements::position>(measurements);
 }
 
 template <auto member>

@@ -1,7 +1,6 @@
 // warmjoint compare RUN: the leaderboard; compare estimate.json truth.json: an estimate beside its truth.
 #include <fmt/format.h>
 #include <warmjoint/estimate.h>
-#include <warmjoint/score.h>
 
 #include <filesystem>
 #include <memory>
@@ -32,18 +31,15 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   return boards;
 }
 
-/// An estimate beside the friction of a truth file, or of a friction file.
-ComparedEstimate CompareWithTruth(const std::string& estimate_file, const std::string& truth) {
-  const Estimate estimate = ReadEstimate(estimate_file);
-  const Friction friction = ReadFriction(truth);
+/// Of an estimate file and a truth file, or a friction file.
+std::string CompareWithTruth(const std::string& file, const std::string& truth,
+                             const std::string& format) {
+  const Estimate estimate = ReadEstimate(file);
   if (estimate.friction && !estimate.friction->torque_unit.empty()) {
-    Refuse({estimate_file}, "is in {}, and its truth in {}; identify with --torque-constant",
-           estimate.friction->torque_unit, kTorqueUnit.For(JointKind::rotary));
+    Refuse({file}, "is in {} and a truth is not; identify with --torque-constant",
+           estimate.friction->torque_unit);
   }
-  ComparedEstimate compared{estimate.identifier, estimate.status,
-                            ScoreParameters(estimate, friction), 0};
-  compared.npe = ParameterError(compared.parameters);
-  return compared;
+  return FormatCompared(estimate, ReadFriction(truth), format);
 }
 
 ExitStatus Compare(const CompareArguments& arguments) {
@@ -51,7 +47,7 @@ ExitStatus Compare(const CompareArguments& arguments) {
   if (std::filesystem::is_regular_file(files[0])) {
     if (files.size() != 2)
       Refuse({files[0]}, "is no run; give an estimate and its truth, two files");
-    fmt::print("{}", FormatCompared(CompareWithTruth(files[0], files[1]), arguments.format));
+    fmt::print("{}", CompareWithTruth(files[0], files[1], arguments.format));
     return ExitStatus::done;
   }
   const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);

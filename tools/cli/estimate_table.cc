@@ -1,6 +1,7 @@
 #include "tools/cli/estimate_table.h"
 
 #include <fmt/ranges.h>
+#include <warmjoint/score.h>
 
 #include <algorithm>
 #include <array>
@@ -119,45 +120,48 @@ Colour ColourOf(Status status) {
   return status == Status::bad_data ? Colour::red : Colour::yellow;
 }
 
-Table ComparisonTable(const ComparedEstimate& compared) {
-  Table table{{"parameter", "estimate", "95 % interval", "truth", "in it", "error"}, {}};
-  for (const ParameterScore& one : compared.parameters) {
-    table.rows.push_back(
-        {one.name, one.estimated ? fmt::format("{:.6g}", one.estimate) : "not estimated",
-         one.interval95 ? Interval(*one.interval95) : "-", fmt::format("{:.6g}", one.truth),
-         !one.covered   ? "-"
-         : *one.covered ? "yes"
-                        : "no",
-         one.relative_error ? fmt::format("{:+.3g} %", 100 * *one.relative_error) : "-"});
+/// digits: of numbers.
+Table ComparisonTable(const std::vector<ParameterScore>& parameters, int digits) {
+  Table table{{"parameter", "estimate", "lower95", "upper95", "truth", "in interval", "error %"},
+              {}};
+  const auto cell = [digits](const std::optional<double>& value) {
+    return value ? fmt::format("{:.{}g}", *value, digits) : "-";
+  };
+  // what is not known is a dash
+  for (const auto& [name, truth, estimate, estimated, interval, covered, error, bound] :
+       parameters) {
+    table.rows.push_back({name, estimated ? cell(estimate) : "-",
+                          interval ? cell((*interval)[0]) : "-",
+                          interval ? cell((*interval)[1]) : "-", cell(truth),
+                          !covered   ? "-"
+                          : *covered ? "yes"
+                                     : "no",
+                          error ? cell(100 * *error) : "-"});
   }
   return table;
 }
 
-std::string ComparisonToCsv(const ComparedEstimate& compared) {
-  const auto cell = [](const std::optional<double>& value) {
-    return value ? fmt::format("{}", *value) : "";
-  };
-  // an empty cell is what is not there
-  std::string csv = "parameter,estimate,lower95,upper95,truth,covered,relative_error\n";
-  for (const ParameterScore& one : compared.parameters) {
-    const auto& interval = one.interval95;
-    csv += fmt::format("{},{},{},{},{},{},{}\n", one.name, one.estimated ? cell(one.estimate) : "",
-                       interval ? cell((*interval)[0]) : "", interval ? cell((*interval)[1]) : "",
-                       one.truth, one.covered ? fmt::format("{:d}", *one.covered) : "",
-                       cell(one.relative_error));
-  }
-  return csv;
-}
-
 }  // namespace
 
-std::string FormatCompared(const ComparedEstimate& compared, const std::string& format) {
-  if (format == "json") return WriteFields(compared).dump(2) + "\n";
-  if (format == "csv") return ComparisonToCsv(compared);
-  const Table table = ComparisonTable(compared);
+std::string FormatCompared(const Estimate& estimate, const Friction& truth,
+                           const std::string& format) {
+  const std::vector<ParameterScore> parameters = ScoreParameters(estimate, truth);
+  const double npe = ParameterError(parameters);
+  if (format == "json") {
+    Tree json{
+        {"identifier", estimate.identifier}, {"status", StatusName(estimate.status)}, {"npe", npe}};
+    for (const ParameterScore& one : parameters) json["parameters"][one.name] = WriteFields(one);
+    return json.dump(2) + "\n";
+  }
+  const Table table = ComparisonTable(parameters, format == "csv" ? 15 : 6);
+  if (format == "csv") {
+    std::string csv = fmt::format("{}\n", fmt::join(table.header, ","));
+    for (const auto& row : table.rows) csv += fmt::format("{}\n", fmt::join(row, ","));
+    return csv;
+  }
   return fmt::format(
       "{}: {}. NPE {:.3g} %: relative error over all parameters of the truth (26).\n\n{}",
-      Printable(compared.identifier), NameOf(compared.status), 100 * compared.npe,
+      Printable(estimate.identifier), StatusName(estimate.status), 100 * npe,
       format == "text" ? TableToText(table, 1) : TableToMarkdown(table, 1));
 }
 

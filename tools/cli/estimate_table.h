@@ -3,7 +3,6 @@
 
 #include <warmjoint/estimate.h>
 #include <warmjoint/recording.h>
-#include <warmjoint/score.h>
 
 #include <string>
 #include <vector>
@@ -32,24 +31,9 @@ struct EstimateRow {
 /// unit: of the torque.
 std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit);
 
-/// An estimate beside the truth.
-struct ComparedEstimate {
-  std::string identifier;
-  Status status = Status::ok;
-  std::vector<ParameterScore> parameters;
-  double npe = 0;
-
-  template <class A>
-  void Serialize(A* a) {
-    a->Field("identifier", &identifier);
-    a->Field("status", &status);
-    a->Named("parameters", &parameters);
-    a->Field("npe", &npe);
-  }
-};
-
-/// A row for each parameter of the truth: estimate, 95 % interval, truth, whether the interval holds it, relative error.
-/// format: text, markdown, json or csv.
-std::string FormatCompared(const ComparedEstimate& compared, const std::string& format);
+/// An estimate beside the truth, with the NPE and a row for each parameter of the truth: estimate, 95 % interval, truth,
+/// whether the interval holds it, relative error. format: text, markdown, json or csv.
+std::string FormatCompared(const Estimate& estimate, const Friction& truth,
+                           const std::string& format);
 
 }  // namespace warmjoint

@@ -111,9 +111,7 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
   Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
   // gravity and maps need the positions that a velocity alone does not tell
   const auto over_position = [](const FrictionMap& map) {
-    return std::ranges::any_of(map.axes, [](const MapAxis& axis) {
-      return axis.quantity == MapQuantity::position || axis.quantity == MapQuantity::motor_position;
-    });
+    return FindAxis(map, MapQuantity::position) || FindAxis(map, MapQuantity::motor_position);
   };
   const bool needs =
       stored.model.gravity || std::ranges::any_of(stored.model.friction.maps, over_position);

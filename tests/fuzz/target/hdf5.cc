@@ -13,7 +13,7 @@ constexpr double kPatience =
     0.05;  // s; some inputs make the library run for ever, good ones take 5 ms
 
 void Read(std::string_view bytes) {
-  const fuzz::ScratchFile file(bytes);
+  const fuzz::ScratchFile file(bytes, ".h5");
   // half of the inputs by columns of matrices in groups
   ReadSettings layout;
   if (std::hash<std::string_view>()(bytes) % 2 == 1) {

@@ -12,7 +12,7 @@ using fuzz::Require;
 constexpr double kPatience = 0.25;  // s
 
 void Read(std::string_view bytes) {
-  const fuzz::ScratchFile file(bytes);
+  const fuzz::ScratchFile file(bytes, ".mat");
   // half of the inputs by columns of matrices in groups
   ReadSettings layout;
   if (std::hash<std::string_view>()(bytes) % 2 == 1) {
