@@ -10,6 +10,7 @@
 #include "identification/report/report_fit.h"
 #include "identification/report/tell_preparation.h"
 #include "identification/seen_samples.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -75,6 +76,7 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
   // how the samples were prepared, of fits at constant speed
   const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
   if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
+  if (input.measurements.position_integrated) estimate.warnings.emplace_back(kNoPositions);
   if (!steady && input.log.absurd()) estimate.warnings.push_back(*input.log.absurd());
   return estimate;
 }

@@ -118,7 +118,8 @@ std::vector<FittedGravity> GravityKinds(const IdentifierInput& input) {
   if (asked) return {*asked};
   // a place that never changes tells nothing of gravity
   const Eigen::VectorXd& position = input.measurements.position;
-  if (!position.allFinite() || position.maxCoeff() == position.minCoeff())
+  if (input.measurements.position_integrated || !position.allFinite() ||
+      position.maxCoeff() == position.minCoeff())
     return {FittedGravity::none};
   if (input.measurements.joint == JointKind::linear)
     return {FittedGravity::none, FittedGravity::paired};
@@ -164,8 +165,10 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
   };
   const Structure warm{EnergyMl()};
   for (const FittedGravity kind : kinds) {
-    add({PositionRidge()}, kernels.position, kind);
-    add(warm.With(WarmMapOptions{{}, WarmMap::map}), kernels.position, kind);
+    if (!input.measurements.position_integrated) {
+      add({PositionRidge()}, kernels.position, kind);
+      add(warm.With(WarmMapOptions{{}, WarmMap::map}), kernels.position, kind);
+    }
     // ripple of the motor, where its angle is known
     if (!knows_motor) continue;
     add({MotorRidge()}, kernels.motor, kind);

@@ -81,7 +81,9 @@ std::optional<double> Tournament::LagOfBest(const IdentifierInput& all) const {
 bool Tournament::MayHaveMap() const {
   const Trial* best = BestTrial();
   if (!best) return true;
-  const MapPoints points = Kept(PointsOf(log_.view.measurements), best->fit.used);
+  const Measurements& m = log_.view.measurements;
+  if (m.position_integrated) return KnowsMotorAngle(m);
+  const MapPoints points = Kept(PointsOf(m), best->fit.used);
   return LeavesOverPlace(best->fit.residual(), points);
 }
 
@@ -101,8 +103,10 @@ ChosenKernels Tournament::KernelsBesideBest(FittedGravity gravity) const {
         EnergyMl().options.With(GravityOption{gravity}).With(WarmMapOptions{{}, position});
     return MapBesideEnergy(quick_.With(options), energy);
   };
-  ChosenKernels kernels{chosen(WarmMap::map), {}};
-  if (KnowsMotorAngle(log_.view.measurements)) kernels.motor = chosen(WarmMap::motor);
+  ChosenKernels kernels;
+  const Measurements& m = log_.view.measurements;
+  if (!m.position_integrated) kernels.position = chosen(WarmMap::map);
+  if (KnowsMotorAngle(m)) kernels.motor = chosen(WarmMap::motor);
   return kernels;
 }
 

@@ -198,6 +198,7 @@ std::optional<AngleAxis> MotorAxis(const Measurements& m) {
 /// The travel of the kept samples, down to periods of which half of the samples see two a period or more: at speeds that
 /// differ, faster ones tell them, too.
 std::optional<AngleAxis> PositionAxis(const FittedModel& model, const Measurements& m) {
+  if (m.position_integrated) return std::nullopt;
   const Selection& selection = model.selection;
   const VectorXd kept = Kept(m.position, selection);
   VectorXd speeds = Kept(m.velocity, selection).cwiseAbs();

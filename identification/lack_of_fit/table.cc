@@ -135,8 +135,8 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        nullptr, Say<kFading>, AgainstFading, "Does the pattern over position change with warmth?",
        "The pattern over position fades or grows as the joint warms: let the map depend on "
        "energy."},
-      {"position", "the travel is too short for the speed", sample, independent, of_effect, nullptr,
-       Position, AgainstPosition, "Does it repeat over position?",
+      {"position", "the log has no positions, or too short a travel for its speed", sample,
+       independent, of_effect, nullptr, Position, AgainstPosition, "Does it repeat over position?",
        "Friction varies over position: try --identifier position-ridge, with motion over the whole "
        "travel."},
       {"motor_angle", "the log has neither a gear nor the column motor_position", sample,

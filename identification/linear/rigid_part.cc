@@ -99,6 +99,12 @@ void PrepareGravity(const IdentifierInput& input, FittedGravity asked, RigidPart
     fit.why = "gravity sincos needs an angle and the joint is linear; use gravity paired";
     return;
   }
+  if (m.position_integrated) {
+    fit.status = Status::not_identifiable;
+    fit.why =
+        "the log has no positions, and gravity depends on them; log them, or leave gravity out";
+    return;
+  }
   if (!m.position.allFinite()) {
     fit.status = Status::bad_data;
     fit.why = "position is not finite throughout, and gravity depends on it; repair it";

@@ -47,6 +47,14 @@ std::optional<std::string> Unseen(MapQuantity quantity, const Measurements& meas
     return "the recording has no column load; log the load that the joint transmits, or use "
            "energy-map";
   }
+  const bool logged = quantity == MapQuantity::motor_position && measurements.motor_position;
+  if (measurements.position_integrated && !logged &&
+      (quantity == MapQuantity::position || quantity == MapQuantity::motor_position)) {
+    return fmt::format(
+        "the log has no positions, and a map over {} needs them; log them, or use nominal-ls or "
+        "energy-ml",
+        NameOf(quantity));
+  }
   return CannotCarry(quantity, points);
 }
 

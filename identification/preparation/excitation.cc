@@ -126,6 +126,7 @@ Judged WarmUp(const ShownMotion& e) {
 
 Judged Ripple(const ShownMotion& e) {
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (e.measurements.position_integrated) return {false, "the log has no positions; log them"};
   // shortest period seen at the fastest speed: four samples on each
   const double finest = 4 * e.fastest() * e.sampling.step;
   const double travel = e.motion.upper - e.motion.lower;
@@ -142,7 +143,9 @@ Judged Ripple(const ShownMotion& e) {
 Judged MotorRipple(const ShownMotion& e) {
   const double gear = std::abs(e.measurements.gear);
   if (!KnowsMotorAngle(e.measurements)) {
-    return {false, "the gear is not known; give --gear or a column motor_position"};
+    return {false, e.measurements.position_integrated
+                       ? "the log has no positions; log them"
+                       : "the gear is not known; give --gear or a column motor_position"};
   }
   const double turns =
       (e.motion.upper - e.motion.lower) * gear / (2 * std::numbers::pi);  // of the motor

@@ -196,10 +196,14 @@ struct PreparedLog::Maker {
     return log;
   }
 
-  /// A log whose velocity column is held against its positions: these replace it where they contradict it, and tell
-  /// the ways between its segments where they know more of these.
+  /// A log whose velocity column is held against its positions, if it has any: these replace it where they contradict it,
+  /// and tell the ways between its segments where they know more of these.
   static Log OfColumnAndPositions(Measurements measurements, const PrepareSettings& holds) {
     ConstantSpeed found = FindConstantSpeed(measurements);
+    if (measurements.position_integrated) {
+      TakeOptions(holds, measurements.time, found.selection);
+      return OfColumn(std::move(measurements), std::move(found.selection));
+    }
     if (auto log = WithoutCoarseColumn(measurements, found.selection, holds)) {
       return std::move(*log);
     }

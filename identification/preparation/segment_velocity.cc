@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "models/foundation/robust_noise.h"
@@ -96,6 +97,8 @@ std::vector<Steady> SteadySegments(const Measurements& m, const Selection& selec
     if (times.count < 3) continue;
     all.push_back({&segment, times, FitLine(m, m.velocity, selection, segment, times),
                    FitLine(m, m.position, selection, segment, times)});
+    // an integral of the velocity tells it no better
+    if (m.position_integrated) all.back().position.strays = std::numeric_limits<double>::infinity();
   }
   return all;
 }

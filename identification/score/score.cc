@@ -26,11 +26,13 @@ ParameterScore ScoreOne(std::string_view name, double truth, const Estimate& est
   if (const EstimatedParameter* found = estimate.Find(score.name)) {
     score.estimated = true;
     score.estimate = found->value;
+    score.interval95 = found->interval95;
     if (found->interval95) {
       const auto [lower, upper] = *found->interval95;
       score.covered = lower <= truth && truth <= upper;
     }
   }
+  if (truth != 0) score.relative_error = (score.estimate - truth) / std::abs(truth);
   return score;
 }
 
@@ -41,16 +43,6 @@ std::vector<ParameterScore> Relative(const std::vector<ParameterScore>& all) {
     if (one.truth != 0) relative.push_back(one);
   }
   return relative;
-}
-
-double Npe(const std::vector<ParameterScore>& all) {
-  const std::vector<ParameterScore> scores = Relative(all);
-  Eigen::VectorXd estimate(scores.size()), truth(scores.size());
-  for (size_t i = 0; i < scores.size(); ++i) {
-    estimate[i] = scores[i].estimate;
-    truth[i] = scores[i].truth;
-  }
-  return NormalisedParameterError(estimate, truth);
 }
 
 double BoundNpe(const std::vector<ParameterScore>& all) {
@@ -69,6 +61,28 @@ Eigen::MatrixXd Nuisance(const Estimate& estimate, const Measurements& m) {
 
 }  // namespace
 
+std::vector<ParameterScore> ScoreParameters(const Estimate& estimate, const Friction& truth) {
+  // the law, then the warming
+  std::vector<ParameterScore> scores;
+  for (const ParameterInfo& info : FindLaw(truth.law)->parameters) {
+    scores.push_back(ScoreOne(info.name, truth.parameters.at(std::string(info.name)), estimate));
+  }
+  if (!truth.thermal) return scores;
+  scores.push_back(ScoreOne(kGainName, truth.thermal->gain, estimate));
+  scores.push_back(ScoreOne(kTimeConstantName, truth.thermal->time_constant, estimate));
+  return scores;
+}
+
+double ParameterError(const std::vector<ParameterScore>& parameters) {
+  const std::vector<ParameterScore> scores = Relative(parameters);
+  Eigen::VectorXd estimate(scores.size()), truth(scores.size());
+  for (size_t i = 0; i < scores.size(); ++i) {
+    estimate[i] = scores[i].estimate;
+    truth[i] = scores[i].truth;
+  }
+  return NormalisedParameterError(estimate, truth);
+}
+
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
   const bool any = Find(Role::inertia, estimate) && !Find(LawPart::bristle, estimate);
   return any ? MovingView(log) : log.taken();
@@ -76,23 +90,15 @@ const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
 
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth) {
-  // the law, alike in both parametrisations
   Score score;
-  for (const ParameterInfo& info : FindLaw(truth.friction.law)->parameters) {
-    const double value = truth.friction.parameters.at(std::string(info.name));
-    score.continuous.push_back(ScoreOne(info.name, value, estimate));
-  }
-  score.discrete = score.continuous;
+  score.continuous = score.discrete = ScoreParameters(estimate, truth.friction);
   const double step = MedianStep(measurements.time);
   // the warming, as it is and over one sampling interval
   if (truth.friction.thermal) {
-    const Thermal& thermal = *truth.friction.thermal;
-    score.continuous.push_back(ScoreOne(kGainName, thermal.gain, estimate));
-    score.continuous.push_back(ScoreOne(kTimeConstantName, thermal.time_constant, estimate));
-
-    const DiscreteThermal discrete = Discretise(thermal, step);
-    score.discrete.push_back(ScoreOne(kDiscreteGainName, discrete.gain, estimate));
-    score.discrete.push_back(ScoreOne(kPoleName, discrete.pole, estimate));
+    const DiscreteThermal discrete = Discretise(*truth.friction.thermal, step);
+    const std::size_t law = score.discrete.size() - 2;
+    score.discrete[law] = ScoreOne(kDiscreteGainName, discrete.gain, estimate);
+    score.discrete[law + 1] = ScoreOne(kPoleName, discrete.pole, estimate);
   }
 
   // the best that any unbiased estimate could do; E(0) is unknown where it was estimated
@@ -105,8 +111,8 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
   }
 
   // all parameters together
-  score.npe_continuous = Npe(score.continuous);
-  score.npe_discrete = Npe(score.discrete);
+  score.npe_continuous = ParameterError(score.continuous);
+  score.npe_discrete = ParameterError(score.discrete);
   score.bound_npe_continuous = BoundNpe(score.continuous);
   score.bound_npe_discrete = BoundNpe(score.discrete);
   return score;

@@ -8,6 +8,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
+#include "models/recording/measurements.h"
 #include "models/recording/unwrap.h"
 
 namespace warmjoint {
@@ -72,6 +73,18 @@ void CheckCourse(const RawColumns& raw, const Measurements& measurements) {
   CheckTorque(raw, measurements);
 }
 
+/// The integral of the velocity from 0, straight between samples.
+void IntegrateVelocity(Measurements& measurements) {
+  const Eigen::VectorXd &time = measurements.time, &velocity = measurements.velocity;
+  Eigen::VectorXd& position = measurements.position;
+  position.setZero(measurements.size());
+  for (Eigen::Index i = 1; i < position.size(); ++i) {
+    position[i] = position[i - 1] + (time[i] - time[i - 1]) * (velocity[i] + velocity[i - 1]) / 2;
+  }
+  measurements.position_integrated = true;
+  measurements.notes.emplace_back(kNoPositions);
+}
+
 /// The factor on a column, 1 where none is given.
 double ScaleOf(const std::string& column, const ReadSettings& layout) {
   const auto given = layout.scale.find(column);
@@ -128,7 +141,11 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
 
   // all of it at once: at least three samples, in order, with a torque that changes
   CheckCourse(raw, measurements);
-  Unwrap(range, measurements);
+  if (measurements.position.size() == 0) {
+    IntegrateVelocity(measurements);
+  } else {
+    Unwrap(range, measurements);
+  }
   return measurements;
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "models/foundation/excerpt.h"
+#include "models/recording/arrays.h"
 #include "models/recording/recording_columns.h"
 #include "models/recording/units.h"
 
@@ -77,22 +78,46 @@ std::string ReadTextAttribute(const H5::H5Object& object, const std::string& nam
   return value.substr(0, value.find('\0'));
 }
 
-bool IsColumn(const H5::Group& root, const std::string& name) {
-  // one dimension of numbers
-  if (root.childObjType(name) != H5O_TYPE_DATASET) return false;
-  const H5::DataSet data = root.openDataSet(name);
+/// Adds a dataset of numbers, or one that tools/convert reads.
+void AddDataSet(const H5::DataSet& data, const std::string& path, FileTree& tree) {
   const H5T_class_t type = data.getTypeClass();
-  return data.getSpace().getSimpleExtentNdims() == 1 && (type == H5T_FLOAT || type == H5T_INTEGER);
+  const bool numbers = type == H5T_FLOAT || type == H5T_INTEGER;
+  if (!numbers && type != H5T_COMPOUND && type != H5T_REFERENCE) return;
+  std::vector<hsize_t> shape(static_cast<std::size_t>(data.getSpace().getSimpleExtentNdims()));
+  if (shape.empty()) return;
+  data.getSpace().getSimpleExtentDims(shape.data());
+  tree.objects.push_back(
+      {path, {shape.begin(), shape.end()}, numbers, ReadTextAttribute(data, "unit")});
 }
 
-Eigen::VectorXd ReadValues(const H5::DataSet& data, const std::string& name, const Place& place) {
-  // what a damaged file states is not believed
-  const hssize_t count = data.getSpace().getSimpleExtentNpoints();
-  if (count < 0 || count > kMostSamples) {
-    Refuse(place, "{} states {} samples; {} at most are read", Excerpt(name), count, kMostSamples);
+/// Adds what a group holds, groups in it included. left: objects that may still be looked at.
+void AddGroup(const H5::Group& group, const std::string& path, int depth, std::size_t& left,
+              FileTree& tree) {
+  for (hsize_t i = 0; i < group.getNumObjs() && left > 0; ++i, --left) {
+    const std::string name = group.getObjnameByIdx(i);
+    // a link to what is not there is no reason to refuse the rest
+    try {
+      const H5O_type_t type = group.childObjType(name);
+      if (type == H5O_TYPE_DATASET) AddDataSet(group.openDataSet(name), path + name, tree);
+      if (type != H5O_TYPE_GROUP || depth == kDeepestGroup) continue;
+      AddGroup(group.openGroup(name), path + name + "/", depth + 1, left, tree);
+    } catch (const H5::Exception&) {
+      continue;
+    }
   }
-  Eigen::VectorXd values(static_cast<Eigen::Index>(count));
-  data.read(values.data(), H5::PredType::NATIVE_DOUBLE);
+}
+
+/// One column, without the rest of its array.
+Eigen::VectorXd ReadValues(const H5::DataSet& data, const FileObject& array,
+                           const ArrayColumn& column) {
+  std::vector<hsize_t> start(array.shape.size(), 0), count(array.shape.size(), 1);
+  start[column.across] = static_cast<hsize_t>(column.index);
+  count[column.along] = static_cast<hsize_t>(column.count);
+  H5::DataSpace space = data.getSpace();
+  space.selectHyperslab(H5S_SELECT_SET, count.data(), start.data());
+  Eigen::VectorXd values(column.count);
+  data.read(values.data(), H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &count[column.along]),
+            space);
   return values;
 }
 
@@ -100,25 +125,17 @@ FileContent ReadColumns(const std::string& path, const ReadSettings& layout) {
   const H5::H5File file(path, H5F_ACC_RDONLY);
   const H5::Group root = file.openGroup("/");
   // what the file says of itself, without any values yet
-  FileContent content;
-  content.joint = ReadTextAttribute(root, "joint");
+  FileTree tree;
+  tree.joint = ReadTextAttribute(root, "joint");
   if (root.attrExists("gear")) {
-    content.gear.emplace();
-    root.openAttribute("gear").read(H5::PredType::NATIVE_DOUBLE, &*content.gear);
+    tree.gear.emplace();
+    root.openAttribute("gear").read(H5::PredType::NATIVE_DOUBLE, &*tree.gear);
   }
-  for (hsize_t i = 0; i < root.getNumObjs(); ++i) {
-    const std::string name = root.getObjnameByIdx(i);
-    if (!IsColumn(root, name)) continue;
-    content.columns.push_back({name, ReadTextAttribute(root.openDataSet(name), "unit"), {}});
-  }
-
-  // values of the columns that are asked for alone
-  const ReadSettings completed = WithAttributes(layout, content);
-  for (const ColumnSource& source : FindColumns(NamesOf(content), completed, {path})) {
-    FileColumn& column = content.columns[source.index];
-    column.values = ReadValues(root.openDataSet(column.name), column.name, {path});
-  }
-  return content;
+  std::size_t left = kMostObjects;
+  AddGroup(root, "", 0, left, tree);
+  return TakeColumns(tree, layout, {path}, [&](const FileObject& array, const ArrayColumn& column) {
+    return ReadValues(root.openDataSet(array.path), array, column);
+  });
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ Measurements JoinRecordings(std::vector<Measurements> recordings) {
     // column by column; one that may be absent is gone where either lacks it
     Append(next.time.array() - next.time[0] + begin, joined.time);
     Append(next.position, joined.position);
+    joined.position_integrated |= next.position_integrated;
     AppendVelocity(next, joined);
     Append(next.torque, joined.torque);
     Append(next.motor_position, "motor_position", next.source, joined, joined.motor_position);

@@ -6,16 +6,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <numeric>
+#include <string_view>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/excerpt.h"
-#include "models/recording/assemble.h"
-#include "models/recording/recording_columns.h"
+#include "models/recording/arrays.h"
 
 namespace warmjoint {
 namespace {
-
-constexpr const char* kUnits = "unit";  // struct of texts
 
 struct CloseMatlab {
   void operator()(mat_t* file) const { Mat_Close(file); }
@@ -40,11 +38,6 @@ bool IsNumber(const matvar_t& variable) {
          !variable.isComplex;
 }
 
-bool IsVector(const matvar_t& variable) {
-  return IsNumber(variable) && variable.rank == 2 && CountOf(variable) > 1 &&
-         std::min(variable.dims[0], variable.dims[1]) == 1;
-}
-
 bool IsStruct(const matvar_t& variable) {
   return variable.class_type == MAT_C_STRUCT && CountOf(variable) == 1;
 }
@@ -61,41 +54,54 @@ void ForEachField(matvar_t& variable,
   }
 }
 
+/// Every step-th number from `first` on.
 template <typename Number>
-Eigen::VectorXd Numbers(const matvar_t& variable, std::size_t count) {
-  const auto* numbers = static_cast<const Number*>(variable.data);
-  return Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, 1>>(
-             numbers, static_cast<Eigen::Index>(count))
+Eigen::VectorXd Numbers(const matvar_t& variable, Eigen::Index first, Eigen::Index step,
+                        Eigen::Index count) {
+  const auto* numbers = static_cast<const Number*>(variable.data) + first;
+  return Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, 1>, 0, Eigen::InnerStride<>>(
+             numbers, count, Eigen::InnerStride<>(step))
       .template cast<double>();
 }
 
-/// The elements of a variable that was read; empty where the library read less than it states.
-Eigen::VectorXd ValuesOf(const matvar_t& variable) {
-  const std::size_t count = CountOf(variable);
+/// One column of a variable that was read, whose first dimension runs fastest; empty where the library read less or
+/// other than it stated.
+Eigen::VectorXd ValuesOf(const matvar_t& variable, const ArrayColumn& column) {
+  const std::size_t all = CountOf(variable);
   const auto size = static_cast<std::size_t>(std::max(variable.data_size, 0));
-  if (!variable.data || size == 0 || variable.nbytes / size < count) return {};
+  if (!variable.data || size == 0 || variable.nbytes / size < all) return {};
+  // how far apart the samples are, and the columns
+  const auto distance = [&](std::size_t dimension) {
+    return static_cast<Eigen::Index>(std::accumulate(variable.dims, variable.dims + dimension,
+                                                     std::size_t{1}, std::multiplies<>()));
+  };
+  const auto rank = static_cast<std::size_t>(variable.rank);
+  if (column.along >= rank || column.across >= rank) return {};
+  const Eigen::Index step = distance(column.along), first = column.index * distance(column.across);
+  const Eigen::Index count = column.count;
+  if (count < 1 || first + (count - 1) * step >= static_cast<Eigen::Index>(all)) return {};
   // by the type that the file has
   switch (variable.class_type) {
     case MAT_C_DOUBLE:
-      return Numbers<double>(variable, count);
+      return Numbers<double>(variable, first, step, count);
     case MAT_C_SINGLE:
-      return Numbers<float>(variable, count);
+      return Numbers<float>(variable, first, step, count);
     case MAT_C_INT8:
-      return Numbers<std::int8_t>(variable, count);
+      return Numbers<std::int8_t>(variable, first, step, count);
     case MAT_C_UINT8:
-      return Numbers<std::uint8_t>(variable, count);
+      return Numbers<std::uint8_t>(variable, first, step, count);
     case MAT_C_INT16:
-      return Numbers<std::int16_t>(variable, count);
+      return Numbers<std::int16_t>(variable, first, step, count);
     case MAT_C_UINT16:
-      return Numbers<std::uint16_t>(variable, count);
+      return Numbers<std::uint16_t>(variable, first, step, count);
     case MAT_C_INT32:
-      return Numbers<std::int32_t>(variable, count);
+      return Numbers<std::int32_t>(variable, first, step, count);
     case MAT_C_UINT32:
-      return Numbers<std::uint32_t>(variable, count);
+      return Numbers<std::uint32_t>(variable, first, step, count);
     case MAT_C_INT64:
-      return Numbers<std::int64_t>(variable, count);
+      return Numbers<std::int64_t>(variable, first, step, count);
     case MAT_C_UINT64:
-      return Numbers<std::uint64_t>(variable, count);
+      return Numbers<std::uint64_t>(variable, first, step, count);
     default:
       return {};
   }
@@ -117,69 +123,54 @@ std::string TextOf(const matvar_t& variable) {
   return text;
 }
 
-/// One vector of the file: where it lies, and under which name it counts.
-struct Found {
-  std::string variable, field;  // field: empty for a variable at the top
-};
-
-/// All vectors of the file, and the names of the structs that hold some.
-struct Contents {
-  std::vector<Found> found;
-  std::vector<std::string> structs;
-};
-
-Contents FindVectors(mat_t* file) {
-  Contents contents;
-  while (const Variable variable{Mat_VarReadNextInfo(file)}) {
-    if (!variable->name) continue;
-    const std::string name = variable->name;
-    if (IsVector(*variable)) contents.found.push_back({name, ""});
-    // one level down, in structs other than that of the units
-    if (!IsStruct(*variable) || name == kUnits) continue;
-    const std::size_t before = contents.found.size();
-    ForEachField(*variable, [&](const std::string& field, const matvar_t& value) {
-      if (IsVector(value)) contents.found.push_back({name, field});
+/// Adds a variable, and the fields of structs in it, but no texts and scalars.
+void AddVariable(matvar_t& variable, const std::string& path, int depth, FileTree& tree) {
+  if (tree.objects.size() >= kMostObjects || depth > kDeepestGroup) return;
+  if (IsStruct(variable)) {
+    ForEachField(variable, [&](const std::string& field, matvar_t& value) {
+      AddVariable(value, path + "." + field, depth + 1, tree);
     });
-    if (contents.found.size() > before) contents.structs.push_back(name);
+    return;
   }
-  return contents;
-}
-
-/// Whether all vectors lie in one struct, whose name may be left out.
-bool IsOneStruct(const Contents& contents) {
-  const auto at_top = [](const Found& one) { return one.field.empty(); };
-  return contents.structs.size() == 1 && std::ranges::none_of(contents.found, at_top);
+  const bool numbers = IsNumber(variable);
+  if (variable.class_type == MAT_C_CHAR || (numbers && CountOf(variable) < 2)) return;
+  const auto* dims = variable.dims;
+  tree.objects.push_back({path, {dims, dims + (dims ? variable.rank : 0)}, numbers});
 }
 
 /// joint, gear and units, as far as the file holds them.
-void ReadAttributes(mat_t* file, FileContent& content) {
-  if (const Variable joint{Mat_VarRead(file, "joint")}) content.joint = TextOf(*joint);
+void ReadAttributes(mat_t* file, FileTree& tree) {
+  if (const Variable joint{Mat_VarRead(file, "joint")}) tree.joint = TextOf(*joint);
   const Variable gear{Mat_VarRead(file, "gear")};
-  if (gear && IsNumber(*gear)) {
-    const Eigen::VectorXd values = ValuesOf(*gear);
-    if (values.size() == 1) content.gear = values[0];
+  if (gear && IsNumber(*gear) && CountOf(*gear) == 1) {
+    const Eigen::VectorXd values = ValuesOf(*gear, {.count = 1});
+    if (values.size() == 1) tree.gear = values[0];
   }
-  // units by the names of their columns
-  const Variable units{Mat_VarRead(file, kUnits)};
+  // units by the last names of paths
+  const Variable units{Mat_VarRead(file, "unit")};
   if (!units || !IsStruct(*units)) return;
   ForEachField(*units, [&](const std::string& name, const matvar_t& value) {
-    for (FileColumn& column : content.columns) {
-      if (column.name == name) column.unit = TextOf(value);
+    for (FileObject& object : tree.objects) {
+      if (object.path.substr(object.path.rfind('.') + 1) == name) object.unit = TextOf(value);
     }
   });
 }
 
-/// The vector, from the variable or from its field.
-Eigen::VectorXd ReadVector(mat_t* file, const Found& found) {
-  const Variable variable{Mat_VarRead(file, found.variable.c_str())};
-  Eigen::VectorXd values;
-  // a vector at the top, or a field of a struct
-  if (variable && found.field.empty()) return ValuesOf(*variable);
-  if (!variable) return values;
-  ForEachField(*variable, [&](const std::string& name, const matvar_t& value) {
-    if (name == found.field && IsVector(value)) values = ValuesOf(value);
-  });
-  return values;
+/// The column of the variable or field of a path; empty where that is not as it was.
+Eigen::VectorXd ReadColumn(mat_t* file, const FileObject& array, const ArrayColumn& column) {
+  std::string_view rest = array.path;
+  const auto take = [&rest] {
+    const std::string_view name = rest.substr(0, rest.find('.'));
+    rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+    return std::string(name);
+  };
+  const Variable variable{Mat_VarRead(file, take().c_str())};
+  matvar_t* found = variable.get();
+  // field by field
+  while (found && !rest.empty()) {
+    found = IsStruct(*found) ? Mat_VarGetStructFieldByName(found, take().c_str(), 0) : nullptr;
+  }
+  return found && IsNumber(*found) ? ValuesOf(*found, column) : Eigen::VectorXd();
 }
 
 }  // namespace
@@ -189,26 +180,15 @@ FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layou
   if (!file) {
     Refuse({path}, "cannot be read as a MATLAB file: it is damaged, or of another format");
   }
-  // the names that vectors are known by
-  const Contents contents = FindVectors(file.get());
-  FileContent content;
-  const bool one_struct = IsOneStruct(contents);
-  for (const auto& [variable, field] : contents.found) {
-    const std::string inside = one_struct ? field : variable + "." + field;
-    content.columns.push_back({field.empty() ? variable : inside, "", {}});
+  // what the file holds, without any values yet
+  FileTree tree;
+  while (const Variable variable{Mat_VarReadNextInfo(file.get())}) {
+    if (variable->name) AddVariable(*variable, variable->name, 0, tree);
   }
-  ReadAttributes(file.get(), content);
-
-  // the columns that are asked for
-  const ReadSettings completed = WithAttributes(layout, content);
-  for (const ColumnSource& source : FindColumns(NamesOf(content), completed, {path})) {
-    FileColumn& column = content.columns[source.index];
-    column.values = ReadVector(file.get(), contents.found[source.index]);
-    if (column.values.size() == 0) {
-      Refuse({path}, "{} cannot be read; the file is damaged", Excerpt(column.name));
-    }
-  }
-  return content;
+  ReadAttributes(file.get(), tree);
+  return TakeColumns(tree, layout, {path}, [&](const FileObject& array, const ArrayColumn& column) {
+    return ReadColumn(file.get(), array, column);
+  });
 }
 
 }  // namespace warmjoint

@@ -26,8 +26,15 @@ Measurements FirstSamples(Measurements log, Eigen::Index n);
 /// Whether the motor's angle is told apart from the joint's: logged, or turned by a gear. A gear of
 /// -1 turns the motor against the joint by the same angle, which tells nothing new.
 inline bool KnowsMotorAngle(const Measurements& measurements) {
-  return measurements.motor_position || std::abs(measurements.gear) != 1;
+  return measurements.motor_position ||
+         (std::abs(measurements.gear) != 1 && !measurements.position_integrated);
 }
+
+/// What cannot be told by a log without positions, one sentence.
+inline constexpr const char* kNoPositions =
+    "the log has no positions: they are integrated from the velocity, and gravity and what repeats "
+    "over the position "
+    "cannot be told";
 
 /// The logged motor position, else gear times the joint's. [N] rad
 inline Eigen::VectorXd MotorPosition(const Measurements& measurements) {

@@ -17,6 +17,7 @@ namespace {
 using Values = Eigen::VectorXd;
 
 constexpr const char* kTemperature = "temperature";
+constexpr const char* kPosition = "position";
 
 template <auto member>
 const Values* Get(const Measurements& measurements) {
@@ -26,6 +27,11 @@ const Values* Get(const Measurements& measurements) {
   } else {
     return values ? &*values : nullptr;
   }
+}
+
+/// The position, where it was logged.
+const Values* LoggedPosition(const Measurements& measurements) {
+  return measurements.position_integrated ? nullptr : Get<&Measurements::position>(measurements);
 }
 
 template <auto member>
@@ -50,8 +56,9 @@ void CheckNames(const Columns& given, std::string_view option, const Place& plac
   }
 }
 
-/// A name in the file that looks like `column`; "NAME" where none does.
-std::string LikelyName(const RecordingColumn& column, const std::vector<std::string>& names) {
+/// A name in the file that looks like `column`.
+std::optional<std::string> LikelyName(const RecordingColumn& column,
+                                      const std::vector<std::string>& names) {
   // hints from the likeliest on, of which the first that fits counts
   for (const std::string& hint : column.other_names) {
     for (const std::string& name : names) {
@@ -65,16 +72,17 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
       if (fits) return Excerpt(name);
     }
   }
-  return "NAME";
+  return std::nullopt;
 }
 
 [[noreturn]] void RefuseMissing(const std::vector<const RecordingColumn*>& missing,
-                                const std::vector<std::string>& names, const Place& place) {
+                                const std::vector<std::string>& names, const Place& place,
+                                const std::string& there) {
   // what is lacking, and which names may be meant
   std::vector<std::string> lacking, remedy;
   for (const RecordingColumn* column : missing) {
     lacking.push_back(fmt::format("'{}'", column->name));
-    remedy.push_back(column->name + "=" + LikelyName(*column, names));
+    remedy.push_back(column->name + "=" + LikelyName(*column, names).value_or("NAME"));
   }
   // a first row of numbers is no header
   if (std::any_of(names.begin(), names.end(), [](auto& name) { return ParseNumber(name); })) {
@@ -83,8 +91,12 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
            "example time,position,velocity,torque",
            fmt::join(lacking, " and no "), Excerpt(fmt::format("{}", fmt::join(names, ","))));
   }
-  Refuse(place, "has no column {}; it has: {}. Name them: --map {}", fmt::join(lacking, " and no "),
-         ExcerptOfList(names), fmt::join(remedy, ","));
+  const bool position =
+      std::ranges::find(missing, kPosition, &RecordingColumn::name) != missing.end();
+  Refuse(place, "has no column {}; it has: {}. Name them: --map {}{}",
+         fmt::join(lacking, " and no "), there.empty() ? ExcerptOfList(names) : there,
+         fmt::join(remedy, ","),
+         position ? "; where only a velocity was logged, --map position=" : "");
 }
 
 /// Index of `theirs`, or the number of names where it is not there.
@@ -134,6 +146,19 @@ std::optional<std::size_t> FindTemperature(const std::vector<std::string>& names
   return found;
 }
 
+/// Whether a log does without positions: its velocity tells them, and no other column may be meant, or none is wanted.
+bool DoWithout(const RecordingColumn& position, const std::vector<ColumnSource>& sources,
+               const std::vector<std::string>& names, const ReadSettings& layout) {
+  std::vector<std::string> others = names;
+  bool has_velocity = false;
+  for (const ColumnSource& source : sources) {
+    others[source.index].clear();
+    has_velocity = has_velocity || source.column->name == "velocity";
+  }
+  return has_velocity && !layout.unit.contains(position.name) &&
+         (layout.map.contains(position.name) || !LikelyName(position, others));
+}
+
 }  // namespace
 
 const std::vector<RecordingColumn>& RecordingColumns() {
@@ -141,12 +166,12 @@ const std::vector<RecordingColumn>& RecordingColumns() {
   using M = Measurements;
   static const std::vector<RecordingColumn> columns{
       {"time", true, {"s"}, {"s"}, {"time", "stamp", "t"}, Get<&M::time>, Set<&M::time>},
-      {"position",
+      {kPosition,
        true,
        {"rad"},
        {"m"},
        {"pos", "angle", "q", "theta"},
-       Get<&M::position>,
+       LoggedPosition,
        Set<&M::position>},
       {"velocity",
        false,
@@ -187,7 +212,8 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
 }
 
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
-                                      const ReadSettings& layout, const Place& place) {
+                                      const ReadSettings& layout, const Place& place,
+                                      const std::string& there) {
   // options that name no column of ours are mistakes, whatever the file holds
   CheckNames(layout.map, "--map", place);
   CheckNames(layout.unit, "--unit", place);
@@ -225,7 +251,10 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
              unit->second, column.name);
     }
   }
-  if (!missing.empty()) RefuseMissing(missing, names, place);
+  std::erase_if(missing, [&](const RecordingColumn* column) {
+    return column->name == kPosition && DoWithout(*column, sources, names, layout);
+  });
+  if (!missing.empty()) RefuseMissing(missing, names, place, there);
   return sources;
 }
 

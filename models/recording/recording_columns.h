@@ -46,8 +46,9 @@ struct ColumnSource {
 /// Finds our columns among the names that a file has. Throws BadInput for a missing column (naming
 /// what is there and the --map that would help), one that stands there twice, and unknown names
 /// and units in the layout. A temperature that nothing names is found by its unit.
-/// place: of the header.
+/// place: of the header. there: what the file has, for messages; by default the names.
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
-                                      const ReadSettings& layout, const Place& place);
+                                      const ReadSettings& layout, const Place& place,
+                                      const std::string& there = "");
 
 }  // namespace warmjoint

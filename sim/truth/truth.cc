@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <warmjoint/simulation.h>
 
 #include <nlohmann/json.hpp>
@@ -11,10 +12,14 @@ namespace warmjoint {
 
 void WriteTruth(const Truth& truth, const std::filesystem::path& path) {
   const Tree tree = WriteFields(truth);
-  // one thread at a time: the writer asks for the locale
+  // one thread at a time: the writer asks for the locale; parameters first, a line for each array
   const auto written = [&] {
     const auto turn = JsonTurn();
-    return tree.dump() + "\n";
+    std::string text;
+    for (const auto& [name, value] : tree.items()) {
+      text += fmt::format("{} \"{}\": {}", text.empty() ? "{\n" : ",\n", name, value.dump());
+    }
+    return text + "\n}\n";
   };
   WriteWholeFile(path, written());
 }

@@ -29,9 +29,10 @@ fs::path ScratchFolder() {
   return access("/dev/shm", W_OK) == 0 ? fs::path("/dev/shm") : fs::temp_directory_path();
 }
 
-ScratchFile::ScratchFile(std::string_view bytes) {
+ScratchFile::ScratchFile(std::string_view bytes, std::string_view extension) {
   std::string name = ScratchFolder() / "warmjoint_fuzz_XXXXXX";
-  const int file = mkstemp(name.data());
+  name += extension;
+  const int file = mkstemps(name.data(), static_cast<int>(extension.size()));
   Require(file >= 0);
   path_ = name;
   while (!bytes.empty()) {

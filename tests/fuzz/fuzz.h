@@ -30,7 +30,7 @@ std::filesystem::path ScratchFolder();
 /// A file that holds the bytes, in ScratchFolder; removed at the end of its life.
 class ScratchFile {
  public:
-  explicit ScratchFile(std::string_view bytes);
+  explicit ScratchFile(std::string_view bytes, std::string_view extension = "");
   ~ScratchFile();
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;

@@ -2,9 +2,10 @@
 
 usage: inputs_test.py WARMJOINT SHARED [KIND...]
 
-SHARED (or the variable WARMJOINT_SHARED) holds findings/inputs; what the table makes itself (made.py) needs NumPy alone. A row has
-  run       arguments of the program; {inputs} the folder of inputs, {shared} SHARED, {made} that of made.py, {out} one of the row's own;
-            with {identifier} the row stands once for each identifier that the program lists
+SHARED (or the variable WARMJOINT_SHARED) holds findings/inputs; what the table makes itself (made.py) needs NumPy, and h5py and SciPy for
+{containers}. A row whose folder is not there is skipped. A row has
+  run       arguments of the program; {inputs} the folder of inputs, {shared} SHARED, {made} and {containers} those of made.py, {out} one
+            of the row's own; with {identifier} the row stands once for each identifier that the program lists
   then      arguments of a second run, which must end with 0; what it says counts, too
   exit      its status (default 0), or a list of those that may be
   says      regular expressions that its output must match, on what is named: a column, a factor, an option
@@ -115,17 +116,18 @@ def main():
     failed, done, skipped = 0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         made.write(pathlib.Path(folder))
+        places = {"inputs": inputs, "shared": shared, "made": pathlib.Path(folder), "containers": pathlib.Path(folder, "containers")}
         for kind, rows in table.items():
             for row in each_identifier(rows, program) if not kinds or kind in kinds else []:
-                if re.search("{inputs}|{shared}", row["run"]) and not inputs.is_dir():
+                if not all(place.is_dir() for name, place in places.items() if f"{{{name}}}" in row["run"]):
                     skipped += 1
                     continue
                 done += 1
-                found = faults(row, program, {"inputs": inputs, "shared": shared, "made": folder})
+                found = faults(row, program, places)
                 failed += bool(found)
                 if found:
                     print(f"{kind}: warmjoint {row['run']}\n  " + "\n  ".join(found))
-    print(f"{done} rows, {failed} failed, {skipped} without {inputs}; set WARMJOINT_SHARED" if skipped
+    print(f"{done} rows, {failed} failed, {skipped} without {inputs} (WARMJOINT_SHARED), or h5py and SciPy (tools/convert --setup)" if skipped
           else f"{done} rows, {failed} failed")
     return 1 if failed else 0
 

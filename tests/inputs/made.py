@@ -1,5 +1,7 @@
 """Inputs of the table that are made here, each by the few lines that a report of it would have."""
 
+import json
+
 import numpy as np
 
 
@@ -117,6 +119,66 @@ def make_ripple(folder):
     write_csv(folder / "ripple.csv", time=t, position=q, velocity=speeds, torque=torque)
     write_csv(folder / "motor_ripple.csv", time=t, position=q, velocity=speeds,
               torque=torque + np.sign(speeds) * 0.2 * np.sin(7 * q))
+
+
+def make_truths(folder):
+    """The friction of `holds`, and one that warms besides."""
+    cold = {"law": "viscous_coulomb", "parameters": {"viscous": 0.8, "coulomb": 4.5}}
+    (folder / "truth.json").write_text(json.dumps(cold))
+    (folder / "warm_truth.json").write_text(json.dumps({**cold, "thermal": {"thermal_gain": -1, "thermal_time_constant": 600}}))
+    write_csv(folder / "holds.csv", **holds(9))
+
+
+def make_velocity_alone(folder):
+    """Logs without positions: that hold speeds, that never do, of which the velocity lost its sign, and of other names."""
+    for name, log in {"holds": holds(7), "moving": moving(7)}.items():
+        velocity, torque = log["velocity"], log["torque"]
+        write_csv(folder / f"{name}_no_position.csv", time=log["time"], velocity=velocity, torque=torque)
+    log = holds(8)
+    write_csv(folder / "unsigned_no_position.csv", time=log["time"], velocity=abs(log["velocity"]), torque=log["torque"])
+    write_csv(folder / "other_position.csv", time=log["time"], q1=log["position"], velocity=log["velocity"], torque=log["torque"])
+
+
+def make_containers(folder):
+    """HDF5 and MATLAB files with groups, links, structs, matrices either way round, and what is no matrix."""
+    try:
+        import h5py
+        import scipy.io
+    except ImportError:
+        return
+    place = folder / "containers"
+    place.mkdir()
+    log = holds(9)
+    time, others = log["time"], ("position", "velocity", "torque")
+    with h5py.File(place / "wide.h5", "w") as file:  # k x N, in single precision and whole numbers, big-endian, compressed
+        file["time"] = np.round(1000 * time).astype(">i4")
+        for name in others:
+            file.create_dataset(name, data=np.stack([0 * time, log[name]]).astype(">f4"), compression="gzip", chunks=True)
+    with h5py.File(place / "robot.h5", "w") as file:  # one clock, two joints, units, a camera
+        file["time"] = time
+        for joint in "elbow", "wrist":
+            for name in others:
+                file[f"{joint}/{name}"] = log[name][:, None]
+            file[f"{joint}/position"][...] *= 180 / np.pi
+            file[f"{joint}/position"].attrs["unit"] = "deg"
+        file["camera"] = np.zeros((len(time), 2, 2), "u1")
+    with h5py.File(place / "links.h5", "w") as file:  # a group in itself, links that lead nowhere, and one that leads to the log
+        for name, values in log.items():
+            file[f"data/{name}"] = values
+        file["data/again"] = file["data"]
+        file["data/gone"] = h5py.SoftLink("/nothing")
+        file["far"] = h5py.ExternalLink("nowhere.h5", "/data")
+    with h5py.File(place / "literal.h5", "w") as file:  # names that look like columns of a matrix
+        for name, values in log.items():
+            file[f"{name}[3]"] = values
+    with h5py.File(place / "lengths.h5", "w") as file:
+        file["time"], file["position"], file["torque"] = time[:-9], np.ones((len(time), 4)), log["torque"]
+    struct = {"t": time, "arm": {"q": np.stack([0 * time, log["position"]], axis=1), "dq": np.stack([0 * time, log["velocity"]]),
+                                 "tau": log["torque"]}, "pid": [1.0, 2, 3], "load": [], "name": "elbow"}
+    scipy.io.savemat(place / "struct.mat", {"rec": struct, "version": 3})
+    cells = np.empty((1, 2), object)
+    cells[0, :] = log["position"], log["torque"]
+    scipy.io.savemat(place / "cells.mat", {"time": time, "q": cells, "s": [struct, struct]}, do_compression=True)
 
 
 def write(folder):

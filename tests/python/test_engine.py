@@ -37,6 +37,8 @@ def test_an_estimate_is_scored(program):
     score = wj.score(wj.identify(made.log, "energy-ml"), made)
     coulomb = score["continuous"]["coulomb"]
     assert coulomb["truth"] == 15 and abs(coulomb["estimate"] - 15) < 5 * coulomb["bound"] and coulomb["covered"] in (True, False)
+    lower, upper = coulomb["interval95"]
+    assert coulomb["covered"] == (lower <= coulomb["truth"] <= upper)
     parts = [(one["estimate"] - one["truth"]) / one["truth"] for one in score["continuous"].values()]
     np.testing.assert_allclose(score["npe_continuous"], np.hypot.reduce(parts))
 

@@ -63,7 +63,18 @@ def test_several_logs_begin_cold_each(columns):
     assert both.metrics["n"] == 2 * wj.identify(one, "energy-ml").metrics["n"]
 
 
+def test_a_velocity_does_without_positions(columns):
+    given = {name: column for name, column in columns.items() if name != "position"}
+    log, whole = wj.Log(**given), wj.Log(**columns)
+    np.testing.assert_allclose(log.position, whole.position - whole.position[0], atol=0.1 * np.ptp(whole.position))
+    estimate = wj.identify(log, "nominal-ls")
+    assert estimate.status == wj.identify(whole, "nominal-ls").status
+    assert any("no positions" in warning for warning in estimate.data["warnings"])
+    assert wj.identify(log, "position-ridge").status != "ok"
+
+
 @pytest.mark.parametrize(("call", "words"), [
+    (lambda log: wj.Log(time=[0, 1, 2], torque=[1, 2, 1]), "position"),
     (lambda log: wj.identify(log, "energyml"), "did you mean 'energy-ml'"),
     (lambda log: wj.identify(log, "energy-ml", lw="asymmetric"), "did you mean 'law'"),
     (lambda log: wj.identify(log, gravity="sinus"), "sincos"),

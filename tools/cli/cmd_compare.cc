@@ -1,10 +1,14 @@
-// warmjoint compare RUN: the leaderboard.
+// warmjoint compare RUN: the leaderboard; compare estimate.json truth.json: an estimate beside its truth.
 #include <fmt/format.h>
+#include <warmjoint/estimate.h>
 
+#include <filesystem>
 #include <memory>
 
+#include "models/friction/friction_json.h"
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
+#include "tools/cli/estimate_table.h"
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
@@ -27,7 +31,25 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   return boards;
 }
 
+/// Of an estimate file and a truth file, or a friction file.
+std::string CompareWithTruth(const std::string& file, const std::string& truth,
+                             const std::string& format) {
+  const Estimate estimate = ReadEstimate(file);
+  if (estimate.friction && !estimate.friction->torque_unit.empty()) {
+    Refuse({file}, "is in {} and a truth is not; identify with --torque-constant",
+           estimate.friction->torque_unit);
+  }
+  return FormatCompared(estimate, ReadFriction(truth), format);
+}
+
 ExitStatus Compare(const CompareArguments& arguments) {
+  const std::vector<std::string>& files = arguments.runs;
+  if (std::filesystem::is_regular_file(files[0])) {
+    if (files.size() != 2)
+      Refuse({files[0]}, "is no run; give an estimate and its truth, two files");
+    fmt::print("{}", CompareWithTruth(files[0], files[1], arguments.format));
+    return ExitStatus::done;
+  }
   const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);
   // the format that was asked for; several runs stand in one table
   for (const BoardFormat& format : BoardFormats()) {
@@ -42,8 +64,10 @@ ExitStatus Compare(const CompareArguments& arguments) {
 Command AddCompareCommand(CLI::App& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
-      program.add_subcommand("compare", "Leaderboard of a run: which identifier to trust");
-  parser->add_option("RUN", arguments->runs, "run directories")->type_name("RUN")->required();
+      program.add_subcommand("compare", "Leaderboard of a run, or an estimate beside its truth");
+  parser->add_option("RUN", arguments->runs, "run directories, or estimate.json and truth.json")
+      ->type_name("RUN")
+      ->required();
 
   std::vector<std::string> names;
   for (const BoardFormat& format : BoardFormats()) names.push_back(format.name);

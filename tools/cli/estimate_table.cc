@@ -1,6 +1,7 @@
 #include "tools/cli/estimate_table.h"
 
 #include <fmt/ranges.h>
+#include <warmjoint/score.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/serialize.h"
 #include "tools/figures/remarks.h"
 #include "tools/figures/shown_parameters.h"
 #include "tools/terminal/table.h"
@@ -118,7 +120,50 @@ Colour ColourOf(Status status) {
   return status == Status::bad_data ? Colour::red : Colour::yellow;
 }
 
+/// digits: of numbers.
+Table ComparisonTable(const std::vector<ParameterScore>& parameters, int digits) {
+  Table table{{"parameter", "estimate", "lower95", "upper95", "truth", "in interval", "error %"},
+              {}};
+  const auto cell = [digits](const std::optional<double>& value) {
+    return value ? fmt::format("{:.{}g}", *value, digits) : "-";
+  };
+  // what is not known is a dash
+  for (const auto& [name, truth, estimate, estimated, interval, covered, error, bound] :
+       parameters) {
+    table.rows.push_back({name, estimated ? cell(estimate) : "-",
+                          interval ? cell((*interval)[0]) : "-",
+                          interval ? cell((*interval)[1]) : "-", cell(truth),
+                          !covered   ? "-"
+                          : *covered ? "yes"
+                                     : "no",
+                          error ? cell(100 * *error) : "-"});
+  }
+  return table;
+}
+
 }  // namespace
+
+std::string FormatCompared(const Estimate& estimate, const Friction& truth,
+                           const std::string& format) {
+  const std::vector<ParameterScore> parameters = ScoreParameters(estimate, truth);
+  const double npe = ParameterError(parameters);
+  if (format == "json") {
+    Tree json{
+        {"identifier", estimate.identifier}, {"status", StatusName(estimate.status)}, {"npe", npe}};
+    for (const ParameterScore& one : parameters) json["parameters"][one.name] = WriteFields(one);
+    return json.dump(2) + "\n";
+  }
+  const Table table = ComparisonTable(parameters, format == "csv" ? 15 : 6);
+  if (format == "csv") {
+    std::string csv = fmt::format("{}\n", fmt::join(table.header, ","));
+    for (const auto& row : table.rows) csv += fmt::format("{}\n", fmt::join(row, ","));
+    return csv;
+  }
+  return fmt::format(
+      "{}: {}. NPE {:.3g} %: relative error over all parameters of the truth (26).\n\n{}",
+      Printable(estimate.identifier), StatusName(estimate.status), 100 * npe,
+      format == "text" ? TableToText(table, 1) : TableToMarkdown(table, 1));
+}
 
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail) {

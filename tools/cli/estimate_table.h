@@ -31,4 +31,9 @@ struct EstimateRow {
 /// unit: of the torque.
 std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit);
 
+/// An estimate beside the truth, with the NPE and a row for each parameter of the truth: estimate, 95 % interval, truth,
+/// whether the interval holds it, relative error. format: text, markdown, json or csv.
+std::string FormatCompared(const Estimate& estimate, const Friction& truth,
+                           const std::string& format);
+
 }  // namespace warmjoint

@@ -1,22 +1,25 @@
-"""Columns of Parquet files, as LeRobot and pandas write them."""
+"""What Parquet files hold, as LeRobot and pandas write them."""
 
 import numpy
 import pyarrow
 import pyarrow.parquet
-from columns import Refusal, pick
+from columns import Refusal
 
 
-def columns(path, fields):
+def column(path, table, name):
+    """[N] or [N x M] of a column; stamps in s from the first."""
+    values = table.column(name).combine_chunks()
+    if pyarrow.types.is_timestamp(values.type) or pyarrow.types.is_duration(values.type):
+        stamps = values.cast(pyarrow.int64()).to_numpy(zero_copy_only=False)
+        return (stamps - stamps[0]) / {"s": 1, "ms": 1e3, "us": 1e6, "ns": 1e9}[values.type.unit]
+    array = numpy.asarray(values.to_numpy(zero_copy_only=False))
+    lists = array.dtype == object and len(array) and all(isinstance(one, numpy.ndarray) for one in array)
+    return numpy.stack(array) if lists and len({len(one) for one in array}) == 1 else array
+
+
+def tree(path):
     try:
         table = pyarrow.parquet.read_table(path)
     except pyarrow.ArrowException as error:
         raise Refusal(f"{path}: cannot be read as Parquet: {str(error).splitlines()[0]}") from None
-
-    def take(name):
-        column = table.column(name).combine_chunks()
-        if pyarrow.types.is_timestamp(column.type) or pyarrow.types.is_duration(column.type):
-            stamps = column.cast(pyarrow.int64()).to_numpy(zero_copy_only=False)
-            return (stamps - stamps[0]) / {"s": 1, "ms": 1e3, "us": 1e6, "ns": 1e9}[column.type.unit]
-        return numpy.asarray(column.to_numpy(zero_copy_only=False))
-
-    return pick(path, table.column_names, fields, take)
+    return {name: column(path, table, name) for name in table.column_names}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <warmjoint/estimate.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
@@ -108,6 +109,15 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
            amperes.empty() ? "--torque-constant" : "--unit torque=A");
   }
   Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
+  // gravity and maps need the positions that a velocity alone does not tell
+  const auto over_position = [](const FrictionMap& map) {
+    return FindAxis(map, MapQuantity::position) || FindAxis(map, MapQuantity::motor_position);
+  };
+  const bool needs =
+      stored.model.gravity || std::ranges::any_of(stored.model.friction.maps, over_position);
+  if (m.position_integrated && needs) {
+    Refuse({m.source}, "has no positions, and the estimate's gravity or map needs them; log them");
+  }
   // samples put in between those that were logged are no rows of the log
   const Eigen::VectorXd& logged = log.taken().measurements.time;
   for (Eigen::Index i = 0, n = 0; i < m.size() && n < logged.size(); ++i) {

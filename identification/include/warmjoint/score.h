@@ -11,6 +11,7 @@
 #include <warmjoint/simulation.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,15 +24,19 @@ struct ParameterScore {
   double truth = 0;
   double estimate = 0;  // 0 where not estimated
   bool estimated = false;
+  std::optional<std::array<double, 2>> interval95;  // of the estimate
   std::optional<bool> covered;  // the 95 % interval holds the truth; empty without an interval
-  double bound = 0;             // Cramer-Rao standard deviation; NaN where it does not exist
+  std::optional<double> relative_error;  // (estimate - truth) / |truth|; empty where the truth is 0
+  double bound = 0;  // Cramer-Rao standard deviation; NaN where it does not exist
 
   template <class A>
   void Serialize(A* a) {
     a->Field("truth", &truth);
     a->Field("estimate", &estimate);
     a->Field("estimated", &estimated);
+    a->Field("interval95", &interval95);
     a->Field("covered", &covered);
+    a->Field("relative_error", &relative_error);
     a->Field("bound", &bound);
   }
 };
@@ -59,6 +64,13 @@ struct Score {
 /// The samples that an estimate is scored on: those of the log as it was taken at constant speed, or
 /// all that move where it took motion of any kind.
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log);
+
+/// An estimate beside a true friction, in the continuous parametrisation and without bounds: all that is known without
+/// the log.
+std::vector<ParameterScore> ScoreParameters(const Estimate& estimate, const Friction& truth);
+
+/// NPE, Eq. (26), of those whose truth is not 0.
+double ParameterError(const std::vector<ParameterScore>& parameters);
 
 /// Scores an estimate of the measurements behind which `truth` stands. Parameters are matched by
 /// name: one of the truth that the estimate lacks (another law's, or the thermal ones of an

@@ -57,6 +57,9 @@ struct Measurements {
   /// samples, where a row begins behind each. Otherwise nothing, and gaps are found by the time.
   std::optional<std::vector<LogGap>> gaps;
 
+  /// Whether the positions are the integral of the velocity from 0, in a log that has none.
+  bool position_integrated = false;
+
   Eigen::Index size() const { return time.size(); }
 };
 

@@ -1,4 +1,6 @@
 // Recordings as MATLAB files. As with HDF5, the library works in a child; what may not happen is that this process crashes.
+#include <functional>
+
 #include "models/recording/read_recording.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -10,8 +12,13 @@ using fuzz::Require;
 constexpr double kPatience = 0.25;  // s
 
 void Read(std::string_view bytes) {
-  const fuzz::ScratchFile file(bytes);
-  const Measurements log = ReadRecordingFile(file.path().string(), {}, kPatience);
+  const fuzz::ScratchFile file(bytes, ".mat");
+  // half of the inputs by columns of matrices in groups
+  ReadSettings layout;
+  if (std::hash<std::string_view>()(bytes) % 2 == 1) {
+    layout.map = {{"position", "m[1]"}, {"torque", "g/m[0]"}};
+  }
+  const Measurements log = ReadRecordingFile(file.path().string(), layout, kPatience);
   const Eigen::Index n = log.size();
   Require(n >= 3 && log.position.size() == n);
   Require(log.position.allFinite() && log.torque.allFinite());

@@ -133,12 +133,14 @@ TEST(Matlab, RefusesWhatIsNoLog) {
   EXPECT_THAT(Refusal(file.path()), HasSubstr("cannot be read as a MATLAB file"));
   EXPECT_THAT(Refusal("there/is/none.mat"), HasSubstr("none.mat"));
 
-  // matrices, texts and scalars are no columns
+  // a scalar is no column, and a matrix is one by an index alone
   size_t size[2]{2, 3};
   std::vector<double> matrix(6, 1.0);
   Write(file.path(), {Vector("time", kTime), Vector("position", kPosition), Vector("torque", {1.0}),
                       Mat_VarCreate("m", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, matrix.data(), 0)});
-  EXPECT_THAT(Refusal(file.path()), HasSubstr("has no column 'torque'; it has: time, position"));
+  EXPECT_THAT(
+      Refusal(file.path()),
+      HasSubstr("has no column 'torque'; it has: time (5 x 1), position (5 x 1), m (2 x 3)"));
 
   std::vector<matvar_t*> columns = Columns();
   columns.push_back(Vector("load", {1.0, 2.0}));

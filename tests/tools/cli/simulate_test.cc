@@ -48,6 +48,8 @@ class Simulate : public testing::Test {
 TEST_F(Simulate, WritesRecordingTruthAndScenario) {
   ASSERT_EQ(Into("out").status, 0);
   EXPECT_EQ(ReadTruth(scratch_.path() / "out/truth.json").force.size(), 600);
+  // what a reader looks for stands before the lines of 600 numbers
+  EXPECT_LT(File("out/truth.json").find("torque_noise"), 1000u);
   EXPECT_THAT(File("out/recording.csv"), testing::StartsWith("time,position,velocity,torque"));
 
   // the written scenario makes the same recording

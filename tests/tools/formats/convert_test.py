@@ -14,8 +14,10 @@ import unittest
 try:
     import h5py
     import numpy
+    import pandas
     import pyarrow
     import pyarrow.parquet
+    import scipy.io
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
 except ImportError as error:
@@ -149,7 +151,7 @@ class Convert(unittest.TestCase):
     def test_numpy(self):
         log = self.folder / "log.npz"
         numpy.savez(log, time=TIME, position=POSITION, torque=TORQUE, q=numpy.stack([POSITION, SPEED], axis=1))
-        self.is_the_log(self.columns(log), ("time", "position", "torque"))
+        self.assertEqual(set(self.columns(log)), {"time", "position", "torque", "q[0]", "q[1]"})
         found = self.columns(log, "--map", "time=time,position=q[0],velocity=q[1],torque=torque")
         self.is_the_log(found)
         table = numpy.zeros(COUNT, dtype=[("time", float), ("position", float), ("torque", "f4")])
@@ -157,20 +159,74 @@ class Convert(unittest.TestCase):
         numpy.save(self.folder / "log.npy", table)
         self.assertEqual(self.columns(self.folder / "log.npy")["torque"][0], 1)
 
+    def test_what_matlab_and_hdf5_hold(self):
+        """Each path of each file gives the log, and a path that is not there names the nearest."""
+        wide = numpy.stack([0 * TIME, TIME, POSITION, SPEED, TORQUE])
+        struct = {"time": TIME, "position": POSITION, "velocity": SPEED, "torque": TORQUE}
+        scipy.io.savemat(self.folder / "cells.mat", {"c": numpy.array([wide, wide.T], object), "s": [{"time": 0}, struct]})
+        with h5py.File(self.folder / "rows.h5", "w") as file:
+            records = numpy.rec.fromarrays(list(struct.values()), names=list(struct))
+            file["log"], file["robot/wide"] = records, wide
+            file["robot/again"] = file["robot"]
+            cells = file.create_dataset("cells", (1, 2), h5py.ref_dtype)  # as MATLAB 7.3 has them
+            cells[0, 0], cells[0, 1] = file["log"].ref, file["robot/wide"].ref
+        columns = ("time", "position", "velocity", "torque")
+        for name, paths in {"cells.mat": [f"c{{0}}[{i}]" for i in range(1, 5)], "cells.mat ": [f"c[1][{i}]" for i in range(1, 5)],
+                            " cells.mat": [f"s[1].{name}" for name in columns], "rows.h5": [f"log.{name}" for name in columns],
+                            "rows.h5 ": [f"/robot/wide[{i}]" for i in range(1, 5)],
+                            " rows.h5": [f"cells[1][{i}]" for i in range(1, 5)]}.items():
+            with self.subTest(paths[0]):
+                found = self.columns(self.folder / name.strip(), "--map", ",".join(map("=".join, zip(columns, paths, strict=True))))
+                self.is_the_log(found)
+        self.output.unlink()
+        refusal = self.refusal(self.folder / "rows.h5", "--map", "torque=log.torqe")
+        self.assertIn("did you mean 'log.torque'? it has: cells[0].position (200)", refusal)
+        self.assertIn("an index is at most 4", self.refusal(self.folder / "rows.h5", "--map", "torque=robot/wide[5]"))
+
+    def test_tables_of_instruments(self):
+        """TwinCAT, LabVIEW, National Instruments and Excel: where the table begins, its names, and a clock for each column."""
+        late = TIME + 0.01
+
+        def table(name, head, columns, separator=";", decimal=".", end="", encoding="utf-8"):
+            rows = [separator.join(f"{value:.9f}" for value in row).replace(".", decimal) + end for row in zip(*columns, strict=True)]
+            (self.folder / name).write_text("\n".join([*head, *rows, ""]), encoding=encoding)
+
+        table("scope.csv", ["Name;Scope YT", "File;C:\\x.svdx", "", "Name;position;Name;torque", "SymbolComment;;", "SampleTime[ms];50;SampleTime[ms];50"],
+              [TIME, POSITION, late, TORQUE])
+        table("german.csv", ["Bericht", "Name;position;Name;torque"], [TIME, POSITION, late, TORQUE], decimal=",", encoding="utf-16")
+        table("multi.lvm", ["LabVIEW Measurement\t", "X_Columns\tMulti", "***End_of_Header***\t", "Samples\t200\t200\t", "Delta_X\t0.05\t0.05\t",
+                            "***End_of_Header***\t\t", "X_Value\tposition\tX_Value\ttorque\tComment"], [TIME, POSITION, late, TORQUE], "\t", end="\t")
+        table("ni.csv", ["Time - a,position,Time - b,torque"], [TIME, POSITION, late, TORQUE], ",")
+        table("units.txt", ["Drive log 2026", "time\tposition\ttorque", "[s]\t[deg]\t[Nm]"], [TIME, POSITION, TORQUE], "\t")
+        sheet = pandas.DataFrame({"time": pandas.Timestamp("2026-11-26") + pandas.to_timedelta(TIME, unit="s"), "position": POSITION, "torque": TORQUE})
+        sheet.to_excel(self.folder / "log.xlsx", startrow=3, index=False)
+        for name in ("scope.csv", "german.csv", "multi.lvm", "ni.csv", "log.xlsx", "units.txt"):
+            with self.subTest(name):
+                found = self.columns(self.folder / name, *(["--map", "time=time [s],position=position [deg],torque=torque [Nm]"] if name == "units.txt" else []))
+                # as far as both clocks reach; a step between two samples is a line
+                inside = TIME >= (0.01 if "torque" in found and len(found["time"]) < COUNT else 0)
+                numpy.testing.assert_allclose(found["time"], TIME[inside], atol=2e-6)
+                numpy.testing.assert_allclose(found["position"], POSITION[inside], atol=1e-8)
+                shift = 0 if name in {"log.xlsx", "units.txt"} else 0.01
+                numpy.testing.assert_allclose(found["torque"], numpy.interp(TIME[inside] - shift, TIME, TORQUE), atol=1e-5)
+        self.output.unlink()
+        (self.folder / "words.csv").write_text("hello\nworld\n")
+        self.assertIn("holds no table", self.refusal(self.folder / "words.csv"))
+
     def test_objects_are_not_unpickled(self):
         log = self.folder / "log.npz"
         numpy.savez(log, time=numpy.array([print, print, print], dtype=object))
         self.assertIn("cannot be read as NumPy's", self.refusal(log))
 
     def test_damaged_files_and_wrong_names(self):
-        for name in ("a.parquet", "a.npz", "a.npy", "a.mcap", "a.db3", "a.bag"):
+        for name in ("a.parquet", "a.npz", "a.npy", "a.mcap", "a.db3", "a.bag", "a.mat", "a.h5", "a.xlsx"):
             (self.folder / name).write_bytes(b"\x93NUMPY nothing of the kind")
             self.assertIn(name, self.refusal(self.folder / name, *(["--joint", "elbow"] if name[2:] in {"mcap", "db3", "bag"} else [])))
         self.assertIn("does not exist", self.refusal(self.folder / "none.npz"))
         numpy.savez(self.folder / "log.npz", time=TIME, position=POSITION[:9])
         self.assertIn("position has 9 samples where time has 200", self.refusal(self.folder / "log.npz"))
-        (self.folder / "log.txt").touch()
-        self.assertIn("is none of", self.refusal(self.folder / "log.txt"))
+        (self.folder / "log.doc").touch()
+        self.assertIn("is none of", self.refusal(self.folder / "log.doc"))
         numpy.savez(self.folder / "good.npz", time=TIME)
         self.assertIn("choose one of them", self.refusal(self.folder / "good.npz", output=self.folder / "log.xlsx"))
 

@@ -35,7 +35,8 @@ class Simulated:
         path.mkdir(parents=True, exist_ok=True)
         self.log.save(path / "recording.csv")
         text = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in self.truth.items()}
-        (path / "truth.json").write_text(json.dumps(text), encoding="utf-8")
+        lines = ",\n".join(f" {json.dumps(name)}: {json.dumps(value)}" for name, value in text.items())
+        (path / "truth.json").write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
 
 
 def simulate(scenario: str | os.PathLike[str] | Mapping[str, Any], *, seed: int | None = None, realization: int = 0,
@@ -56,9 +57,9 @@ def simulate(scenario: str | os.PathLike[str] | Mapping[str, Any], *, seed: int 
 
 
 def score(estimate: Estimate, truth: Simulated | Mapping[str, Any], log: Log | None = None) -> dict[str, Any]:
-    """An estimate against the truth: {continuous{parameter: {truth, estimate, estimated, covered, bound}}, discrete,
-    npe_continuous, npe_discrete, ...}. bound: Cramer-Rao standard deviation, SI. log: that it was identified from, where the
-    estimate does not know it."""
+    """An estimate against the truth: {continuous{parameter: {truth, estimate, estimated, interval95, covered, relative_error,
+    bound}}, discrete, npe_continuous, npe_discrete, ...}. bound: Cramer-Rao standard deviation, SI. log: that it was identified
+    from, where the estimate does not know it."""
     known = truth.truth if isinstance(truth, Simulated) else dict(truth)
     one = log or estimate.log or (truth.log if isinstance(truth, Simulated) else None)
     if one is None:

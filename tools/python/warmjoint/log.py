@@ -21,7 +21,7 @@ class Log:
     """A recording of one joint, prepared for a fit. All columns are [N] arrays in SI.
 
     time (s) increases; position is in rad or m, torque in N.m or N; velocity (rad/s or m/s), motor_position (rad), load (N.m
-    or N) and temperature (degC) may be left out. unit, scale and wrap say how the arrays are meant, as the options of
+    or N) and temperature (degC) may be left out, or position where there is a velocity: gravity and maps cannot be told then. unit, scale and wrap say how the arrays are meant, as the options of
     `warmjoint identify` do: unit={"position": "deg", "torque": "A"} with torque_constant (N.m/A at the joint), scale={"torque": -1},
     wrap=360 for a sensor that starts again after a turn. gear: motor turns for each turn of the joint. trim and shortest_hold (s)
     leave out the ends of constant-speed segments, and short ones.
@@ -29,7 +29,7 @@ class Log:
     Raises BadInput for what cannot be used.
     """
 
-    def __init__(self, *, time: npt.ArrayLike, position: npt.ArrayLike, torque: npt.ArrayLike,
+    def __init__(self, *, time: npt.ArrayLike, torque: npt.ArrayLike, position: npt.ArrayLike | None = None,
                  velocity: npt.ArrayLike | None = None, motor_position: npt.ArrayLike | None = None,
                  load: npt.ArrayLike | None = None, temperature: npt.ArrayLike | None = None, joint: Joint = "rotary",
                  unit: Mapping[str, str] | None = None, scale: Mapping[str, float] | None = None, gear: float = 1,
@@ -55,7 +55,8 @@ class Log:
         """
         columns = {key: named.pop(key, key) for key in COLUMNS}
         found = {key: frame[name] for key, name in columns.items() if name in frame}
-        lacking = [key for key in ("time", "position", "torque") if key not in found]
+        needed = ("time", "torque") if "velocity" in found else ("time", "position", "torque")
+        lacking = [key for key in needed if key not in found]
         if lacking:
             raise _core.BadInput(f"frame: has no column '{columns[lacking[0]]}'; it has {', '.join(map(str, frame))}; "
                                  f"name it, as {lacking[0]}='...'")
@@ -74,7 +75,7 @@ class Log:
 
     @property
     def position(self) -> Array:
-        """[N] rad or m."""
+        """[N] rad or m; the integral of the velocity where none was given."""
         return self._core.position
 
     @property
