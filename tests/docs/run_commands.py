@@ -39,6 +39,8 @@ def environment(build):
     values = dict(os.environ, WARMJOINT_BUILT="1", NO_COLOR="1")
     # the system's Python, which the sandbox of identifiers of others lets through, before others
     values["PATH"] = f"{build}:/usr/bin:/bin:{values['PATH']}"
+    # the Python package as if it were installed
+    values["PYTHONPATH"] = ":".join(str(build / folder) for folder in ("python", "deps/python", "deps/mujoco"))
     return values
 
 

@@ -10,9 +10,9 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-@pytest.mark.parametrize("page", ["README.md", "tools/python/README.md"])
+@pytest.mark.parametrize("page", ["README.md", "tools/python/README.md", "tools/docs/mujoco.md", "tools/docs/training.md"])
 def test_the_python_of_a_page_runs(page, recording, tmp_path):
-    for needed in ("mujoco", "matplotlib", "jinja2"):
+    for needed in ("mujoco.batch", "matplotlib", "jinja2"):
         pytest.importorskip(needed)
     (tmp_path / "models").symlink_to(ROOT / "models")
     (tmp_path / "runs/warm").mkdir(parents=True)

@@ -201,10 +201,10 @@ TEST(PluginPassive, RefusesWhatItCannotServe) {
   ExpectNamed(ErrorOfArm(other, config, one), {"initial_energy", "thermal"});
 }
 
-TEST(PluginReadme, HasAModelThatRuns) {
-  const std::string readme = ReadWholeFile(SourceFolder() / "sim/plugin/README.md");
-  const size_t begin = readme.find("```xml\n") + 7;
-  const auto compiled = Compile(readme.substr(begin, readme.find("```", begin) - begin));
+TEST(PluginPage, HasAModelThatRuns) {
+  const std::string page = ReadWholeFile(SourceFolder() / "sim/plugin/attributes.md");
+  const size_t begin = page.find("```xml\n") + 7;
+  const auto compiled = Compile(page.substr(begin, page.find("```", begin) - begin));
   ASSERT_EQ(compiled.error, "");
 
   // the link falls, and its friction gets warm

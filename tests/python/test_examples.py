@@ -1,0 +1,29 @@
+"""The example scripts run as their first lines say."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROTARY = ["models/robots/rotary/rotary.xml", "hinge", "models/robots/rotary/friction.json"]
+
+
+@pytest.mark.parametrize("arguments, needed, said", [
+    (["identify_log.py", "log.csv", "."], ["matplotlib"], "<Estimate by auto: ok>"),
+    (["warm_robot.py", *ROTARY, "1"], ["mujoco"], "\n     1               15.1"),  # cold 17.5 N.m; (20) to (22) by hand: 15.18
+    (["worlds.py", *ROTARY], ["mujoco.batch"], "\n0.01             0.08"),  # m v^2 / 2 = 1.8 J over 15 N.m and more
+    (["train.py"], ["mujoco.batch", "gymnasium"], "rad in the mean"),
+    (["compare_identifiers.py", "run"], ["mujoco"], "\nnominal-ls   error over all parameters  158."),
+], ids=lambda given: given[0])
+def test_an_example_runs(arguments, needed, said, recording, tmp_path):
+    for module in needed:
+        pytest.importorskip(module)
+    (tmp_path / "models").symlink_to(ROOT / "models")
+    (tmp_path / "log.csv").symlink_to(recording)
+    done = subprocess.run([sys.executable, ROOT / "tools/examples" / arguments[0], *arguments[1:]], cwd=tmp_path,
+                          env=os.environ, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert said in done.stdout
