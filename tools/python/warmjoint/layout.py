@@ -76,15 +76,18 @@ def _power(value, decimals):
 class Numbers(Formatter):
     """Numbers as people write them: a true minus, one power of ten for a whole axis of very small or large ones."""
 
+    def __init__(self, axis):
+        self.of = axis
+
     def __call__(self, value, pos=None):
         return f"{value:g}".replace("-", "−")
 
     def format_ticks(self, values):
         self.set_locs(values)
-        if self.axis.get_scale() == "log":
+        if self.of["scale"] == "logarithmic":
             return [_power(v, 0) if v and not 0.99e-3 <= abs(v) < 0.99e5 else
                     f"{v:.{max(0, -math.floor(math.log10(v) + 1e-9))}f}" for v in values]
-        return linear_texts(values, *self.axis.get_view_interval())
+        return linear_texts(values, self.of["lower"], self.of["upper"])
 
 
 def linear_texts(values, lower, upper):
@@ -117,22 +120,7 @@ def ticks_of(axis, wanted):
     lower, upper = axis["lower"], axis["upper"]
     values = np.asarray(locator_of(axis, wanted).tick_values(lower, upper))
     spare = 1e-9 * (upper - lower)
-    formatter = Numbers()
-    formatter.axis = _Limits(axis)
-    return [(v, text) for v, text in zip(values, formatter.format_ticks(values)) if lower - spare <= v <= upper + spare]
-
-
-class _Limits:
-    """An axis before it is drawn."""
-
-    def __init__(self, axis):
-        self.axis = axis
-
-    def get_scale(self):
-        return "log" if self.axis["scale"] == "logarithmic" else "linear"
-
-    def get_view_interval(self):
-        return self.axis["lower"], self.axis["upper"]
+    return [(v, text) for v, text in zip(values, Numbers(axis).format_ticks(values)) if lower - spare <= v <= upper + spare]
 
 
 def share_of(axis, value):
@@ -161,8 +149,13 @@ def heat_map_of(plot):
     return next((s["shape"] for s in plot["series"] if s["shape"]["kind"] == "heat_map"), None)
 
 
-def colour_axis(shape):
-    return {"label": shape["label"], "lower": shape["limits"][0], "upper": shape["limits"][1], "scale": "linear", "ticks": [], "finest": 0}
+def colour_bar(shape):
+    """The scale of a heat map as a plot of its own."""
+    (lower, upper), label = shape["limits"], shape["label"]
+    ramp = {**shape, "values": np.linspace(lower, upper, 256)[:, None], "x": (0, 1), "y": (lower, upper)}
+    return {"x": {"label": "", "lower": 0, "upper": 1, "scale": "linear", "ticks": [{"value": 0, "label": ""}]},
+            "y": {"label": label, "lower": lower, "upper": upper, "scale": "linear", "ticks": [], "finest": 0},
+            "series": [{"label": "", "hue": "text", "shape": ramp}]}
 
 
 # places
@@ -198,7 +191,7 @@ def margins_of(plot, width, height):
         right = max([4, *(width_of(text, TICK) / 2 for _, text in across[-1:])])
     shape = heat_map_of(plot)
     if shape:
-        numbers = [width_of(text, TICK) for _, text in ticks_of(colour_axis(shape), int(height / ROW))]
+        numbers = [width_of(text, TICK) for _, text in ticks_of(colour_bar(shape)["y"], int(height / ROW))]
         right = 10 + BAR + 6 + max([0, *numbers]) + PAD + LINE * TEXT + 4
     below = MARK + 2 + LINE * TICK * lines + (3 + LINE * TEXT if plot["x"]["label"] else 0)
     return left, right, below
