@@ -182,17 +182,22 @@ def fill(ax, plot, look):
 
 def set_ticks(ax, plot, width, height):
     """width, height: between the axes, points of the figure."""
-    for name, axis, wanted in (("x", plot["x"], 0), ("y", plot["y"], int(height / layout.ROW))):
+    for name, axis in (("x", plot["x"]), ("y", plot["y"])):
         drawn = ax.xaxis if name == "x" else ax.yaxis
         if axis["ticks"]:
             drawn.set_major_locator(layout.locator_of(axis, 0))
             labels = layout.category_lines(axis, width) if name == "x" else [tick["label"] for tick in axis["ticks"] if tick["label"]]
             drawn.set_ticklabels([layout.math_text(label) for label in labels])
         else:
-            drawn.set_major_locator(layout.locator_of(axis, wanted or layout.wanted_x(axis, width)))
+            drawn.set_major_locator(layout.locator_of(axis, layout.wanted_x(axis, width) if name == "x" else layout.wanted_y(height)))
             drawn.set_major_formatter(layout.Numbers(axis))
         drawn.set_minor_formatter(NullFormatter())
         drawn.set_minor_locator(LogLocator(subs=range(2, 10), numticks=99) if axis["scale"] == "logarithmic" else NullLocator())
+
+
+def _name_upright(ax, plot, look, height, **place):
+    lines = layout.upright_name(plot["y"], height)
+    ax.set_ylabel(layout.math_text("\n".join(lines)), fontsize=layout.TEXT * look["scale"], color=look["text"], linespacing=layout.LINE, **place)
 
 
 def colour_bar(cax, shape, look, height):
@@ -203,7 +208,7 @@ def colour_bar(cax, shape, look, height):
     cax.set_frame_on(False)
     cax.yaxis.tick_right()
     cax.yaxis.set_label_position("right")
-    cax.set_ylabel(layout.math_text(plot["y"]["label"]), fontsize=layout.TEXT * look["scale"], color=look["text"], labelpad=layout.PAD * look["scale"])
+    _name_upright(cax, plot, look, height, labelpad=layout.PAD * look["scale"])
 
 
 class Sheet:
@@ -270,9 +275,14 @@ def _draw_plot(sheet, panel, cell, area, legend_at):
     width, height = area[2] - area[0], area[3] - area[1]
     fill(ax, plot, look)
     set_ticks(ax, plot, width, height)
-    ax.set_xlabel(layout.math_text(plot["x"]["label"]), fontsize=layout.TEXT * scale, color=look["text"], labelpad=3 * scale)
-    ax.set_ylabel(layout.math_text(plot["y"]["label"]), fontsize=layout.TEXT * scale, color=look["text"], va="center")
-    ax.yaxis.set_label_coords((cell[0] + layout.TEXT / 2 + 2 - area[0]) / width, 0.5)
+    # below the middle of the axis, or where a long name stays in its cell
+    name = layout.wrap(plot["x"]["label"], layout.TEXT, width=cell[2] - cell[0])
+    half = max(layout.width_of(line, layout.TEXT) for line in name) / 2
+    middle = min(max((area[0] + area[2]) / 2, cell[0] + half), cell[2] - half)
+    ax.set_xlabel(layout.math_text("\n".join(name)), fontsize=layout.TEXT * scale, color=look["text"], labelpad=3 * scale, x=(middle - area[0]) / width,
+                  ha="center")
+    _name_upright(ax, plot, look, height, va="top")
+    ax.yaxis.set_label_coords((cell[0] - area[0]) / width, 0.5)
     shape = layout.heat_map_of(plot)
     if shape:
         colour_bar(sheet.axes((area[2] + 10, area[1], area[2] + 10 + layout.BAR, area[3])), shape, look, height)
@@ -288,9 +298,10 @@ def _draw_panel(sheet, panel, cell, area):
     content = panel["content"]
     is_plot = content["kind"] == "plot"
     # titles and legends begin at the axis, or at the cell where they are long
-    left = area[0] if is_plot else cell[0]
-    long = is_plot and len(layout.legend_lines(content, cell[2] - left)) > len(layout.legend_lines(content, cell[2] - cell[0]))
-    if long or layout.width_of(panel["title"], layout.TEXT, True) > cell[2] - left:
+    left, room = (area[0], cell[2] - area[0]) if is_plot else (cell[0], cell[2] - cell[0])
+    lines = layout.legend_lines(content, room) if is_plot else []
+    long = lines and (len(lines) > len(layout.legend_lines(content, cell[2] - cell[0])) or max(layout.entry_width(line[0]) for line in lines) > room)
+    if long or layout.width_of(panel["title"], layout.TEXT, True) > room:
         left = cell[0]
     y = cell[1]
     if panel["title"]:
