@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "models/foundation/atomic_file.h"
+#include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
 #include "tools/store/export_csv.h"
 
@@ -28,7 +29,7 @@ std::string Row(const LeaderboardRow& row) {
 
 std::string Header() {
   // both errors of parameters have a root mean square too, the figures of a fit have none
-  std::string header = "identifier,runs,failed";
+  std::string header = "variant,identifier,runs,failed";
   for (const char* name : {"npe_continuous", "npe_discrete"}) {
     header += fmt::format(",{0}_median,{0}_q25,{0}_q75,{0}_rms", name);
   }
@@ -38,42 +39,35 @@ std::string Header() {
   return header + ",seconds_median\n";
 }
 
-std::string SummaryToCsv(const Leaderboard& board) {
-  // wall times differ from run to run
-  const auto timeless = [](LeaderboardRow row) {
-    row.seconds.median = std::nan("");
-    return Row(row);
-  };
-  // all variants together, then each for itself
-  std::string csv = "variant," + Header();
-  for (const LeaderboardRow& row : board.rows) csv += "all," + timeless(row);
-  for (const Leaderboard& group : board.groups) {
-    for (const LeaderboardRow& row : group.rows) {
-      csv += CsvCell(group.variant) + "," + timeless(row);
-    }
+/// A row for each identifier, of a ladder for each in every variant. before: the cells that each row begins with.
+std::string Rows(const Leaderboard& board, const std::string& before) {
+  std::string csv;
+  for (const auto& [variant, part] : PartsOf(board)) {
+    for (const LeaderboardRow& row : part->rows) csv += before + CsvCell(variant) + "," + Row(row);
   }
   return csv;
 }
 
 }  // namespace
 
-std::string BoardToCsv(const Leaderboard& board) {
-  std::string csv = Header();
-  for (const LeaderboardRow& row : board.rows) csv += Row(row);
-  return csv;
-}
+std::string BoardToCsv(const Leaderboard& board) { return Header() + Rows(board, ""); }
 
 std::string BoardsToCsv(const std::vector<NamedBoard>& boards) {
   std::string csv = "run," + Header();
-  for (const NamedBoard& named : boards) {
-    for (const LeaderboardRow& row : named.board.rows) csv += CsvCell(named.run) + "," + Row(row);
-  }
+  for (const NamedBoard& named : boards) csv += Rows(named.board, CsvCell(named.run) + ",");
   return csv;
 }
 
 void WriteTables(const RunStore& store) {
   ExportResults(store);
-  WriteWholeFile(store.directory() / "summary.csv", SummaryToCsv(ReadBoard(store)));
+  // wall times differ from run to run
+  Leaderboard board = ReadBoard(store);
+  const auto forget = [](Standing& part) {
+    for (LeaderboardRow& row : part.rows) row.seconds.median = std::nan("");
+  };
+  forget(board);
+  for (VariantStanding& group : board.groups) forget(group);
+  WriteWholeFile(store.directory() / "summary.csv", BoardToCsv(board));
 }
 
 }  // namespace warmjoint

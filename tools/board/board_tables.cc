@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -19,7 +20,7 @@ std::string Percent(double share, const char* sign) {
   return fmt::format("{:.{}f}{}", percent, decimals, sign);
 }
 
-std::string Quartiles(const Summary& summary) {
+std::string MiddleHalf(const Summary& summary) {
   if (std::isnan(summary.median)) return kUnknown;
   return fmt::format("{} .. {}", Percent(summary.q25, ""), Percent(summary.q75, " %"));
 }
@@ -44,14 +45,57 @@ std::string BehindCell(const LeaderboardRow& row) {
                      Percent(row.behind->lower, ""), Percent(row.behind->upper, ""));
 }
 
-/// A row's cell in a group: rms NPE, which the bound is one of, and how many failed.
-std::string GroupCell(const Leaderboard& group, const std::string& identifier) {
-  for (const LeaderboardRow& row : group.rows) {
+/// A row's cell in a variant: rms NPE, which the bound is one of, how it ranks, and how many failed.
+std::string VariantCell(const Standing& part, const std::string& identifier) {
+  for (const LeaderboardRow& row : part.rows) {
     if (row.identifier != identifier) continue;
-    const std::string error = PercentText(row.npe_continuous.rms);
-    return row.failed() == 0 ? error : fmt::format("{} ({} failed)", error, row.failed());
+    std::string cell = PercentText(row.npe_continuous.rms);
+    if (IsBestOrTied(row)) cell += row.behind ? " tie" : " best";
+    return row.failed() == 0 ? cell : fmt::format("{} ({} failed)", cell, row.failed());
   }
   return kUnknown;
+}
+
+/// The numbers of an identifier in the variants, from the least to the largest; one where all have one text.
+/// number: of a row and what it is part of; text: of such a number.
+template <typename Number, typename Text>
+std::string OverVariants(const Leaderboard& board, const std::string& identifier,
+                         const Number& number, const Text& text, const char* between = " .. ") {
+  std::vector<double> numbers;
+  for (const auto& [variant, part] : PartsOf(board)) {
+    for (const LeaderboardRow& row : part->rows) {
+      if (row.identifier != identifier) continue;
+      if (const double one = number(row, *part); std::isfinite(one)) numbers.push_back(one);
+    }
+  }
+  if (numbers.empty()) return kUnknown;
+  // both ends, where they differ
+  const auto [least, largest] = std::minmax_element(numbers.begin(), numbers.end());
+  const std::string first = text(*least), last = text(*largest);
+  return first == last ? first : first + between + last;
+}
+
+/// rms NPE over that of the bound.
+double TimesTheBound(const LeaderboardRow& row, const Standing& part) {
+  return row.npe_continuous.rms / part.bound_npe_continuous;
+}
+
+/// What stands above the names of variants.
+std::string VariantHead(const Leaderboard& board) {
+  return board.variable.empty() ? "variant" : board.variable;
+}
+
+/// Of a ladder: in how many of its variants each identifier is as good as any.
+Table RankingOverVariants(const Leaderboard& board) {
+  Table table{{"#", "identifier", "best or tied", "failed", "rms / bound"}, {}};
+  for (size_t i = 0; i < board.rows.size(); ++i) {
+    const LeaderboardRow& row = board.rows[i];
+    table.rows.push_back({std::to_string(i + 1), row.identifier,
+                          fmt::format("{} of {}", *row.best_or_tied, board.groups.size()),
+                          FailedCell(row),
+                          OverVariants(board, row.identifier, TimesTheBound, NumberText)});
+  }
+  return table;
 }
 
 }  // namespace
@@ -62,7 +106,15 @@ std::string NumberText(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : kUnknown;
 }
 
+std::vector<std::pair<std::string, const Standing*>> PartsOf(const Leaderboard& board) {
+  std::vector<std::pair<std::string, const Standing*>> parts;
+  for (const VariantStanding& group : board.groups) parts.emplace_back(group.variant, &group);
+  if (parts.empty()) parts.emplace_back("all", &board);
+  return parts;
+}
+
 Table RankingTable(const Leaderboard& board) {
+  if (!board.groups.empty()) return RankingOverVariants(board);
   Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "rms / bound",
                "NPE above best", "discrete NPE", "rms"},
               {}};
@@ -70,11 +122,10 @@ Table RankingTable(const Leaderboard& board) {
   for (size_t i = 0; i < board.rows.size(); ++i) {
     const LeaderboardRow& row = board.rows[i];
     table.rows.push_back({std::to_string(i + 1), row.identifier, FailedCell(row),
-                          PercentText(row.npe_continuous.median), Quartiles(row.npe_continuous),
+                          PercentText(row.npe_continuous.median), MiddleHalf(row.npe_continuous),
                           PercentText(row.npe_continuous.rms),
-                          NumberText(row.npe_continuous.rms / board.bound_npe_continuous),
-                          BehindCell(row), PercentText(row.npe_discrete.median),
-                          PercentText(row.npe_discrete.rms)});
+                          NumberText(TimesTheBound(row, board)), BehindCell(row),
+                          PercentText(row.npe_discrete.median), PercentText(row.npe_discrete.rms)});
   }
   // the bound as the last row
   if (!std::isnan(board.bound_npe_continuous)) {
@@ -86,13 +137,13 @@ Table RankingTable(const Leaderboard& board) {
 }
 
 Table GroupTable(const Leaderboard& board) {
-  // a row a group, a column an identifier
-  Table table{{board.variable.empty() ? "variant" : board.variable, "bound"}, {}};
+  // a row a variant, a column an identifier
+  Table table{{VariantHead(board), "bound"}, {}};
   for (const LeaderboardRow& row : board.rows) table.header.push_back(row.identifier);
-  for (const Leaderboard& group : board.groups) {
+  for (const VariantStanding& group : board.groups) {
     table.rows.push_back({group.variant, PercentText(group.bound_npe_continuous)});
     for (const LeaderboardRow& row : board.rows) {
-      table.rows.back().push_back(GroupCell(group, row.identifier));
+      table.rows.back().push_back(VariantCell(group, row.identifier));
     }
   }
   return table;
@@ -103,27 +154,19 @@ Table AgreementTable(const Leaderboard& board) {
   Table table{{"identifier", fmt::format("RMSE {}", unit), fmt::format("MAE {}", unit), "Fit %",
                fmt::format("FPE ({})^2", unit), "time"},
               {}};
-  // medians over the runs
-  const auto add = [&](const Leaderboard& part) {
-    for (const LeaderboardRow& row : part.rows) {
+  // medians over the runs, of each variant by itself: over different noise they say nothing
+  for (auto [variant, part] : PartsOf(board)) {
+    for (const LeaderboardRow& row : part->rows) {
       table.rows.push_back({row.identifier, NumberText(row.rmse.median), NumberText(row.mae.median),
                             NumberText(row.fit.median), NumberText(row.fpe.median),
                             Seconds(row.seconds.median)});
-    }
-  };
-  if (board.groups.size() < 2) {
-    add(board);
-    return table;
-  }
-  // of each variant by itself: medians over different noise say nothing
-  table.header.insert(table.header.begin(), board.variable.empty() ? "variant" : board.variable);
-  for (const Leaderboard& group : board.groups) {
-    const std::size_t first = table.rows.size();
-    add(group);
-    for (std::size_t i = first; i < table.rows.size(); ++i) {
-      table.rows[i].insert(table.rows[i].begin(), i == first ? group.variant : "");
+      if (board.groups.empty()) continue;
+      // the variant is named once for all of its rows
+      table.rows.back().insert(table.rows.back().begin(), variant);
+      variant.clear();
     }
   }
+  if (!board.groups.empty()) table.header.insert(table.header.begin(), VariantHead(board));
   return table;
 }
 
@@ -135,7 +178,14 @@ Table ParameterTable(const Leaderboard& board) {
     for (const ParameterRow& parameter : row.parameters) {
       const std::string coverage =
           parameter.coverage95 ? PercentText(*parameter.coverage95) : std::string(kUnknown);
-      table.rows.push_back({label, parameter.name, NumberText(parameter.efficiency), coverage});
+      const auto efficiency = [&](const LeaderboardRow& in, const Standing&) {
+        for (const ParameterRow& one : in.parameters) {
+          if (one.name == parameter.name) return one.efficiency;
+        }
+        return std::nan("");
+      };
+      table.rows.push_back({label, parameter.name,
+                            OverVariants(board, row.identifier, efficiency, NumberText), coverage});
       label.clear();
     }
   }
@@ -146,22 +196,26 @@ std::string Verdict(const Leaderboard& board) {
   if (board.rows.empty() || std::isnan(board.rows.front().npe_continuous.median)) {
     return "No identifier gave numbers.";
   }
-  // the best one with its median error
+  // the best one with its error, or in how many variants it is that
   const LeaderboardRow& best = board.rows.front();
-  std::string verdict = fmt::format("{} is best: its median NPE{} is {}", best.identifier,
-                                    board.groups.empty() ? "" : " over all groups",
-                                    PercentText(best.npe_continuous.median));
-  // rungs have bounds of their own, so that all together have none to stand beside
-  if (!std::isnan(board.bound_npe_continuous) && board.groups.empty()) {
-    verdict += fmt::format(", its rms {:.2f} times the Cramer-Rao bound",
-                           best.npe_continuous.rms / board.bound_npe_continuous);
-  }
+  std::string verdict = board.groups.empty()
+                            ? fmt::format("{} is best: its median NPE is {}", best.identifier,
+                                          PercentText(best.npe_continuous.median))
+                            : fmt::format("{} is best or tied in {} of {} variants",
+                                          best.identifier, *best.best_or_tied, board.groups.size());
+  const auto times = [](double number) { return fmt::format("{:.2f}", number); };
+  const std::string bound = OverVariants(board, best.identifier, TimesTheBound, times, " to ");
+  if (bound != kUnknown) verdict += fmt::format(", its rms {} times the Cramer-Rao bound", bound);
   // others that cannot be told from it
-  std::vector<std::string> ties;
+  std::vector<std::string> others;
   for (const LeaderboardRow& row : board.rows) {
-    if (row.behind && row.behind->tie()) ties.push_back(row.identifier);
+    if (row.behind && row.behind->tie()) others.push_back(row.identifier);
+    if (&row != &best && row.best_or_tied.value_or(0) > 0)
+      others.push_back(fmt::format("{} in {}", row.identifier, *row.best_or_tied));
   }
-  if (!ties.empty()) verdict += fmt::format("; tied with {}", fmt::join(ties, ", "));
+  if (!others.empty())
+    verdict +=
+        fmt::format("; {}{}", board.groups.empty() ? "tied with " : "", fmt::join(others, ", "));
   if (best.failed() > 0) verdict += fmt::format("; {} of {} runs failed", best.failed(), best.runs);
   return verdict + ".";
 }
@@ -199,14 +253,19 @@ const std::map<std::string, FigureText>& FigureTexts() {
   return texts;
 }
 
-std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
+std::string ClaimNote(const Leaderboard& board, const LeaderboardRow& row) {
+  const std::string_view unit = kTorqueUnit.For(board.joint);
   // what is claimed and what was reached, figure by figure
   std::vector<std::string> claimed, reached;
   for (const auto& [name, value] : row.claim->figures) {
     const FigureText& figure = FigureTexts().at(name);
-    const Summary& summary = row.*figure.reached;
-    claimed.push_back(fmt::format("{} {}", figure.label, figure.text(value, unit)));
-    reached.push_back(fmt::format("{} {}", figure.label, figure.text(summary.median, unit)));
+    const auto text = [&](double number) { return figure.text(number, unit); };
+    const auto median = [&](const LeaderboardRow& in, const Standing&) {
+      return (in.*figure.reached).median;
+    };
+    claimed.push_back(fmt::format("{} {}", figure.label, text(value)));
+    reached.push_back(
+        fmt::format("{} {}", figure.label, OverVariants(board, row.identifier, median, text)));
   }
   return fmt::format("{}: the claim is {} ({}); the median here is {}", row.identifier,
                      fmt::join(claimed, ", "), row.claim->source, fmt::join(reached, ", "));
@@ -247,7 +306,7 @@ std::vector<std::string> Notes(const Leaderboard& board) {
   std::vector<std::string> notes;
   for (const LeaderboardRow& row : board.rows) {
     // what its author claims, where it failed, where it is too good to be true
-    if (row.claim) notes.push_back(ClaimNote(row, kTorqueUnit.For(board.joint)));
+    if (row.claim) notes.push_back(ClaimNote(board, row));
     if (row.failed() > 0) notes.push_back(FailureNote(row));
     if (const auto names = TooGood(row); !names.empty()) {
       notes.push_back(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/board/leaderboard.h"
@@ -9,10 +10,15 @@
 
 namespace warmjoint {
 
-/// Who wins: a row for each identifier, best first, and one for the Cramer-Rao bound.
+/// The variants of a ladder by name, or "all" in one where there is none. What is measured under different noise is
+/// not put together.
+std::vector<std::pair<std::string, const Standing*>> PartsOf(const Leaderboard& board);
+
+/// Who wins: a row for each identifier, best first, and one for the Cramer-Rao bound. Of a ladder: in how many of its
+/// variants each is as good as any.
 Table RankingTable(const Leaderboard& board);
 
-/// Median NPE of each group of a ladder, one column an identifier; no rows without a ladder.
+/// Rms NPE in each variant of a ladder beside its bound, with who is best there; no rows without a ladder.
 Table GroupTable(const Leaderboard& board);
 
 /// Agreement with the data and time: RMSE, Fit, FPE, MAE, seconds.

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/serialize.h"
 #include "tools/board/board_tables.h"
 
 namespace warmjoint {
@@ -14,21 +17,39 @@ std::string Head(const Leaderboard& board) {
                      board.finished);
 }
 
-/// Every identifier of every run.
+/// Every identifier of every run, of a ladder in each of its variants.
 Table SideBySide(const std::vector<NamedBoard>& boards) {
-  Table table{{"run", "identifier", "failed", "NPE median", "NPE rms", "bound"}, {}};
+  Table table{{"run", "identifier", "failed", "NPE median", "NPE rms", "rms bound"}, {}};
   for (const NamedBoard& named : boards) {
-    std::string run = named.run;
-    // the run is named once for all of its identifiers
-    for (const LeaderboardRow& row : named.board.rows) {
-      table.rows.push_back({run, row.identifier, std::to_string(row.failed()),
-                            PercentText(row.npe_continuous.median),
-                            PercentText(row.npe_continuous.rms),
-                            PercentText(named.board.bound_npe_continuous)});
-      run.clear();
+    for (const auto& [variant, part] : PartsOf(named.board)) {
+      std::string run = named.board.groups.empty() ? named.run : named.run + ": " + variant;
+      // the run is named once for all of its identifiers
+      for (const LeaderboardRow& row : part->rows) {
+        table.rows.push_back({run, row.identifier, std::to_string(row.failed()),
+                              PercentText(row.npe_continuous.median),
+                              PercentText(row.npe_continuous.rms),
+                              PercentText(part->bound_npe_continuous)});
+        run.clear();
+      }
     }
   }
   return table;
+}
+
+/// Who is how good, how well torques agree and parameters are known, and what remains to be said.
+std::string TablesAndNotes(const Leaderboard& board, std::string (*write)(const Table&, size_t),
+                           const char* bullet) {
+  std::string text = write(RankingTable(board), 2) + "\n";
+  // variants beside each other, where there are some
+  const Table groups = GroupTable(board);
+  if (!groups.rows.empty()) {
+    text += fmt::format("Rms NPE in each variant, beside the bound:\n\n{}\n", write(groups, 1));
+  }
+  text += write(AgreementTable(board), board.groups.empty() ? 1 : 2) + "\n";
+  const Table parameters = ParameterTable(board);
+  if (!parameters.rows.empty()) text += write(parameters, 2) + "\n";
+  for (const std::string& note : Notes(board)) text += fmt::format("{} {}\n", bullet, note);
+  return text;
 }
 
 /// Markdown in which nothing is HTML, and on which no terminal acts.
@@ -53,42 +74,18 @@ const std::vector<BoardFormat>& BoardFormats() {
 }
 
 std::string BoardToText(const Leaderboard& board) {
-  // the verdict first, then who is how good
-  std::string text =
-      fmt::format("{}: {}\n{}\n{}\n\n", board.suite, board.question, Verdict(board), Head(board));
-  text += TableToText(RankingTable(board), 2) + "\n";
-  // variants beside each other, where there are some
-  const Table groups = GroupTable(board);
-  if (!groups.rows.empty()) {
-    text += fmt::format("Rms NPE by group, beside the bound:\n{}\n", TableToText(groups, 1));
-  }
-
-  // how well torques agree, how well each parameter is known, and what remains to be said
-  text += TableToText(AgreementTable(board), board.groups.size() < 2 ? 1 : 2) + "\n";
-  const Table parameters = ParameterTable(board);
-  if (!parameters.rows.empty()) text += TableToText(parameters, 2) + "\n";
-  for (const std::string& note : Notes(board)) text += fmt::format("* {}\n", note);
-  return PrintableLines(text);
+  return PrintableLines(fmt::format("{}: {}\n{}\n{}\n\n{}", board.suite, board.question,
+                                    Verdict(board), Head(board),
+                                    TablesAndNotes(board, TableToText, "*")));
 }
 
 std::string BoardToMarkdown(const Leaderboard& board) {
-  // the verdict first, then who is how good
-  std::string text = fmt::format("### {}\n\n{}\n\n**{}** {}\n\n", board.suite, board.question,
-                                 Verdict(board), Head(board));
-  text += TableToMarkdown(RankingTable(board), 2) + "\n";
-  // variants beside each other, where there are some
-  const Table groups = GroupTable(board);
-  if (!groups.rows.empty()) {
-    text += fmt::format("Rms NPE by group, beside the bound:\n\n{}\n", TableToMarkdown(groups, 1));
-  }
-
-  // how well torques agree, how well each parameter is known, and what remains to be said
-  text += TableToMarkdown(AgreementTable(board), board.groups.size() < 2 ? 1 : 2) + "\n";
-  const Table parameters = ParameterTable(board);
-  if (!parameters.rows.empty()) text += TableToMarkdown(parameters, 2) + "\n";
-  for (const std::string& note : Notes(board)) text += fmt::format("- {}\n", note);
-  return Harmless(text);
+  return Harmless(fmt::format("### {}\n\n{}\n\n**{}** {}\n\n{}", board.suite, board.question,
+                              Verdict(board), Head(board),
+                              TablesAndNotes(board, TableToMarkdown, "-")));
 }
+
+std::string BoardToJson(const Leaderboard& board) { return WriteFields(board).dump(2) + "\n"; }
 
 std::string BoardsToText(const std::vector<NamedBoard>& boards) {
   std::string text = PrintableLines(TableToText(SideBySide(boards), 2));
@@ -100,6 +97,15 @@ std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards) {
   std::string text = Harmless(TableToMarkdown(SideBySide(boards), 2));
   for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToMarkdown(named.board));
   return text;
+}
+
+std::string BoardsToJson(const std::vector<NamedBoard>& boards) {
+  Tree runs = Tree::array();
+  for (const NamedBoard& named : boards) {
+    runs.push_back({{"run", named.run}});
+    runs.back().update(WriteFields(named.board));
+  }
+  return Tree{{"runs", std::move(runs)}}.dump(2) + "\n";
 }
 
 Leaderboard ReadLeaderboard(const std::filesystem::path& directory) {

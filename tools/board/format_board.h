@@ -43,12 +43,11 @@ std::string BoardsToJson(const std::vector<NamedBoard>& boards);
 /// As BoardToCsv, with the run in the first column.
 std::string BoardsToCsv(const std::vector<NamedBoard>& boards);
 
-/// One row for each identifier, all numbers in full.
+/// One row for each identifier in each variant, "all" where there is no ladder. All numbers in full.
 std::string BoardToCsv(const Leaderboard& board);
 
 /// Writes the tables of a run that people read: RUN/results.csv, a row for each result (ExportResults),
-/// and RUN/summary.csv, the leaderboard as BoardToCsv with the variant in the first column: all of them
-/// together, then each of a ladder. Wall times stay out of both, so that equal results are equal bytes.
+/// and RUN/summary.csv, the leaderboard as BoardToCsv. Wall times stay out of both, so that equal results are equal bytes.
 void WriteTables(const RunStore& store);
 
 }  // namespace warmjoint

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "tools/board/statistics.h"
@@ -47,6 +48,8 @@ double Number(const SQLite::Column& column) {
 class Questions {
  public:
   Questions(const RunStore& store, Group group) : store_(store), group_(group) {}
+
+  bool of_one_variant() const { return group_.first == group_.last; }
 
   /// The query's ?1 and ?2 are the group's variants, the following ones `more`.
   template <typename... More>
@@ -185,17 +188,18 @@ std::vector<LeaderboardRow> Rank(const Questions& questions, const Suite& suite)
   std::stable_sort(rows.begin(), rows.end(),
                    [](const auto& a, const auto& b) { return Better(a.first, b.first); });
 
-  // all others are compared with the best one, realization by realization
+  // all others are compared with the best one, realization by realization: errors of different variants are not alike
   std::vector<LeaderboardRow> ranked;
   for (auto& [row, position] : rows) {
-    if (!ranked.empty()) row.behind = Behind(questions, position, rows.front().second);
+    if (!ranked.empty() && questions.of_one_variant())
+      row.behind = Behind(questions, position, rows.front().second);
     ranked.push_back(std::move(row));
   }
   return ranked;
 }
 
 /// Root mean squares of the NPE at the Cramer-Rao bound, once a unit: by the first result that knows it.
-void AddBounds(const Questions& questions, Leaderboard& board) {
+void AddBounds(const Questions& questions, Standing& sum) {
   SQLite::Statement unit = questions.Ask(
       "SELECT bound_npe_continuous, bound_npe_discrete, min(identifier) FROM result WHERE variant "
       "BETWEEN ?1 AND ?2 AND coalesce(bound_npe_continuous, bound_npe_discrete) IS NOT NULL GROUP "
@@ -206,26 +210,41 @@ void AddBounds(const Questions& questions, Leaderboard& board) {
     continuous.push_back(Number(unit.getColumn(0)));
     discrete.push_back(Number(unit.getColumn(1)));
   }
-  board.bound_npe_continuous = RootMeanSquareOf(continuous);
-  board.bound_npe_discrete = RootMeanSquareOf(discrete);
+  sum.bound_npe_continuous = RootMeanSquareOf(continuous);
+  sum.bound_npe_discrete = RootMeanSquareOf(discrete);
 }
 
-Leaderboard SumUp(const RunStore& store, Group group) {
-  // the suite, and how well it could be done
+Standing SumUp(const RunStore& store, Group group) {
+  // how many, how well it could be done, and how well it was done
   const Suite& suite = store.suite();
   const Questions questions(store, group);
-  Leaderboard board;
-  board.suite = suite.name;
-  board.question = suite.question;
-  board.joint = suite.scenario.joint_kind;
-  board.realizations = suite.realizations * (group.last - group.first + 1);
+  Standing sum;
+  sum.realizations = suite.realizations * (group.last - group.first + 1);
   SQLite::Statement units =
       questions.Ask("SELECT count(*) FROM realization WHERE variant BETWEEN ?1 AND ?2");
   units.executeStep();
-  board.finished = units.getColumn(0).getInt();
-  AddBounds(questions, board);
-  board.rows = Rank(questions, suite);
-  return board;
+  sum.finished = units.getColumn(0).getInt();
+  AddBounds(questions, sum);
+  sum.rows = Rank(questions, suite);
+  return sum;
+}
+
+/// Orders a ladder's rows by the variants in which they are best or tied, then by the sum of their places.
+void RankByVariants(Leaderboard& board) {
+  std::map<std::string, int> wins;
+  std::map<std::string, std::size_t> places;
+  for (const VariantStanding& group : board.groups) {
+    for (std::size_t i = 0; i < group.rows.size(); ++i) {
+      wins[group.rows[i].identifier] += IsBestOrTied(group.rows[i]);
+      places[group.rows[i].identifier] += i;
+    }
+  }
+  for (LeaderboardRow& row : board.rows) row.best_or_tied = wins[row.identifier];
+  std::stable_sort(board.rows.begin(), board.rows.end(),
+                   [&](const LeaderboardRow& a, const LeaderboardRow& b) {
+                     return std::pair(-*a.best_or_tied, places[a.identifier]) <
+                            std::pair(-*b.best_or_tied, places[b.identifier]);
+                   });
 }
 
 }  // namespace
@@ -236,22 +255,29 @@ int LeaderboardRow::failed() const {
   return count;
 }
 
+bool IsBestOrTied(const LeaderboardRow& row) {
+  return !std::isnan(row.npe_continuous.median) && (!row.behind || row.behind->tie());
+}
+
 Leaderboard ReadBoard(const RunStore& store) {
   return Guarded(store.results_file(), [&] {
-    // all variants together, however they are parted
+    // all variants together
     const Suite& suite = store.suite();
-    Leaderboard board = SumUp(store, {0, suite.variants() - 1});
+    Leaderboard board;
+    static_cast<Standing&>(board) = SumUp(store, {0, suite.variants() - 1});
+    board.suite = suite.name;
+    board.question = suite.question;
+    board.joint = suite.scenario.joint_kind;
     if (!suite.ladder) return board;
 
-    // a board for each rung of the ladder
+    // each rung of the ladder, and who is good at how many
     board.variable = suite.ladder->variable;
     if (!suite.ladder->unit.empty()) board.variable += " " + suite.ladder->unit;
     for (int i = 0; i < suite.variants(); ++i) {
       const Variant& variant = suite.ladder->variants[static_cast<std::size_t>(i)];
-      board.groups.push_back(SumUp(store, {i, i}));
-      board.groups.back().variant = variant.name;
-      board.groups.back().value = variant.value;
+      board.groups.push_back({SumUp(store, {i, i}), variant.name, variant.value});
     }
+    RankByVariants(board);
     return board;
   });
 }

@@ -11,4 +11,7 @@ namespace warmjoint {
 /// bytes for each result of one identifier at a time. Throws BadInput where the database is damaged.
 Leaderboard ReadBoard(const RunStore& store);
 
+/// Whether a row of one variant has numbers that no other one is better than.
+bool IsBestOrTied(const LeaderboardRow& row);
+
 }  // namespace warmjoint

@@ -47,7 +47,7 @@ double RootMeanSquareOf(const std::vector<double>& values) {
 Summary Summarise(std::vector<double> values) {
   const double rms = RootMeanSquareOf(values);
   KeepSorted(values);
-  return {Quantile(values, 0.5), Quantile(values, 0.25), Quantile(values, 0.75), rms};
+  return {{Quantile(values, 0.5), Quantile(values, 0.25), Quantile(values, 0.75)}, rms};
 }
 
 Difference MedianDifference(std::vector<double> differences) {

@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 // columns of a curve that are told apart: more than a page at 300 pixels an inch shows
 constexpr int kColumns = 2000;
 constexpr Index kCrowd = 3000;  // samples that are all kept
-// cells of a crowd: a third of a marker apart
-constexpr int kCrowdColumns = 700, kCrowdRows = 350;
+// cells of a crowd: across a whole page they are closer than the smallest markers are wide
+constexpr int kCrowdColumns = 480, kCrowdRows = 240;
 
 /// The part of an axis that is shown, in the coordinate in which it is straight.
 CellSpan SpanOf(const Axis& axis, int count) {

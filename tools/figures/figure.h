@@ -18,8 +18,6 @@ enum class Scale { linear, logarithmic };
 enum class Dash { solid, dashed, dotted };
 enum class Marker { circle, square, diamond, up, down, cross };
 enum class Side { left, centre, right };
-/// Of heat maps: by size, or from cold to hot.
-enum class Colours { size, heat };
 /// Colours by role. Blue to sky are the palette of Okabe and Ito (2008), which colour-blind readers
 /// tell apart; caution is for words alone. A style of the backend says how each looks.
 enum class Hue { text, grey, blue, vermilion, green, purple, orange, sky, caution };
@@ -44,10 +42,6 @@ inline std::span<const Word<Marker>> WordsOf(Marker) {
 inline std::span<const Word<Side>> WordsOf(Side) {
   static constexpr std::array words{Word{"left", Side::left}, Word{"centre", Side::centre},
                                     Word{"right", Side::right}};
-  return words;
-}
-inline std::span<const Word<Colours>> WordsOf(Colours) {
-  static constexpr std::array words{Word{"size", Colours::size}, Word{"heat", Colours::heat}};
   return words;
 }
 inline std::span<const Word<Hue>> WordsOf(Hue) {
@@ -203,9 +197,9 @@ struct HeatMap {
   Eigen::MatrixXd values;
   std::pair<double, double> x;  // lower, upper edge
   std::pair<double, double> y;
-  std::pair<double, double> limits;  // values at the ends of the colour scale
-  std::string label;                 // of the colour bar, with unit
-  Colours colours = Colours::size;
+  std::pair<double, double> limits;    // values at the ends of the colour scale
+  std::string label;                   // of the colour bar, with unit
+  std::vector<std::string> colours{};  // "#2166ac", ...: of the scale; empty: the usual ones
 
   template <class A>
   void Serialize(A* a) {

@@ -115,7 +115,7 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   // how sure the heat is
   view.energy = given.energy;
   if (view.warms()) {
-    const FrictionSpread spread = SpreadOf(estimate, view.course, view.start, selection);
+    const FrictionSpread spread = SpreadOf(estimate);
     view.energy_std = SpreadOfPrediction(
         spread, *estimate.friction, [&](const Friction& friction) -> Eigen::VectorXd {
           return AlongMotion(friction).Predict(view.course, view.start).energy;

@@ -132,9 +132,7 @@ void AddFit(Plot& plot, const FitView& view, const Eigen::VectorXd& torque,
   // a friction with maps has no curve and so no band of it
   const bool has_maps = !view.estimate.friction->maps.empty();
   const auto [lowest, highest] = RangeOf({torque});
-  const FrictionSpread spread =
-      has_maps ? FrictionSpread{}
-               : SpreadOf(view.estimate, view.course, view.start, view.selection);
+  const FrictionSpread spread = has_maps ? FrictionSpread{} : SpreadOf(view.estimate);
   // the fitted friction at each warmth
   for (const auto& [energy, hue, name] : levels) {
     if (has_maps) {

@@ -2,27 +2,23 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
-#include <warmjoint/recording.h>
 
 #include <Eigen/Core>
-
-#include "models/friction/along_motion.h"
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace warmjoint::figures {
 
-/// Covariance of the estimate's friction parameters, to first order about them.
-/// The correlations come from the derivatives of the predicted torque at the kept samples,
-/// (J^T J)^-1, the sizes from the estimate's own standard deviations.
+/// Covariance of those of the estimate's values that its friction has.
 struct FrictionSpread {
   std::vector<std::string> names;  // [d] parameters of friction, as in the estimate
-  Eigen::MatrixXd covariance;      // [d x d]; empty where the estimate has no standard deviations
+  Eigen::MatrixXd covariance;      // [d x d]; empty where the estimate has none
 
   bool is_known() const { return covariance.size() > 0; }
 };
 
-/// course, start: of the recording that the estimate was fitted to.
-FrictionSpread SpreadOf(const Estimate& estimate, const JointCourse& course,
-                        const CourseStart& start, const Selection& selection);
+FrictionSpread SpreadOf(const Estimate& estimate);
 
 /// The friction with one of its parameters changed by `step`.
 Friction Changed(const Friction& friction, const std::string& name, double step);

@@ -108,6 +108,44 @@ TEST(Leaderboard, VariantsWhoseTruthsHaveOtherParametersAreToldApartByName) {
   EXPECT_DOUBLE_EQ(rows[1].efficiency, 0.5);
 }
 
+TEST(Leaderboard, OfALadderRanksWithinEachVariant) {
+  // errors of variant 1 are a hundred times those of variant 0, where b is better; in variant 1 it is a, by less than that
+  std::vector<Result> results;
+  for (int variant : {0, 1, 2}) {
+    for (int i = 0; i < 8; ++i) {
+      const double unit = variant == 1 ? 1 : 0.01, spread = 1 + 0.01 * i;
+      const double a = variant == 1 ? 1 : 2, b = variant == 1 ? 2 : 1;
+      for (const auto& [identifier, error] : {std::pair(0, a), std::pair(1, b)}) {
+        results.push_back(Answered(i, identifier, 10 + error * spread * unit));
+        results.back().variant = variant;
+      }
+    }
+  }
+  const Leaderboard board =
+      BoardOf(results, "ladder: {variable: noise.torque, values: [0.1, 1, 0.2], unit: N.m}\n");
+  ASSERT_EQ(board.rows.size(), 2u);
+  EXPECT_EQ(board.rows[0].identifier, "b")
+      << "best in two of three, though its pooled rms is larger";
+  EXPECT_EQ(board.rows[0].best_or_tied, 2);
+  EXPECT_EQ(board.rows[1].best_or_tied, 1);
+  EXPECT_EQ(board.groups[1].rows[0].identifier, "a");
+  EXPECT_EQ(
+      Verdict(board),
+      "b is best or tied in 2 of 3 variants, its rms 0.02 to 4.14 times the Cramer-Rao bound; "
+      "a in 1.");
+  EXPECT_THAT(RankingTable(board).rows[0], ElementsAre("1", "b", "2 of 3", "0", "0.0207 .. 4.14"));
+  EXPECT_THAT(GroupTable(board).rows[1], ElementsAre("1", "5.00 %", "20.7 %", "10.4 % best"));
+
+  // what is measured under different noise is put together in no format
+  const auto json = nlohmann::json::parse(BoardToJson(board));
+  EXPECT_EQ(json.at("rows").at(0).at("best_or_tied"), 2);
+  EXPECT_FALSE(json.at("rows").at(1).contains("behind_best"));
+  EXPECT_TRUE(json.at("groups").at(0).at("rows").at(1).contains("behind_best"));
+  const std::string csv = BoardToCsv(board);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 * 2);
+  EXPECT_THAT(BoardsToText({{"run", board}}), HasSubstr("run: 0.2"));
+}
+
 TEST(Leaderboard, FailuresAreCountedAndCannotWin) {
   const Leaderboard board = BoardOf(AFailsTwiceAndBIsOftenWorse());
   const LeaderboardRow& a = board.rows[1];

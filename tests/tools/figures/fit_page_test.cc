@@ -122,24 +122,15 @@ TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
   }
 }
 
-TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
-  // without warming the covariance is s^2 (A^T A)^-1 of the rows [v, sign v]
+TEST(FrictionSpread, HasTheFrictionsShareOfTheCovariance) {
   WarmRecording warm;
   warm.estimate.friction->thermal.reset();
-  const Eigen::VectorXd& v = warm.measurements.velocity;
-  Eigen::MatrixXd rows(v.size(), 2);
-  rows << v, v.array().sign().matrix();
-  const Eigen::MatrixXd covariance = 0.25 * (rows.transpose() * rows).inverse();
-  warm.estimate.parameters = {
-      {"viscous", 5, "", std::sqrt(covariance(0, 0)), {}},
-      {"coulomb", 15, "", std::sqrt(covariance(1, 1)), {}},
-  };
-  const FrictionSpread spread =
-      SpreadOf(warm.estimate, CourseOf(warm.measurements), {}, warm.selection);
+  Eigen::Matrix3d matrix;
+  matrix << 4, 0.5, 1, 0.5, 9, 2, 1, 2, 16;
+  warm.estimate.covariance = ParameterCovariance{{"coulomb", "gravity_sine", "viscous"}, matrix};
+  const FrictionSpread spread = SpreadOf(warm.estimate);
   ASSERT_EQ(spread.names, (std::vector<std::string>{"coulomb", "viscous"}));
-  // derivatives by central differences of a linear function: rounding alone
-  EXPECT_NEAR(spread.covariance(0, 1), covariance(0, 1), 1e-6 * std::abs(covariance(0, 1)));
-  EXPECT_NEAR(spread.covariance(1, 1), covariance(0, 0), 1e-6 * covariance(0, 0));
+  EXPECT_EQ(spread.covariance, (Eigen::Matrix2d{{4, 1}, {1, 16}}));
 
   // the deviation of F at v = 0.5
   const auto predict = [](const Friction& friction) {
@@ -147,9 +138,9 @@ TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
         friction.parameters.at("viscous") * 0.5 + friction.parameters.at("coulomb");
     return Eigen::VectorXd(Eigen::VectorXd::Constant(1, force));
   };
-  const Eigen::Vector2d row(0.5, 1);
+  const Eigen::Vector2d row(1, 0.5);
   EXPECT_NEAR(SpreadOfPrediction(spread, *warm.estimate.friction, predict)[0],
-              std::sqrt(row.dot(covariance * row)), 1e-6);
+              std::sqrt(row.dot(spread.covariance * row)), 1e-9);
 }
 
 struct Identified {

@@ -53,6 +53,14 @@ struct WarmRecording {
         {"thermal_gain", -3, "N.m/W", 0.05, std::array{-3.1, -2.9}},
         {"thermal_time_constant", 600, "s", 12, std::array{576.0, 624.0}},
     };
+    // as of parameters that do not depend on each other
+    ParameterCovariance covariance{{}, Eigen::MatrixXd::Zero(4, 4)};
+    for (const EstimatedParameter& one : estimate.parameters) {
+      const auto i = static_cast<Eigen::Index>(covariance.parameters.size());
+      covariance.matrix(i, i) = *one.std * *one.std;
+      covariance.parameters.push_back(one.name);
+    }
+    estimate.covariance = covariance;
     estimate.metrics = ComputeMetrics(measurements.torque, prediction.force, 4, 4);
   }
 };

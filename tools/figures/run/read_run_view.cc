@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/linear/least_squares.h"
 #include "identification/preparation/select.h"
+#include "identification/score/cramer_rao.h"
 #include "models/foundation/bad_input.h"
-#include "models/recording/course_of.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "tools/figures/friction_spread.h"
 #include "tools/figures/number_text.h"
 #include "tools/figures/run/prime_distance.h"
 #include "tools/figures/run/row_builder.h"
@@ -27,43 +27,31 @@ using Eigen::VectorXd;
 /// simulating the first once more. Empty where its plant cannot be made on this machine.
 Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   const auto d = static_cast<Index>(row.parameters.size());
-  Estimate bound;
-  VectorXd relative(d);  // per cent a unit
+  VectorXd relative(d);  // per cent of the truth
   // the bound of each parameter over the realizations, and its share of the truth
   for (Index i = 0; i < d; ++i) {
     const ParameterColumn& column = row.parameters[static_cast<std::size_t>(i)];
-    const double size = std::sqrt(column.bound.array().square().mean());
-    if (!std::isfinite(size) || !(column.truth.array().abs() > 0).all()) return {};
-    bound.parameters.push_back({column.name, column.truth[0], column.unit, size, {}});
-    relative[i] = 100 / std::sqrt(column.truth.array().square().mean());
+    relative[i] = 100 * std::sqrt(column.bound.array().square().mean() /
+                                  column.truth.array().square().mean());
+    if (!std::isfinite(relative[i]) || !(column.truth.array().abs() > 0).all()) return {};
   }
   // one simulation tells how the errors of parameters go together
-  FrictionSpread spread;
+  Eigen::MatrixXd covariance;
   try {
     const Simulation recording = MakePlant(suite.scenario)->Run(0);
     const Measurements m = Prepare(recording.measurements).taken().measurements;
-    bound.friction = recording.truth.friction;
-    spread = SpreadOf(
-        bound, CourseOf(m), {recording.truth.initial_energy},
-        suite.scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m));
+    const Selection selection =
+        suite.scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
+    const double step = 1 / suite.scenario.sampling.rate;
+    covariance = Cofactor(
+        CramerRaoBound(m, selection, recording.truth, KnownInitialEnergy::yes, step).information);
   } catch (const BadInput&) {
     return {};
   }
   // some parameters may not be told apart
-  if (spread.names.size() != row.parameters.size()) return {};
-
-  // from the spread's order to the truth's
-  Eigen::MatrixXd covariance(d, d);
-  const auto place = [&](Index i) {
-    const std::string& name = row.parameters[static_cast<std::size_t>(i)].name;
-    return std::find(spread.names.begin(), spread.names.end(), name) - spread.names.begin();
-  };
-  for (Index i = 0; i < d; ++i) {
-    for (Index j = 0; j < d; ++j) {
-      covariance(i, j) = spread.covariance(place(i), place(j)) * relative[i] * relative[j];
-    }
-  }
-  return covariance;
+  if (covariance.rows() != d || !covariance.allFinite()) return {};
+  const VectorXd scale = relative.cwiseQuotient(covariance.diagonal().cwiseSqrt());
+  return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
 Rungs ReadRungs(const Suite& suite) {

@@ -51,7 +51,7 @@ Tree BoardTrees(const Leaderboard& board) {
   Tree tables = {TableTree("Who wins: normalised parameter error, NPE", RankingTable(board)),
                  TableTree("Agreement with the data, medians", AgreementTable(board))};
   // variants beside each other, where there are some
-  if (board.groups.size() > 1) {
+  if (!board.groups.empty()) {
     tables.push_back(TableTree("Rms NPE in each variant, beside its bound", GroupTable(board)));
   }
   const BoardTable parameters = ParameterTable(board);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "models/robots/robot_folder.h"
@@ -20,6 +21,9 @@ using Eigen::VectorXd;
 
 constexpr double kFilled = 0.94;  // share of the picture that the robot reaches over
 constexpr scene::Rgb kPaper{255, 255, 255};
+// blue, pale, red: told apart by colour-blind readers
+constexpr std::array<scene::Rgb, 5> kColdToHot{
+    {{33, 102, 172}, {127, 166, 201}, {217, 195, 174}, {232, 137, 95}, {178, 24, 43}}};
 
 /// A robot with one joint that moves and warms.
 class Model {
@@ -108,7 +112,11 @@ Plot HeatStrip(const SimulationView& view) {
               {0, 1},
               {0, LargestEnergy(view)},
               TorqueLabel(fit, WarmestEnergy(fit) < 0 ? "−E" : "E"),
-              Colours::heat};
+              {}};
+  for (const scene::Rgb& colour : kColdToHot) {
+    map.colours.push_back(
+        fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue));
+  }
   // the size of E at places spread over the recording
   for (Index i = 0; i < kCells; ++i) {
     map.values(0, i) = std::abs(fit.energy[i * (fit.energy.size() - 1) / (kCells - 1)]);
@@ -141,17 +149,16 @@ bool HasWarmRobot(const SimulationView& view) {
 }
 
 scene::Rgb HeatColour(double fraction) {
-  // from cold to hot, as draw.py has it: blue, pale, red
-  static constexpr scene::Rgb kQuarters[] = {
-      {33, 102, 172}, {127, 166, 201}, {217, 195, 174}, {232, 137, 95}, {178, 24, 43}};
-  constexpr int kSteps = static_cast<int>(std::size(kQuarters)) - 1;
-  // between two quarters their colours are mixed
+  constexpr int kSteps = static_cast<int>(kColdToHot.size()) - 1;
+  // between two of them they are mixed
   const double place = kSteps * std::clamp(fraction, 0.0, 1.0);
   const int lower = std::min(kSteps - 1, static_cast<int>(place));
+  const scene::Rgb& below = kColdToHot[static_cast<std::size_t>(lower)];
+  const scene::Rgb& above = kColdToHot[static_cast<std::size_t>(lower) + 1];
   const auto mix = [&](std::uint8_t scene::Rgb::*channel) {
     const double share = place - lower;
-    return static_cast<std::uint8_t>(std::lround((1 - share) * (kQuarters[lower].*channel) +
-                                                 share * (kQuarters[lower + 1].*channel)));
+    return static_cast<std::uint8_t>(
+        std::lround((1 - share) * (below.*channel) + share * (above.*channel)));
   };
   return {mix(&scene::Rgb::red), mix(&scene::Rgb::green), mix(&scene::Rgb::blue)};
 }

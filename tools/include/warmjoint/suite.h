@@ -9,9 +9,12 @@
 #pragma once
 
 #include <warmjoint/claim.h>
+#include <warmjoint/field.h>
 #include <warmjoint/friction.h>
 #include <warmjoint/recording.h>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -88,12 +91,29 @@ struct RunEnding {
 RunEnding Run(const RunArguments& arguments,
               const std::function<void(int finished, int total)>& watch = {});
 
-/// Median, quartiles and root mean square of a sample; NaN of an empty one.
-struct Summary {
+/// Median and quartiles of a sample; NaN of an empty one.
+struct Quartiles {
   double median;
   double q25;
   double q75;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("median", &median);
+    a->Field("q25", &q25);
+    a->Field("q75", &q75);
+  }
+};
+
+/// The same and the root mean square.
+struct Summary : Quartiles {
   double rms;
+
+  template <class A>
+  void Serialize(A* a) {
+    Quartiles::Serialize(a);
+    a->Field("rms", &rms);
+  }
 };
 
 /// How far a row is behind the best one, by pairs of the same realization.
@@ -102,6 +122,15 @@ struct Difference {
   double lower = 0;   // 95 % interval of that median, bootstrap
   double upper = 0;
   bool tie() const { return lower <= 0 && upper >= 0; }
+
+  template <class A>
+  void Serialize(A* a) {
+    std::array<double, 2> interval{lower, upper};
+    bool is_tie = tie();
+    a->Field("median", &median);
+    a->Field("interval95", &interval);
+    a->Field("tie", &is_tie);
+  }
 };
 
 /// One parameter of the truth over all realizations.
@@ -122,28 +151,88 @@ struct LeaderboardRow {
   std::vector<ParameterRow> parameters;    // continuous, in the order of the truth
   std::vector<std::string> not_estimated;  // continuous parameters that never were; count as 0
   std::optional<Claim> claim;
-  std::optional<Difference> behind;  // empty for the best itself
+  std::optional<Difference> behind;  // empty for the best itself, and over several variants
+  std::optional<int> best_or_tied;   // of several variants, those in which nobody is better
   double rank_npe = 0;  // median continuous NPE with runs without an answer as infinite
 
   int failed() const;
+
+  template <class A>
+  void Serialize(A* a) {
+    std::map<std::string, Summary> npe{{"continuous", npe_continuous}, {"discrete", npe_discrete}};
+    std::vector<std::pair<std::string, double>> coverage95, efficiency;
+    for (const ParameterRow& one : parameters) {
+      if (one.coverage95) coverage95.emplace_back(one.name, *one.coverage95);
+      if (std::isfinite(one.efficiency)) efficiency.emplace_back(one.name, one.efficiency);
+    }
+    std::map<std::string, double> time{{"median", seconds.median}};
+    a->Field("identifier", &identifier);
+    a->Field("runs", &runs);
+    a->Field("failures", &failures);
+    a->Field("npe", &npe);
+    a->template Field<Quartiles>("rmse", &rmse);
+    a->template Field<Quartiles>("fit", &fit);
+    a->template Field<Quartiles>("fpe", &fpe);
+    a->template Field<Quartiles>("mae", &mae);
+    a->Field("coverage95", &coverage95);
+    a->Field("efficiency", &efficiency);
+    a->Field("seconds", &time);
+    a->Field("not_estimated", &not_estimated);
+    a->Field("behind_best", &behind);
+    a->Field("best_or_tied", &best_or_tied);
+    a->Field("claim", &claim);
+  }
 };
 
-/// The leaderboard of a run, best identifier first.
-struct Leaderboard {
-  std::string suite;
-  std::string question;
-  int realizations = 0;  // of the suite
-  int finished = 0;      // of them in the store
-  JointKind joint = JointKind::rotary;
+/// Realizations of a suite, or of one of its variants, summed up.
+struct Standing {
+  int realizations = 0;              // of the suite
+  int finished = 0;                  // of them in the store
   double bound_npe_continuous = 0;   // rms NPE of an estimate at the Cramer-Rao bound, or NaN
   double bound_npe_discrete = 0;     // the same for the discrete pair
   std::vector<LeaderboardRow> rows;  // best first
 
-  // groups of a suite with a ladder, in its order; those have the following two, too
-  std::vector<Leaderboard> groups;
+  template <class A>
+  void Serialize(A* a) {
+    std::map<std::string, std::map<std::string, double>> bound{
+        {"continuous", {{"rms", bound_npe_continuous}}},
+        {"discrete", {{"rms", bound_npe_discrete}}}};
+    a->Field("realizations", &finished);
+    a->Field("bound_npe", &bound);
+    a->Field("rows", &rows);
+  }
+};
+
+/// One variant of a suite with a ladder.
+struct VariantStanding : Standing {
   std::string variant;
   std::optional<double> value;  // of the ladder's variable
-  std::string variable;         // what the ladder climbs, with its unit
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("variant", &variant);
+    a->Field("value", &value, {.at_default = AtDefault::null});
+    Standing::Serialize(a);
+  }
+};
+
+/// The leaderboard of a run, best identifier first: of a ladder the one that is best or tied in the most variants.
+struct Leaderboard : Standing {
+  std::string suite;
+  std::string question;
+  JointKind joint = JointKind::rotary;
+  std::string variable;                 // what the ladder climbs, with its unit; empty without
+  std::vector<VariantStanding> groups;  // of a ladder, in its order
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("suite", &suite);
+    a->Field("question", &question);
+    Standing::Serialize(a);
+    const AtDefault without = groups.empty() ? AtDefault::left_out : AtDefault::written;
+    a->Field("variable", &variable, {.at_default = without});
+    a->Field("groups", &groups, {.at_default = without});
+  }
 };
 
 /// Sums up a run directory. Throws BadInput.

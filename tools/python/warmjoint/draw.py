@@ -62,11 +62,11 @@ STYLES = {
     "paper": _look(**{**_LIGHT, "scale": 0.78, "width": 180.0, "dpi": 300, "text": "#000000", "faint": "#000000",
                       "axis": "#000000", "hues": _LIGHT["hues"].replace("#1c2026", "#000000").replace("#80868f", "#737373")}),
 }
-CROWD = 1500  # markers that vector files hold one by one
+# vector files hold so many markers of a plot's width (900 points of the figure) one by one, and lines of so many places: what is
+# denser hides its own parts, and is a picture in them
+MARKERS_APART, PLACES_APART = 300, 3000
 DASHES = {"solid": "-", "dashed": (0, (4, 2.5)), "dotted": (0, (1.2, 1.8))}
 MARKERS = {"circle": "o", "square": "s", "diamond": "D", "up": "^", "down": "v", "cross": "X"}
-COLOURS = {"size": "viridis", "heat": LinearSegmentedColormap.from_list(
-    "heat", ["#2166ac", "#7fa6c9", "#d9c3ae", "#e8895f", "#b2182b"])}
 
 
 def style_of(style):
@@ -92,12 +92,12 @@ def _array(values):
 
 def _line(ax, shape, colour, scale):
     ax.plot(_array(shape["x"]), _array(shape["y"]), color=colour, linewidth=scale * shape["width"], linestyle=DASHES[shape["dash"]],
-            solid_joinstyle="round", dash_capstyle="butt")
+            solid_joinstyle="round", dash_capstyle="butt", rasterized=len(shape["x"]) > PLACES_APART)
 
 
 def _scatter(ax, shape, colour, scale):
     ax.plot(_array(shape["x"]), _array(shape["y"]), linestyle="", marker=MARKERS[shape["marker"]], color=colour,
-            markersize=2 * scale * shape["size"], markeredgewidth=0, alpha=shape["opacity"], rasterized=len(shape["x"]) > CROWD)
+            markersize=2 * scale * shape["size"], markeredgewidth=0, alpha=shape["opacity"], rasterized=len(shape["x"]) > MARKERS_APART)
 
 
 def _band(ax, shape, colour, scale):
@@ -120,10 +120,14 @@ def _box(ax, shape, colour, scale):
            flierprops={"marker": "o", "markersize": 3.6 * scale, "markerfacecolor": colour, "markeredgewidth": 0})
 
 
+def _colours(shape):
+    return LinearSegmentedColormap.from_list("own", shape["colours"]) if shape["colours"] else "viridis"
+
+
 def _heat_map(ax, shape, colour, scale):
     values = np.ma.masked_invalid(np.array(shape["values"], dtype=float))
     x, y = (np.linspace(*shape[side], count + 1) for side, count in (("x", values.shape[1]), ("y", values.shape[0])))
-    ax.pcolormesh(x, y, values, cmap=COLOURS[shape["colours"]], vmin=shape["limits"][0], vmax=shape["limits"][1], rasterized=True)
+    ax.pcolormesh(x, y, values, cmap=_colours(shape), vmin=shape["limits"][0], vmax=shape["limits"][1], rasterized=True)
 
 
 def _level(ax, shape, colour, scale):
@@ -178,33 +182,33 @@ def fill(ax, plot, look):
 
 def set_ticks(ax, plot, width, height):
     """width, height: between the axes, points of the figure."""
-    for name, axis, wanted in (("x", plot["x"], 0), ("y", plot["y"], int(height / layout.ROW))):
+    for name, axis in (("x", plot["x"]), ("y", plot["y"])):
         drawn = ax.xaxis if name == "x" else ax.yaxis
         if axis["ticks"]:
             drawn.set_major_locator(layout.locator_of(axis, 0))
             labels = layout.category_lines(axis, width) if name == "x" else [tick["label"] for tick in axis["ticks"] if tick["label"]]
             drawn.set_ticklabels([layout.math_text(label) for label in labels])
         else:
-            drawn.set_major_locator(layout.locator_of(axis, wanted or layout.wanted_x(axis, width)))
-            drawn.set_major_formatter(layout.Numbers())
+            drawn.set_major_locator(layout.locator_of(axis, layout.wanted_x(axis, width) if name == "x" else layout.wanted_y(height)))
+            drawn.set_major_formatter(layout.Numbers(axis))
         drawn.set_minor_formatter(NullFormatter())
         drawn.set_minor_locator(LogLocator(subs=range(2, 10), numticks=99) if axis["scale"] == "logarithmic" else NullLocator())
 
 
+def _name_upright(ax, plot, look, height, **place):
+    lines = layout.upright_name(plot["y"], height)
+    ax.set_ylabel(layout.math_text("\n".join(lines)), fontsize=layout.TEXT * look["scale"], color=look["text"], linespacing=layout.LINE, **place)
+
+
 def colour_bar(cax, shape, look, height):
-    scale = look["scale"]
-    axis = layout.colour_axis(shape)
-    ramp = np.linspace(axis["lower"], axis["upper"], 257)
-    cax.pcolormesh([0, 1], ramp, ramp[:-1, None], cmap=COLOURS[shape["colours"]], rasterized=True)
-    cax.set(xlim=(0, 1), ylim=(axis["lower"], axis["upper"]), xticks=[])
-    for spine in cax.spines.values():
-        spine.set_visible(False)
+    plot = layout.colour_bar(shape)
+    fill(cax, plot, look)
+    set_ticks(cax, plot, layout.BAR, height)
+    cax.grid(False)
+    cax.set_frame_on(False)
     cax.yaxis.tick_right()
-    cax.yaxis.set_major_locator(layout.locator_of(axis, int(height / layout.ROW)))
-    cax.yaxis.set_major_formatter(layout.Numbers())
-    cax.tick_params(length=3 * scale, width=scale, pad=3 * scale, labelsize=layout.TICK * scale, color=look["axis"], labelcolor=look["faint"])
     cax.yaxis.set_label_position("right")
-    cax.set_ylabel(layout.math_text(axis["label"]), fontsize=layout.TEXT * scale, color=look["text"], labelpad=layout.PAD * scale)
+    _name_upright(cax, plot, look, height, labelpad=layout.PAD * look["scale"])
 
 
 class Sheet:
@@ -271,9 +275,14 @@ def _draw_plot(sheet, panel, cell, area, legend_at):
     width, height = area[2] - area[0], area[3] - area[1]
     fill(ax, plot, look)
     set_ticks(ax, plot, width, height)
-    ax.set_xlabel(layout.math_text(plot["x"]["label"]), fontsize=layout.TEXT * scale, color=look["text"], labelpad=3 * scale)
-    ax.set_ylabel(layout.math_text(plot["y"]["label"]), fontsize=layout.TEXT * scale, color=look["text"], va="center")
-    ax.yaxis.set_label_coords((cell[0] + layout.TEXT / 2 + 2 - area[0]) / width, 0.5)
+    # below the middle of the axis, or where a long name stays in its cell
+    name = layout.wrap(plot["x"]["label"], layout.TEXT, width=cell[2] - cell[0])
+    half = max(layout.width_of(line, layout.TEXT) for line in name) / 2
+    middle = min(max((area[0] + area[2]) / 2, cell[0] + half), cell[2] - half)
+    ax.set_xlabel(layout.math_text("\n".join(name)), fontsize=layout.TEXT * scale, color=look["text"], labelpad=3 * scale, x=(middle - area[0]) / width,
+                  ha="center")
+    _name_upright(ax, plot, look, height, va="top")
+    ax.yaxis.set_label_coords((cell[0] - area[0]) / width, 0.5)
     shape = layout.heat_map_of(plot)
     if shape:
         colour_bar(sheet.axes((area[2] + 10, area[1], area[2] + 10 + layout.BAR, area[3])), shape, look, height)
@@ -289,9 +298,10 @@ def _draw_panel(sheet, panel, cell, area):
     content = panel["content"]
     is_plot = content["kind"] == "plot"
     # titles and legends begin at the axis, or at the cell where they are long
-    left = area[0] if is_plot else cell[0]
-    long = is_plot and len(layout.legend_lines(content, cell[2] - left)) > len(layout.legend_lines(content, cell[2] - cell[0]))
-    if long or layout.width_of(panel["title"], layout.TEXT, True) > cell[2] - left:
+    left, room = (area[0], cell[2] - area[0]) if is_plot else (cell[0], cell[2] - cell[0])
+    lines = layout.legend_lines(content, room) if is_plot else []
+    long = lines and (len(lines) > len(layout.legend_lines(content, cell[2] - cell[0])) or max(layout.entry_width(line[0]) for line in lines) > room)
+    if long or layout.width_of(panel["title"], layout.TEXT, True) > room:
         left = cell[0]
     y = cell[1]
     if panel["title"]:
@@ -355,9 +365,11 @@ def encode(figure, format="png", style="screen", dpi=0, **size):
         drawn.savefig(file, format=format, dpi=dpi or look["dpi"], facecolor=look["background"], **inside)
     if format != "svg":
         return file.getvalue()
+    # places to a hundredth of a point
+    short = re.sub(rb' d="[^"]*"', lambda path: re.sub(rb"(\.\d\d)\d+", rb"\1", path[0]), file.getvalue())
     # what screen readers say of it
     words = f"<title>{html.escape(title)}</title><desc>{html.escape(finding)}</desc>"
-    return re.sub(rb"(<svg [^>]*>)", lambda m: m[1] + words.encode(), file.getvalue(), count=1)
+    return re.sub(rb"(<svg [^>]*>)", lambda m: m[1] + words.encode(), short, count=1)
 
 
 def png_words(title, finding):

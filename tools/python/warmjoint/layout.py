@@ -17,7 +17,7 @@ ROW_STEP = 18  # of tables
 ROW = 24  # of the numbers of an upright axis
 PAD, MARGIN, GAP, MARK, KEY, BAR = 6, 16, 20, 4, 20, 12
 NARROWEST = 230  # of a plot whose numbers can be read
-LEAST = (40, 30)  # between the axes
+LEAST = (40, 40)  # between the axes
 LINE, ASCENT = 2384 / 2048, 1901 / 2048  # of DejaVu Sans, in ems
 TITLE, TEXT, TICK = 16 / LINE, 12 / LINE, 11 / LINE  # sizes of words whose lines are 16, 12 and 11 high
 
@@ -76,15 +76,18 @@ def _power(value, decimals):
 class Numbers(Formatter):
     """Numbers as people write them: a true minus, one power of ten for a whole axis of very small or large ones."""
 
+    def __init__(self, axis):
+        self.of = axis
+
     def __call__(self, value, pos=None):
         return f"{value:g}".replace("-", "−")
 
     def format_ticks(self, values):
         self.set_locs(values)
-        if self.axis.get_scale() == "log":
+        if self.of["scale"] == "logarithmic":
             return [_power(v, 0) if v and not 0.99e-3 <= abs(v) < 0.99e5 else
                     f"{v:.{max(0, -math.floor(math.log10(v) + 1e-9))}f}" for v in values]
-        return linear_texts(values, *self.axis.get_view_interval())
+        return linear_texts(values, self.of["lower"], self.of["upper"])
 
 
 def linear_texts(values, lower, upper):
@@ -105,7 +108,7 @@ def locator_of(axis, wanted):
         return FixedLocator([tick["value"] for tick in axis["ticks"] if tick["label"]])
     wanted = max(wanted, 1)
     if axis["scale"] == "linear":
-        return MaxNLocator(nbins=wanted, steps=[1, 2, 5, 10], integer=axis["finest"] >= 1, min_n_ticks=1)
+        return MaxNLocator(nbins=wanted, steps=[1, 2, 5, 10], integer=axis["finest"] >= 1, min_n_ticks=2)
     decades = math.log10(axis["upper"] / axis["lower"])
     return LogLocator(subs=(1, 2, 5) if 3 * decades <= wanted else (1,), numticks=max(2, wanted))
 
@@ -117,22 +120,7 @@ def ticks_of(axis, wanted):
     lower, upper = axis["lower"], axis["upper"]
     values = np.asarray(locator_of(axis, wanted).tick_values(lower, upper))
     spare = 1e-9 * (upper - lower)
-    formatter = Numbers()
-    formatter.axis = _Limits(axis)
-    return [(v, text) for v, text in zip(values, formatter.format_ticks(values)) if lower - spare <= v <= upper + spare]
-
-
-class _Limits:
-    """An axis before it is drawn."""
-
-    def __init__(self, axis):
-        self.axis = axis
-
-    def get_scale(self):
-        return "log" if self.axis["scale"] == "logarithmic" else "linear"
-
-    def get_view_interval(self):
-        return self.axis["lower"], self.axis["upper"]
+    return [(v, text) for v, text in zip(values, Numbers(axis).format_ticks(values)) if lower - spare <= v <= upper + spare]
 
 
 def share_of(axis, value):
@@ -142,9 +130,13 @@ def share_of(axis, value):
     return math.log(value / lower) / math.log(upper / lower)
 
 
+def wanted_y(height):
+    return max(3, int(height / ROW))
+
+
 def wanted_x(axis, width):
     """As many numbers as leave 18 points between them."""
-    for wanted in range(int(width / 45), 1, -1):
+    for wanted in range(max(3, int(width / 45)), 1, -1):
         ticks = [(width * share_of(axis, v), width_of(text, TICK)) for v, text in ticks_of(axis, wanted)]
         if all(b - a >= (wa + wb) / 2 + 18 for (a, wa), (b, wb) in zip(ticks, ticks[1:])):
             return wanted
@@ -152,27 +144,44 @@ def wanted_x(axis, width):
 
 
 def category_lines(axis, width):
-    """Labels of categories broken to the room that each has."""
+    """Labels of categories broken to the room that each has, where they must be at their hyphens."""
     room = width / max(1, len(axis["ticks"])) - 6
-    return ["\n".join(wrap(tick["label"], TICK, width=room)) for tick in axis["ticks"] if tick["label"]]
+    labels = [tick["label"] for tick in axis["ticks"] if tick["label"]]
+    if any(width_of(word, TICK) > room for label in labels for word in label.split()):
+        labels = [label.replace("-", "- ") for label in labels]
+    return ["\n".join(wrap(label, TICK, width=room)).replace("- ", "-") for label in labels]
+
+
+def upright_name(axis, height):
+    """The lines of an upright axis' name."""
+    return wrap(axis["label"], TEXT, width=height)
 
 
 def heat_map_of(plot):
     return next((s["shape"] for s in plot["series"] if s["shape"]["kind"] == "heat_map"), None)
 
 
-def colour_axis(shape):
-    return {"label": shape["label"], "lower": shape["limits"][0], "upper": shape["limits"][1], "scale": "linear", "ticks": [], "finest": 0}
+def colour_bar(shape):
+    """The scale of a heat map as a plot of its own."""
+    (lower, upper), label = shape["limits"], shape["label"]
+    ramp = {**shape, "values": np.linspace(lower, upper, 256)[:, None], "x": (0, 1), "y": (lower, upper)}
+    return {"x": {"label": "", "lower": 0, "upper": 1, "scale": "linear", "ticks": [{"value": 0, "label": ""}]},
+            "y": {"label": label, "lower": lower, "upper": upper, "scale": "linear", "ticks": [], "finest": 0},
+            "series": [{"label": "", "hue": "text", "shape": ramp}]}
 
 
 # places
+
+
+def entry_width(series):
+    return KEY + PAD + width_of(series["label"], TICK)
 
 
 def legend_lines(plot, width):
     """The series of each line of the legend."""
     lines, at = [], 0
     for series in filter(lambda s: s["label"], plot["series"]):
-        entry = KEY + PAD + width_of(series["label"], TICK)
+        entry = entry_width(series)
         if not lines or at + entry > width:
             lines.append([])
             at = 0
@@ -185,23 +194,26 @@ def legend_height(plot, width):
     return (LINE * TICK + 3) * len(legend_lines(plot, width))
 
 
-def margins_of(plot, width, height):
-    """Room for numbers and names left, right and below of a plot of about that size."""
-    widest = max([0, *(width_of(text, TICK) for h in (height, 1.3 * height) for _, text in ticks_of(plot["y"], int(h / ROW)))])
-    left = MARK + 3 + widest + PAD + TEXT + 4
-    right, lines = 4, 1
+def below_of(plot, width):
+    """Room for numbers and name of the horizontal axis of a plot in a cell of that width."""
+    lines, name = 1, plot["x"]["label"]
     if plot["x"]["ticks"]:
-        lines = max([1, *(label.count("\n") + 1 for label in category_lines(plot["x"], width))])
-        lines = lines if any(tick["label"] for tick in plot["x"]["ticks"]) else 0
-    else:
-        across = ticks_of(plot["x"], wanted_x(plot["x"], width))
-        right = max([4, *(width_of(text, TICK) / 2 for _, text in across[-1:])])
+        lines = max([0, *(label.count("\n") + 1 for label in category_lines(plot["x"], 0.85 * width))])
+    return MARK + 2 + LINE * TICK * lines + (3 + height_of(name, TEXT, width=width) if name else 0)
+
+
+def sides_of(plot, width, height):
+    """Room for numbers and names left and right of a plot of that height and about that width."""
+    def upright(axis):
+        return max([0, *(width_of(text, TICK) for _, text in ticks_of(axis, wanted_y(height)))]), LINE * TEXT * len(upright_name(axis, height))
+
+    left = MARK + 3 + sum(upright(plot["y"])) + PAD + 2
+    across = [] if plot["x"]["ticks"] else ticks_of(plot["x"], wanted_x(plot["x"], width))
+    right = max([4, *(width_of(text, TICK) / 2 for _, text in across[-1:])])
     shape = heat_map_of(plot)
     if shape:
-        numbers = [width_of(text, TICK) for _, text in ticks_of(colour_axis(shape), int(height / ROW))]
-        right = 10 + BAR + 6 + max([0, *numbers]) + PAD + LINE * TEXT + 4
-    below = MARK + 2 + LINE * TICK * lines + (3 + LINE * TEXT if plot["x"]["label"] else 0)
-    return left, right, below
+        right = 10 + BAR + 6 + sum(upright(colour_bar(shape)["y"])) + PAD + 4
+    return left, right
 
 
 def natural_height(content, width):
@@ -292,35 +304,42 @@ def lay_out(figure):
     columns, words, top = column_tracks(figure), heights_of_words(figure), head_height(figure)
     room = figure["height"] - top - MARGIN - GAP * (len(figure["rows"]) - 1) - sum(words.values())
     rows = tracks([words.get(i, 0) if share == 0 else room * share / sum(figure["rows"]) for i, share in enumerate(figure["rows"])], top)
-    places, widest = [], {}
+    widest: dict[tuple[str, int], float] = {}
 
-    def widen(key, value):
-        widest[key] = max(widest.get(key, 0), value)
+    def widen(side, track, value):
+        widest[side, track] = max(widest.get((side, track), 0), value)
 
+    def tracks_of(panel):
+        return panel["column"], panel["row"], panel["column"] + panel["column_span"] - 1, panel["row"] + panel["row_span"] - 1
+
+    def cell_of(panel):
+        left, top, right, bottom = tracks_of(panel)
+        return columns[left][0], rows[top][0], columns[right][1], rows[bottom][1]
+
+    # plots are in line with their neighbours: first above and below, then at the sides of what is left
+    plots = [panel for panel in figure["panels"] if panel["content"]["kind"] == "plot"]
+    for panel in plots:
+        (_, first, _, last), cell = tracks_of(panel), cell_of(panel)
+        width = cell[2] - cell[0]
+        legend = legend_height(panel["content"], width)
+        widen("above", first, title_height(panel, width) + legend + (4 if legend else 2))
+        widen("below", last, below_of(panel["content"], width))
+    for panel in plots:
+        (first, top, last, bottom), cell = tracks_of(panel), cell_of(panel)
+        height = cell[3] - cell[1] - widest["above", top] - widest["below", bottom]
+        left, right = sides_of(panel["content"], 0.85 * (cell[2] - cell[0]), height)
+        widen("left", first, left)
+        widen("right", last, right)
+
+    places = []
     for panel in figure["panels"]:
-        last_column, last_row = panel["column"] + panel["column_span"] - 1, panel["row"] + panel["row_span"] - 1
-        cell = columns[panel["column"]][0], rows[panel["row"]][0], columns[last_column][1], rows[last_row][1]
-        width, height = cell[2] - cell[0], cell[3] - cell[1]
-        head = title_height(panel, width)
-        if panel["content"]["kind"] == "plot":
-            left, right, below = margins_of(panel["content"], 0.85 * width, 0.7 * height)
-            legend = legend_height(panel["content"], width)
-            widen(("left", panel["column"]), left)
-            widen(("right", last_column), right)
-            widen(("below", last_row), below)
-            widen(("above", panel["row"]), head + legend + (4 if legend else 2))
-        places.append([cell, (cell[0], cell[1] + head, cell[2], cell[3])])
-    # plots are in line with their neighbours
-    for panel, place in zip(figure["panels"], places):
-        if panel["content"]["kind"] != "plot":
-            continue
-        cell = place[0]
-        area = (cell[0] + widest["left", panel["column"]], cell[1] + widest["above", panel["row"]],
-                cell[2] - widest["right", panel["column"] + panel["column_span"] - 1],
-                cell[3] - widest["below", panel["row"] + panel["row_span"] - 1])
-        size = area[2] - area[0], area[3] - area[1]
-        if size[0] < LEAST[0] or size[1] < LEAST[1]:
-            raise TooSmall(f"'{figure['name']}' is too small for '{panel['title']}': {max(0, size[0]):.0f} x {max(0, size[1]):.0f} points "
-                           f"are left between its axes, {LEAST[0]} x {LEAST[1]} are needed; give it more room")
-        place[1] = area
+        (first, top, last, bottom), cell = tracks_of(panel), cell_of(panel)
+        area = cell[0], cell[1] + title_height(panel, cell[2] - cell[0]), cell[2], cell[3]
+        if panel in plots:
+            area = (cell[0] + widest["left", first], cell[1] + widest["above", top], cell[2] - widest["right", last], cell[3] - widest["below", bottom])
+            size = area[2] - area[0], area[3] - area[1]
+            if size[0] < LEAST[0] or size[1] < LEAST[1]:
+                raise TooSmall(f"'{figure['name']}' is too small for '{panel['title']}': {max(0, size[0]):.0f} x {max(0, size[1]):.0f} points "
+                               f"are left between its axes, {LEAST[0]} x {LEAST[1]} are needed; give it more room")
+        places.append((cell, area))
     return places

@@ -44,9 +44,9 @@ Leaderboard ExampleBoard() {
   row.runs = 40;
   row.failures = {{"not_converged", 2}};
   row.failure_example = "it <b>moved</b>";
-  row.npe_continuous = {0.011, 0.009, 0.013, 0.0121};
+  row.npe_continuous = {{0.011, 0.009, 0.013}, 0.0121};
   row.npe_discrete = row.npe_continuous;
-  row.rmse = {0.5, 0.49, 0.51, 0.5};
+  row.rmse = {{0.5, 0.49, 0.51}, 0.5};
   board.rows = {row};
   return board;
 }
@@ -81,9 +81,7 @@ TEST(RunPageData, HoldsQuestionVerdictNotesAndTheNumbersOfCompare) {
 TEST(AgreementTable, GivesEachVariantARowOfItsOwn) {
   Leaderboard board = ExampleBoard();
   EXPECT_EQ(AgreementTable(board).rows.size(), 1u);
-  board.groups = {ExampleBoard(), ExampleBoard()};
-  board.groups[0].variant = "quiet";
-  board.groups[1].variant = "noisy";
+  board.groups = {{ExampleBoard(), "quiet", {}}, {ExampleBoard(), "noisy", {}}};
   board.groups[1].rows[0].rmse.median = 5;
   const warmjoint::Table table = AgreementTable(board);
   ASSERT_EQ(table.rows.size(), 2u);
