@@ -170,11 +170,12 @@ void WeighStart(const Examination& examination, const Identifier& identifier,
       begins == 0
           ? ""
           : fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", begins);
-  inference.warnings.push_back(fmt::format(
-      "this assumes a cold start{}: had the joint been warmed up by a tenth, {} would change by "
-      "{:.2g} {}; {}",
-      clock, parameter.name, examination.by_start[worst], parameter.unit,
-      AgainstWarmStart(identifier)));
+  const double change = examination.by_start[worst];
+  inference.warnings.push_back(
+      fmt::format("this assumes a cold start{}: had the joint been 10 % warmed up, {} would be "
+                  "{:.2g} {} {}; {}",
+                  clock, parameter.name, std::abs(change), parameter.unit,
+                  change < 0 ? "lower" : "higher", AgainstWarmStart(identifier)));
 }
 
 /// What the residual depends on, in the order of size: a clause.

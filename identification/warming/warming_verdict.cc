@@ -28,10 +28,9 @@ std::string WhatIsKnown(const WarmingEvidence& evidence) {
 std::optional<std::string> InsignificantWarming(double explained, const WarmingContext& context) {
   if (explained > kVisibleWarming) return std::nullopt;
   return fmt::format(
-      "no warm-up can be seen{}: thermal_gain and thermal_time_constant explain {:.3g} times the "
-      "noise variance, below {:.3g}; {} fits without warming, and a drift that it shows here is "
-      "not "
-      "of the losses; to see a warm-up, record from cold until friction settles",
+      "no warm-up can be seen{}: warming lowers the sum of squared residuals by {:.3g} noise "
+      "variances, and {:.3g} are needed; {} fits without warming, and a drift that it shows here "
+      "does not come from the losses; to see a warm-up, record ten minutes or more from cold",
       context.beside, explained > 0 ? explained : 0.0, kVisibleWarming, context.instead);
 }
 

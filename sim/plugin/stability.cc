@@ -70,10 +70,11 @@ double RoundDown(double value) {
 /// joints feel lighter than M, and diverges above 2 M.
 Asked ForSlope(const JointFriction& friction, double inertia, double h) {
   const double slope = friction.SteepestSlope();
-  return {2 * slope * h, inertia / (2 * slope),
-          fmt::format("friction rises by up to {:.4g} over speed on an effective inertia of {:.3g} "
-                      "at timestep {}; the step would be unstable",
-                      slope, inertia, h)};
+  return {
+      2 * slope * h, inertia / (2 * slope),
+      fmt::format("friction rises over speed by up to {:.4g} N.m.s/rad (N.s/m), too steeply for an "
+                  "effective inertia of {:.3g} kg.m^2 (kg) at timestep {}",
+                  slope, inertia, h)};
 }
 
 /// How far the bristle winds up before it slides: level h^2 / (A M).

@@ -178,7 +178,7 @@ std::string CountsInWords(const RunEnding& ending) {
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) words += fmt::format(", {} {}", count, what);
   };
-  add(ending.refused, "refused by their own verdict");
+  add(ending.refused, "rejected by their own tests");
   add(ending.unanswered, "without an answer");
   add(ending.not_simulated, "not simulated");
   return words;

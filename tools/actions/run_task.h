@@ -20,7 +20,7 @@ Suite ResolveSuite(const RunArguments& arguments);
 /// Sums up a store.
 RunEnding EndingOf(const RunStore& store);
 
-/// "200 results, 99 refused by their own verdict, 1 without an answer".
+/// "200 results, 99 rejected by their own tests, 1 without an answer".
 std::string CountsInWords(const RunEnding& ending);
 
 /// A run that was asked for and checked.

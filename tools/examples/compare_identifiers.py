@@ -24,7 +24,7 @@ def main():
         sys.exit(__doc__)
     identifiers = {"mine": mine, "nominal-ls": None, "energy-ml": None}
     run = wj.run("table1", sys.argv[1], identifiers=identifiers, realizations=10)
-    print(f"{run.results} estimates, {run.rejected} refused by their own tests")
+    print(f"{run.results} estimates, {run.rejected} rejected by their own tests")
 
     # a data frame where pandas is installed, else a list of dicts
     board = wj.compare(run)

@@ -212,7 +212,7 @@ TEST_F(Run, IsDoneWhenAllResultsAreVerdictsButNotWithoutAnyAnswer) {
   const ProgramAnswer verdicts =
       RunWarmjoint(Command("run", {"--realizations", "2", "--identifier", "nominal-ls"}));
   EXPECT_EQ(verdicts.status, 0) << verdicts.err;
-  EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 refused by their own verdict;"));
+  EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 rejected by their own tests;"));
   const ProgramAnswer silence = RunWarmjoint(Command(
       "silent", {"--realizations", "2", "--identifier", "broken=false {recording} {estimate}"}));
   EXPECT_EQ(silence.status, 5);

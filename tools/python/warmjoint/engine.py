@@ -73,7 +73,7 @@ class Run:
 
     directory: pathlib.Path
     results: int
-    rejected: int  # by the identifier's own verdict
+    rejected: int  # by the identifier's own tests
     unanswered: int  # crashed, took too long, or wrote something else
     not_simulated: int
     silent: list[tuple[str, str]]  # identifiers that never answered, with their first reason
