@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/robust_noise.h"
 #include "models/recording/clock.h"
 #include "models/recording/unwrap.h"
 
@@ -22,7 +21,8 @@ constexpr double kShortestStep = 1e-9;  // s, on average
 // where nobody says the unit of time: no drive samples faster than every 10 us, and no friction shows at a sample in 100 s
 constexpr double kFastest = 1e-5, kSlowest = 100;  // s
 constexpr double kSlow = 2;                        // s, from which milliseconds are likelier
-constexpr double kFast = 60;  // rad/s: no joint behind a gear turns so fast, in degrees many do
+constexpr double kFast =
+    30;  // rad/s on average: no joint of a robot turns so fast, in degrees many do
 
 void CheckValues(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
   // NaN fails the comparison too
@@ -69,27 +69,21 @@ void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurement
   }
 }
 
-/// Says that a joint turns as one does whose degrees were taken for radians. sources: of position and velocity.
+/// Says that a joint turns as one does whose degrees were taken for radians.
 void NoteSpeed(const std::vector<ColumnSource>& sources, Measurements& measurements) {
-  const auto is_given = [](const ColumnSource& one) {
-    const bool is_motion = one.column->name == "position" || one.column->name == "velocity";
-    return is_motion && one.unit_from != UnitFrom::usual;
+  const auto is_assumed = [](const ColumnSource& one) {
+    return one.column->name == "position" && one.unit_from == UnitFrom::usual;
   };
-  if (measurements.joint != JointKind::rotary || std::ranges::any_of(sources, is_given)) return;
-  const Eigen::Index n = measurements.size();
-  Eigen::VectorXd speed = measurements.velocity.cwiseAbs();
-  if (speed.size() == 0) {
-    const auto steps = [n](const Eigen::VectorXd& x) { return x.tail(n - 1) - x.head(n - 1); };
-    speed = (steps(measurements.position).array() / steps(measurements.time).array()).abs();
-  }
-  // not for a few wild samples
-  if (speed.maxCoeff() <= kFast) return;
-  const double fast = QuantileInPlace(speed, 0.9);
-  if (fast <= kFast) return;
-  measurements.notes.push_back(
-      fmt::format("the joint turns at {:.4g} rev/min; if positions are in degrees give --unit "
-                  "position=deg,velocity=deg/s",
-                  fast * 30 / std::numbers::pi));
+  if (measurements.joint != JointKind::rotary || std::ranges::none_of(sources, is_assumed)) return;
+  const Eigen::VectorXd &time = measurements.time, &position = measurements.position;
+  const Eigen::Index n = time.size();
+  const double way = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
+  const double speed = way / (time[n - 1] - time[0]);
+  if (speed <= kFast) return;
+  measurements.notes.push_back(fmt::format(
+      "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "
+      "position=deg,velocity=deg/s",
+      speed * 30 / std::numbers::pi));
 }
 
 void CheckTorque(const RawColumns& raw, const Measurements& measurements) {

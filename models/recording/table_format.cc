@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <limits>
 #include <map>
 
@@ -29,6 +30,8 @@ std::string_view Trimmed(std::string_view text) {
 
 /// A field without blanks and without a pair of quotes.
 std::string_view Stripped(std::string_view field) {
+  // most have neither, and begin and end behind both in ASCII
+  if (!field.empty() && field.front() > '"' && field.back() > '"') return field;
   field = Trimmed(field);
   const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
   return quoted ? field.substr(1, field.size() - 2) : field;
@@ -148,7 +151,12 @@ std::string Converted(std::string_view text, const char* from) {
   char* in = const_cast<char*>(text.data());
   char* out = utf8.data();
   std::size_t left = text.size(), room = utf8.size();
-  iconv(converter, &in, &left, &out, &room);
+  constexpr auto failed = static_cast<std::size_t>(-1);
+  while (iconv(converter, &in, &left, &out, &room) == failed && errno == EILSEQ && left > 1) {
+    // what is no character is left out
+    in += 2;
+    left -= 2;
+  }
   iconv_close(converter);
   utf8.resize(utf8.size() - room);
   return utf8;
@@ -242,7 +250,8 @@ void CheckDecimalComma(const std::vector<Line>& lines, const Look& look, const s
   std::string doubtful;
   std::vector<std::string_view> fields;
   for (std::size_t i = look.first; i < lines.size(); ++i) {
-    if (look.shapes[i].IsRow()) SplitLine(lines[i].text, look.separator, fields);
+    if (!look.shapes[i].IsRow()) continue;
+    SplitLine(lines[i].text, look.separator, fields);
     for (const std::string_view field : fields) {
       const std::size_t comma = field.find(',');
       if (comma == std::string_view::npos || !ReadCell(field, ',')) continue;
@@ -353,10 +362,11 @@ TableFormat FindTable(std::string_view text, const std::string& file, bool is_na
   for (int number = 1; !rest.empty() && lines.size() < kLinesOfALook; ++number) {
     const std::size_t begin = text.size() - rest.size();
     const std::string_view line = TakeLine(rest);
-    if (!line.starts_with("sep=") && !line.starts_with("\"sep="))
-      lines.push_back({line, begin, number});
+    const bool is_directive = line.starts_with("sep=") || line.starts_with("\"sep=");
+    if (!is_directive) lines.push_back({line, begin, number});
   }
 
+  if (lines.empty()) lines.emplace_back();
   // how they are split, and where the rows begin
   Look look = BestLook(lines);
   const bool has_rows = look.first < lines.size();
@@ -369,7 +379,7 @@ TableFormat FindTable(std::string_view text, const std::string& file, bool is_na
   table.decimal_mark = look.mark;
   table.columns =
       SplitLine(has_rows ? first.text : lines[look.first - !is_named].text, look.separator, fields);
-  if (table.columns > kMostFields && !has_rows) {
+  if (table.columns > kMostFields) {
     Refuse({file, first.number}, "has {} columns; {} at most: leave out those that are not needed",
            table.columns, kMostFields);
   }

@@ -54,7 +54,7 @@ constexpr std::array kSpellings = std::to_array<Texts>({
 });
 
 constexpr std::string_view kOfMotion = "m/s rad/s";  // these, and what they begin with
-constexpr std::size_t kLongest = 24;                  // bytes of any unit in brackets
+constexpr std::size_t kLongest = 24;                 // bytes of any unit in brackets
 
 std::string Lower(std::string_view text) {
   std::string lower(text);

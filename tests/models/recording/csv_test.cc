@@ -152,7 +152,7 @@ TEST(ReadCsv, RefusesWhatIsNoRecordingAtItsPlace) {
        "log.csv:1: ", "--map time=t_s,position=q_m,torque=force_N"},
       {"time,position,torque,torque\n0,0,1,1\n", "log.csv:1: ", "'torque'"},
       {"time,position,velocity,torque" + wide + "\n", "log.csv:1: ", "5000004"},
-      {header + "0" + wide + "\n", "log.csv:1: ", "5000001"},
+      {header + "0" + wide + "\n", "log.csv:2: ", "5000001"},
       // rows
       {header + "0,0,1,1\n1,1,1,two\n2,2,1,3\n", "log.csv:3: ", "torque is 'two'"},
       {header + "0,0,1,1\n1,1,1,\n2,2,1,3\n", "log.csv", "2 samples"},
