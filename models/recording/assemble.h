@@ -14,7 +14,9 @@ namespace warmjoint {
 struct RawColumns {
   std::string file;
   std::vector<int> line;                // [N] line of each sample; empty for files without lines
-  std::vector<Eigen::VectorXd> values;  // [N] each, in the order of the sources
+  std::vector<Eigen::VectorXd> values;  // [N] each, in the order of the sources; NaN: no number
+  bool stamps = false;                  // time stands in words, which were read as s
+  std::vector<std::string> notes;       // what reading made of the file
 
   /// Where sample i stands.
   Place At(Eigen::Index i) const {
@@ -22,11 +24,11 @@ struct RawColumns {
   }
 };
 
-/// Converts to SI, scales, checks, and unwraps a position that stays within one turn or wraps as the
-/// layout says; notes say so. A
-/// velocity that the file lacks stays empty. Throws BadInput for fewer than three samples, a value
-/// that is not finite, time that does not increase and a torque that never changes.
-Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
+/// Converts to SI, scales, checks, mends a clock of coarse ticks, and unwraps a position that stays within one turn or wraps as
+/// the layout says. Samples that lack a number are left out, and optional columns that lack most of theirs; notes say so. A
+/// velocity that the file lacks stays empty. Throws BadInput for fewer than three samples, a value that is not finite, time that
+/// does not increase or is clearly in another unit, and a torque that never changes.
+Measurements AssembleMeasurements(RawColumns raw, std::vector<ColumnSource> sources,
                                   const ReadSettings& layout);
 
 /// A one-dimensional array of numbers with a name.
@@ -43,7 +45,8 @@ struct FileContent {
 };
 
 /// The layout, completed by what the file says of itself.
-ReadSettings WithAttributes(ReadSettings layout, const FileContent& content);
+ReadSettings WithAttributes(ReadSettings layout, const FileContent& content,
+                            const Place& place = {});
 
 /// The names of the columns, as FindColumns takes them.
 std::vector<std::string> NamesOf(const FileContent& content);

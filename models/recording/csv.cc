@@ -3,166 +3,140 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
+#include "models/recording/clock.h"
+#include "models/recording/table_format.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
-constexpr std::size_t kMostFields = 10'000;
-
-/// Takes one line off the front of `rest`.
-std::string_view TakeLine(std::string_view& rest) {
-  const std::size_t end = rest.find('\n');
-  std::string_view line = rest.substr(0, end);
-  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
-}
-
-bool IsEmpty(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  return first == std::string_view::npos || line[first] == '#';
-}
-
-std::string_view Stripped(std::string_view field) {
-  const std::size_t first = field.find_first_not_of(kBlanks);
-  // without blanks, and without a pair of quotes
-  if (first == std::string_view::npos) return {};
-  field = field.substr(first, field.find_last_not_of(kBlanks) - first + 1);
-  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
-  return quoted ? field.substr(1, field.size() - 2) : field;
-}
-
-/// Splits a line at separators outside quotes. Returns the number of fields, of which kMostFields are kept.
-std::size_t Split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
-  fields.clear();
-  std::size_t begin = 0, count = 0;
-  const auto take = [&](std::size_t end) {
-    if (count++ < kMostFields) fields.push_back(line.substr(begin, end - begin));
-    begin = end + 1;
-  };
-  // only a separator outside of quotes parts two fields
-  const bool has_quotes = line.find('"') != std::string_view::npos;
-  if (!has_quotes) {
-    for (std::size_t end; (end = line.find(separator, begin)) != std::string_view::npos;) take(end);
-  } else {
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (line[i] == '"') quoted = !quoted;
-      if (line[i] == separator && !quoted) take(i);
-    }
+[[noreturn]] void RefuseText(const Place& place, const ColumnSource& source,
+                             const std::string& name, std::string_view text) {
+  if (source.column->name == "time") {
+    Refuse(
+        place,
+        "{} is '{}', which is neither a number nor a stamp as 2024-03-01T12:00:00.5, 12:00:00.5 or "
+        "'0.5 s'; tools/convert reads other stamps",
+        Excerpt(name), Excerpt(text));
   }
-  take(line.size());
-  return count;
-}
-
-char SeparatorOf(std::string_view header) {
-  for (const char separator : {'\t', ';'}) {
-    if (header.find(separator) != std::string_view::npos) return separator;
-  }
-  return ',';
-}
-
-[[noreturn]] void RefuseText(const Place& place, const std::string& column, std::string_view text) {
-  if (text.empty()) Refuse(place, "{} is empty; every sample needs a number", Excerpt(column));
   const bool has_comma = text.find(',') != std::string_view::npos;
-  Refuse(place, "{} is '{}', which is not a number{}", Excerpt(column), Excerpt(text),
-         has_comma ? "; write decimals with a point" : "");
+  Refuse(place, "{} is '{}', which is not a number{}", Excerpt(name), Excerpt(text),
+         has_comma ? "; write decimals with a point and thousands without a mark" : "");
 }
 
-/// A file of separated values: a header row, then numbers. The separator (comma, semicolon or tab)
-/// is taken from the header. Byte-order mark, Windows line ends, blank lines, lines that start with
-/// '#' and quoted fields are understood.
-class CsvText {
+/// Reads rows into columns.
+class TableReader {
  public:
-  /// Keeps a view of `text`. Throws BadInput where there is no header.
-  CsvText(std::string_view text, std::string file);
+  TableReader(const TableFormat& table, const std::string& file,
+              const std::vector<ColumnSource>& sources)
+      : table_(table),
+        file_(file),
+        sources_(sources),
+        times_(static_cast<std::size_t>(std::ranges::count_if(
+            sources, [](const ColumnSource& one) { return one.column->name == "time"; }))) {}
 
-  const std::vector<std::string>& names() const { return names_; }
-  Place header_place() const { return {file_, header_line_}; }
-
-  /// The numbers of the columns at `indices`; other columns may hold anything. Throws BadInput for
-  /// a row that lacks fields or has too many, and for text in a number.
-  RawColumns ReadColumns(const std::vector<std::size_t>& indices) const;
+  /// The numbers of the sources, NaN where a field holds none; other columns may hold anything. Leaves out headers that stand
+  /// again among the rows, and a last row that was cut. Throws BadInput for other rows that lack fields or have too many, and
+  /// for text in a number.
+  RawColumns Read(std::string_view rows);
 
  private:
-  std::string file_;
-  std::string_view rows_;  // what follows the header
-  char separator_ = ',';
-  int header_line_ = 0;
-  std::vector<std::string> names_;
+  /// Reads the fields of one row into sample `sample`; the source whose field holds no number, or -1.
+  std::ptrdiff_t ReadRow(Eigen::Index sample, RawColumns& raw);
+
+  [[noreturn]] void RefuseRow(int line, std::size_t count, std::ptrdiff_t bad) const;
+
+  const TableFormat& table_;
+  const std::string& file_;
+  const std::vector<ColumnSource>& sources_;
+  const std::size_t times_;       // of the sources, which come first
+  std::optional<bool> in_words_;  // whether they are stamps, once one was read
+  std::vector<std::string_view> fields_;
 };
 
-CsvText::CsvText(std::string_view text, std::string file) : file_(std::move(file)), rows_(text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (rows_.substr(0, 3) == byte_order_mark) rows_.remove_prefix(3);
-
-  // the header is the first line that is neither empty nor a comment
-  std::string_view header;
-  while (!rows_.empty() && IsEmpty(header)) {
-    header = TakeLine(rows_);
-    ++header_line_;
+std::ptrdiff_t TableReader::ReadRow(Eigen::Index sample, RawColumns& raw) {
+  for (std::size_t k = 0; k < sources_.size(); ++k) {
+    const std::string_view field = fields_[sources_[k].index];
+    std::optional<double> value = ReadCell(field, table_.decimal_mark);
+    if (k < times_ && !(value && std::isnan(*value))) {
+      // stamps in words are no numbers, all of them or none
+      const bool is_stamp = !value;
+      if (is_stamp) value = ReadStamp(field);
+      if (in_words_.value_or(is_stamp) != is_stamp) value.reset();
+      if (value) in_words_ = is_stamp;
+    }
+    if (!value) return static_cast<std::ptrdiff_t>(k);
+    raw.values[k][sample] = *value;
   }
-  if (IsEmpty(header)) {
-    Refuse({file_}, "is empty; it must hold a header row and one row for each sample");
-  }
-
-  // its names, which are not all numbers
-  separator_ = SeparatorOf(header);
-  std::vector<std::string_view> fields;
-  const std::size_t columns = Split(header, separator_, fields);
-  if (columns > kMostFields) {
-    Refuse(header_place(), "has {} columns; {} at most: leave out those that are not needed",
-           columns, kMostFields);
-  }
-  for (const std::string_view field : fields) names_.emplace_back(Stripped(field));
-  if (std::all_of(names_.begin(), names_.end(), [](auto& name) { return ParseNumber(name); })) {
-    Refuse(header_place(),
-           "holds numbers where the header row must stand; add one, for example "
-           "time,position,velocity,torque");
-  }
+  return -1;
 }
 
-RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
+void TableReader::RefuseRow(int line, std::size_t count, std::ptrdiff_t bad) const {
+  if (bad < 0) {
+    Refuse({file_, line}, "has {} fields where the {} {}; complete or drop the row", count,
+           table_.header_line > 0 ? "header has" : "rows before have", table_.columns);
+  }
+  const ColumnSource& source = sources_[static_cast<std::size_t>(bad)];
+  RefuseText({file_, line}, source, table_.names[source.index], fields_[source.index]);
+}
+
+RawColumns TableReader::Read(std::string_view rows) {
   // a row has a separator or an end for each field, and digits for each that is read: blank lines take no room
-  const auto lines = static_cast<std::size_t>(1 + std::count(rows_.begin(), rows_.end(), '\n'));
-  const std::size_t rows = std::min(lines, 1 + rows_.size() / (names_.size() + indices.size()));
-  RawColumns raw{file_, {}, {indices.size(), Eigen::VectorXd(rows)}};
-  raw.line.reserve(rows);
+  const auto lines = static_cast<std::size_t>(1 + std::count(rows.begin(), rows.end(), '\n'));
+  const std::size_t most = std::min(lines, 1 + rows.size() / (table_.columns + sources_.size()));
+  RawColumns raw;
+  raw.file = file_;
+  raw.values.assign(sources_.size(), Eigen::VectorXd(static_cast<Eigen::Index>(most)));
+  raw.line.reserve(most);
 
   // one sample for each row
-  std::string_view rest = rows_;
-  std::vector<std::string_view> fields;
-  for (int line = header_line_ + 1; !rest.empty(); ++line) {
-    const std::string_view row = TakeLine(rest);
-    if (IsEmpty(row)) continue;
-    const std::size_t count = Split(row, separator_, fields);
-    if (count != names_.size()) {
-      Refuse({file_, line}, "has {} fields where the header has {}; complete or drop the row",
-             count, names_.size());
-    }
-
-    // the columns that are asked for
+  int repeated = 0;  // headers among the rows
+  for (int line = table_.data_line; !rows.empty(); ++line) {
+    const std::string_view row = TakeLine(rows);
+    if (IsBlankLine(row)) continue;
+    const std::size_t count = SplitLine(row, table_.separator, fields_);
+    // with or without a separator at the end
+    const bool has_more = count == table_.columns + 1 && fields_.back().empty();
+    const bool has_less = count + 1 == table_.columns && table_.names.back().empty();
+    const bool fits = count == table_.columns || has_more || has_less;
     const auto sample = static_cast<Eigen::Index>(raw.line.size());
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-      const std::string_view text = Stripped(fields[indices[k]]);
-      const std::optional<double> value = ParseNumber(text);
-      if (!value) RefuseText({file_, line}, names_[indices[k]], text);
-      raw.values[k][sample] = *value;
+    const std::ptrdiff_t bad = fits ? ReadRow(sample, raw) : -1;
+    if (fits && bad < 0) {
+      raw.line.push_back(line);
+    } else if (row == table_.header) {
+      ++repeated;
+    } else if (raw.line.empty() ||
+               rows.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos) {
+      RefuseRow(line, count, bad);
+    } else {
+      raw.notes.push_back(fmt::format("line {}, the last, is no whole row and is left out", line));
+      break;
     }
-    raw.line.push_back(line);
+  }
+  if (repeated > 0) {
+    raw.notes.push_back(fmt::format("{} more headers among the rows are left out", repeated));
   }
 
+  raw.stamps = in_words_.value_or(false);
   // no longer than the rows that were there
   for (Eigen::VectorXd& values : raw.values) {
     values.conservativeResize(static_cast<Eigen::Index>(raw.line.size()));
   }
   return raw;
+}
+
+/// The names that are given, one for each column.
+void TakeNames(const std::vector<std::string>& given, const std::string& file, TableFormat& table) {
+  if (given.empty()) return;
+  if (given.size() != table.columns) {
+    Refuse({file, table.data_line}, "has {} columns where --columns names {}; a name may be empty",
+           table.columns, given.size());
+  }
+  table.names = given;
 }
 
 }  // namespace
@@ -172,13 +146,22 @@ Measurements ReadCsv(const std::string& path, const ReadSettings& layout) {
 }
 
 Measurements ParseCsv(std::string_view text, const std::string& name, const ReadSettings& layout) {
-  // the header tells where the columns are, and only those are read
-  const CsvText csv(text, name);
-  const std::vector<ColumnSource> sources = FindColumns(csv.names(), layout, csv.header_place());
+  const std::optional<std::string> utf8 = FromUtf16(text);
+  if (utf8) text = *utf8;
+  TableFormat table = FindTable(text, name, !layout.columns.empty());
+  TakeNames(layout.columns, name, table);
 
-  std::vector<std::size_t> indices;
-  for (const ColumnSource& source : sources) indices.push_back(source.index);
-  return AssembleMeasurements(csv.ReadColumns(indices), sources, layout);
+  // a row of units says what --unit does not
+  FileContent content;
+  for (std::size_t k = 0; k < table.names.size(); ++k) {
+    content.columns.push_back({table.names[k], table.units.empty() ? "" : table.units[k], {}});
+  }
+  const Place header{name, std::max(1, table.header_line)};
+  const ReadSettings completed = WithAttributes(layout, content, header);
+  const std::vector<ColumnSource> sources = FindColumns(table.names, completed, header);
+
+  return AssembleMeasurements(TableReader(table, name, sources).Read(text.substr(table.data)),
+                              sources, layout);
 }
 
 std::string RecordingToCsv(const Measurements& measurements) {

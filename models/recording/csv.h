@@ -1,4 +1,4 @@
-// Recordings as CSV: header row, then one row a sample.
+// Recordings as tables of text.
 #pragma once
 
 #include <warmjoint/recording.h>
@@ -8,10 +8,9 @@
 
 namespace warmjoint {
 
-/// Reads columns time, position, velocity, torque and optional motor_position, load, temperature.
-/// A missing velocity stays empty. Throws BadInput with file:line for: an empty
-/// file, a missing column, text in a number, NaN, time that does not increase, fewer than three
-/// samples, a constant torque, an unknown name in `layout`.
+/// Reads columns time, position, velocity, torque and optional motor_position, load, temperature of a table of text in any of
+/// the forms that FindTable knows. A missing velocity stays empty. Throws BadInput with file:line as FindTable, FindColumns
+/// and AssembleMeasurements do, for a row that lacks fields and for text in a number.
 Measurements ReadCsv(const std::string& path, const ReadSettings& layout = {});
 
 /// The same for text in memory; `name` stands for the file in messages.

@@ -68,6 +68,9 @@ void CheckReadSettings(const ReadSettings& settings) {
   if (!std::isfinite(settings.wrap) || settings.wrap < 0) {
     Refuse({"--wrap"}, "is {}; it must be a finite number above 0", settings.wrap);
   }
+  if (!std::isfinite(settings.rate) || settings.rate < 0) {
+    Refuse({"--rate"}, "is {}; it must be a finite number above 0, Hz", settings.rate);
+  }
   if (!std::isfinite(settings.torque_constant)) {
     Refuse({"--torque-constant"}, "is {}; it must be a finite number, N.m/A or N/A at the joint",
            settings.torque_constant);

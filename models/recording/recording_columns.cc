@@ -6,10 +6,11 @@
 #include <cctype>
 #include <optional>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
-#include "models/foundation/parse_number.h"
 
 namespace warmjoint {
 namespace {
@@ -56,15 +57,19 @@ void CheckNames(const Columns& given, std::string_view option, const Place& plac
   }
 }
 
+std::string Lower(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower;
+}
+
 /// A name in the file that looks like `column`.
 std::optional<std::string> LikelyName(const RecordingColumn& column,
                                       const std::vector<std::string>& names) {
   // hints from the likeliest on, of which the first that fits counts
   for (const std::string& hint : column.other_names) {
     for (const std::string& name : names) {
-      std::string lower = name;
-      std::transform(lower.begin(), lower.end(), lower.begin(),
-                     [](unsigned char c) { return std::tolower(c); });
+      const std::string lower = Lower(name);
       const bool is_letter = hint.size() == 1;  // "t" fits t, t_s, t [s], but not torque
       const bool fits =
           is_letter ? lower.substr(0, 1) == hint && (lower.size() == 1 || !std::isalpha(lower[1]))
@@ -84,19 +89,16 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
     lacking.push_back(fmt::format("'{}'", column->name));
     remedy.push_back(column->name + "=" + LikelyName(*column, names).value_or("NAME"));
   }
-  // a first row of numbers is no header
-  if (std::any_of(names.begin(), names.end(), [](auto& name) { return ParseNumber(name); })) {
-    Refuse(place,
-           "has no column {}; its first row is '{}'. Where that is no header row, add one, for "
-           "example time,position,velocity,torque",
-           fmt::join(lacking, " and no "), Excerpt(fmt::format("{}", fmt::join(names, ","))));
-  }
-  const bool position =
-      std::ranges::find(missing, kPosition, &RecordingColumn::name) != missing.end();
-  Refuse(place, "has no column {}; it has: {}. Name them: --map {}{}",
-         fmt::join(lacking, " and no "), there.empty() ? ExcerptOfList(names) : there,
-         fmt::join(remedy, ","),
-         position ? "; where only a velocity was logged, --map position=" : "");
+  // for a shell, which must not split names
+  std::string pairs = fmt::format("{}", fmt::join(remedy, ","));
+  if (pairs.find_first_of(" ()[]&;|*'") != std::string::npos) pairs = "'" + pairs + "'";
+  const auto lacks = [&](std::string_view name) {
+    return std::ranges::find(missing, name, &RecordingColumn::name) != missing.end();
+  };
+  Refuse(place, "has no column {}; it has: {}. Name them: --map {}{}{}",
+         fmt::join(lacking, " and no "), there.empty() ? ExcerptOfList(names) : there, pairs,
+         lacks("time") ? ", or give --rate HZ where none is time" : "",
+         lacks(kPosition) ? "; where only a velocity was logged, --map position=" : "");
 }
 
 /// Index of `theirs`, or the number of names where it is not there.
@@ -109,41 +111,66 @@ std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& n
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// The unit that a column's name ends in where that is one of temperature: "degC" of motor_degC and of
-/// "case [degC]", "K" of temp_K, not of gain_K; nothing of other names.
-std::optional<std::string> TemperatureUnitIn(const std::string& name) {
-  // brackets and blanks behind a unit are no part of it
-  constexpr std::string_view separators = "_ [(/.-";
-  std::string_view text = name;
-  while (!text.empty() && std::string_view("]) ").find(text.back()) != std::string_view::npos) {
-    text.remove_suffix(1);
-  }
-
-  // the unit must stand by itself, behind a separator
-  for (const Unit& unit : Units()) {
-    if (unit.base != "degC" || !text.ends_with(unit.name)) continue;
-    const std::string_view before = text.substr(0, text.size() - unit.name.size());
-    if (before.empty() || separators.find(before.back()) == std::string_view::npos) continue;
-    // K may be anything: the rest must speak of a temperature
-    std::string lower(before);
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    const bool speaks = lower.find("temp") != std::string::npos || lower.substr(0, 2) == "t_" ||
-                        lower.substr(0, 2) == "t ";
-    if (unit.name != "K" || speaks) return std::string(unit.name);
-  }
-  return std::nullopt;
+/// Name and unit of a temperature; no unit where the name tells none. K may be anything, as F and C: the rest must speak of a temperature.
+NameAndUnit SplitTemperature(const std::string& name) {
+  NameAndUnit split = SplitUnit(name, {"degC"});
+  const std::string stem = Lower(split.stem);
+  const bool speaks = stem.find("temp") != std::string::npos || stem == "t" ||
+                      stem.starts_with("t_") || stem.starts_with("t ");
+  const std::string_view behind = std::string_view(name).substr(split.stem.size());
+  const auto is_of_unit = [](unsigned char c) { return std::isalpha(c) || c >= 0x80; };
+  if (split.unit && !speaks && std::ranges::count_if(behind, is_of_unit) == 1) split.unit.reset();
+  return split;
 }
 
-/// The one column whose name ends in a unit of temperature; nothing where there is none, or several.
-std::optional<std::size_t> FindTemperature(const std::vector<std::string>& names) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!TemperatureUnitIn(names[i])) continue;
-    // of two candidates neither is taken
-    if (found) return std::nullopt;
-    found = i;
+/// Name and unit of a file's column that is one of ours.
+NameAndUnit Split(const RecordingColumn& column, const std::string& name, JointKind joint) {
+  return column.name == kTemperature ? SplitTemperature(name)
+                                     : SplitUnit(name, column.Units(joint));
+}
+
+/// The one name for which `fits` holds; the number of names where there is none, or several.
+template <typename Fits>
+std::size_t OnlyOne(const std::vector<std::string>& names, Fits&& fits) {
+  const auto found = std::ranges::find_if(names, fits);
+  if (found == names.end() || std::find_if(found + 1, names.end(), fits) != names.end()) {
+    return names.size();
   }
-  return found;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// The unit of a column, and who says so: an option, the file beside the name, or the name.
+void TakeUnit(const std::string& name, const ReadSettings& layout, const Place& place,
+              ColumnSource& source) {
+  const RecordingColumn& column = *source.column;
+  const std::vector<std::string>& bases = column.Units(layout.joint);
+  const auto given = layout.unit.find(column.name);
+  const NameAndUnit any = SplitUnit(name);
+  if (given != layout.unit.end()) {
+    source.unit = FindUnit(given->second, bases, column.name, place);
+    source.unit_from = UnitFrom::given;
+  } else if (const auto unit = Split(column, name, layout.joint).unit) {
+    source.unit = *unit;
+    source.unit_from = UnitFrom::name;
+  } else if (any.is_sure) {
+    source.unit = FindUnit(any.unit->name, bases, column.name, place);
+  }
+  // a count is of no size by itself
+  if (!source.unit.name.starts_with("counts") || layout.scale.contains(column.name)) return;
+  Refuse(place, "{} in counts needs the {} of one: --scale {}=FACTOR", column.name, bases.front(),
+         column.name);
+}
+
+/// Two columns whose sum is time: the index of each. time=secs+nsecs.
+std::optional<std::pair<std::size_t, std::size_t>> FindSum(const std::string& theirs,
+                                                           const std::vector<std::string>& names,
+                                                           const Place& place) {
+  for (std::size_t plus = 0; (plus = theirs.find('+', plus)) != std::string::npos; ++plus) {
+    const std::size_t first = IndexOf(theirs.substr(0, plus), names, place);
+    const std::size_t second = IndexOf(theirs.substr(plus + 1), names, place);
+    if (first < names.size() && second < names.size()) return std::pair{first, second};
+  }
+  return std::nullopt;
 }
 
 /// Whether a log does without positions: its velocity tells them, and no other column may be meant, or none is wanted.
@@ -165,26 +192,32 @@ const std::vector<RecordingColumn>& RecordingColumns() {
   // name, whether it is needed, units of rotary and linear joints, other names, and where it lies
   using M = Measurements;
   static const std::vector<RecordingColumn> columns{
-      {"time", true, {"s"}, {"s"}, {"time", "stamp", "t"}, Get<&M::time>, Set<&M::time>},
+      {"time",
+       true,
+       {"s"},
+       {"s"},
+       {"time", "stamp", "zeit", "duration", "x_value", "t"},
+       Get<&M::time>,
+       Set<&M::time>},
       {kPosition,
        true,
        {"rad"},
        {"m"},
-       {"pos", "angle", "q", "theta"},
+       {"pos", "angle", "winkel", "q", "theta"},
        LoggedPosition,
        Set<&M::position>},
       {"velocity",
        false,
        {"rad/s"},
        {"m/s"},
-       {"vel", "speed", "qd", "dq"},
+       {"vel", "speed", "drehzahl", "geschwindigkeit", "qd", "dq"},
        Get<&M::velocity>,
        Set<&M::velocity>},
       {"torque",
        true,
        {"N.m", "A", "V", "%", "raw"},
        {"N", "A", "V", "%", "raw"},
-       {"torque", "tau", "force", "effort", "current", "trq", "load", "i"},
+       {"torque", "tau", "force", "effort", "moment", "current", "strom", "trq", "load", "i"},
        Get<&M::torque>,
        Set<&M::torque>},
       {"motor_position",
@@ -211,6 +244,24 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
   return column.Units(measurements.joint).front();
 }
 
+std::size_t FindColumn(const RecordingColumn& column, const std::vector<std::string>& names,
+                       const ReadSettings& layout, const Place& place) {
+  // an empty name leaves an optional column out
+  const auto mapped = layout.map.find(column.name);
+  if (mapped != layout.map.end()) {
+    return mapped->second.empty() ? names.size() : IndexOf(mapped->second, names, place);
+  }
+  const std::size_t ours = IndexOf(column.name, names, place);
+  if (ours < names.size()) return ours;
+  // our name in other letters or with a unit; a temperature by its unit alone
+  const std::size_t alike = OnlyOne(names, [&](const std::string& name) {
+    return Lower(Split(column, name, layout.joint).stem) == column.name;
+  });
+  if (alike < names.size() || column.name != kTemperature) return alike;
+  return OnlyOne(names,
+                 [](const std::string& name) { return SplitTemperature(name).unit.has_value(); });
+}
+
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const ReadSettings& layout, const Place& place,
                                       const std::string& there) {
@@ -222,33 +273,37 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
   std::vector<ColumnSource> sources;
   std::vector<const RecordingColumn*> missing;
   for (const RecordingColumn& column : RecordingColumns()) {
-    // an empty name leaves an optional column out
+    // a rate that is given makes the time
+    if (column.name == "time" && layout.rate > 0) continue;
     const auto mapped = layout.map.find(column.name);
-    const bool is_mapped = mapped != layout.map.end();
-    const std::string theirs = is_mapped ? mapped->second : column.name;
-    std::size_t index = theirs.empty() ? names.size() : IndexOf(theirs, names, place);
-    const bool is_temperature = column.name == kTemperature;
-    if (is_temperature && !is_mapped && index == names.size()) {
-      index = FindTemperature(names).value_or(index);
-    }
-    const auto unit = layout.unit.find(column.name);
+    const std::string theirs = mapped == layout.map.end() ? "" : mapped->second;
+    std::size_t index = FindColumn(column, names, layout, place), added = names.size();
+    const auto sum = column.name == "time" && index == names.size() ? FindSum(theirs, names, place)
+                                                                    : std::nullopt;
+    if (sum) std::tie(index, added) = *sum;
 
-    // there: in the unit that is given, that its name tells, or that is usual
     if (index < names.size()) {
-      const std::vector<std::string>& bases = column.Units(layout.joint);
-      const std::string usual =
-          (is_temperature ? TemperatureUnitIn(names[index]) : std::nullopt).value_or(bases.front());
-      const std::string& name = unit == layout.unit.end() ? usual : unit->second;
-      sources.push_back({&column, index, FindUnit(name, bases, column.name, place)});
-      if (!is_mapped && names[index] != column.name) sources.back().found_as = names[index];
-    } else if (is_mapped && !theirs.empty()) {
+      const Unit usual = FindUnit(column.Units(layout.joint).front(), {}, column.name, place);
+      sources.push_back({&column, index, usual});
+      TakeUnit(names[index], layout, place, sources.back());
+      const bool is_found = mapped == layout.map.end() && column.name == kTemperature;
+      if (is_found && names[index] != column.name) sources.back().found_as = names[index];
+    } else if (!theirs.empty()) {
       Refuse(place, "has no column '{}' (for {}){}", Excerpt(theirs), column.name,
              Suggestion(theirs, names));
     } else if (column.required) {
       missing.push_back(&column);
-    } else if (unit != layout.unit.end()) {
+    } else if (const auto unit = layout.unit.find(column.name); unit != layout.unit.end()) {
       Refuse(place, "--unit {}={}: the file has no {}; drop it or --map it", column.name,
              unit->second, column.name);
+    }
+    // the unit of what is added stands in its name
+    if (added < names.size()) {
+      sources.push_back({&column, added, sources.back().unit});
+      sources.back().is_added = true;
+      const auto whole = MeantUnit(names[added], {"s"}), part = SplitUnit(names[added], {"s"}).unit;
+      if (whole || part) sources.back().unit = whole ? *whole : *part;
+      if (whole || part) sources.back().unit_from = UnitFrom::name;
     }
   }
   std::erase_if(missing, [&](const RecordingColumn* column) {

@@ -34,18 +34,33 @@ const std::vector<RecordingColumn>& RecordingColumns();
 /// Base unit of a column in these measurements, for example "rad" or, for torque, "A".
 std::string UnitOf(const RecordingColumn& column, const Measurements& measurements);
 
+/// Who says in which unit a column is.
+enum class UnitFrom {
+  given,  // an option, or the file beside the name
+  name,   // the name, as Winkel_deg
+  usual,  // nobody
+};
+
 /// A column of ours and where a file has it.
 struct ColumnSource {
   const RecordingColumn* column;
   std::size_t index;  // among the names of the file
   Unit unit;          // in the file
+  UnitFrom unit_from = UnitFrom::usual;
   std::string
       found_as{};  // its name in the file, where the unit in that told what it is; else empty
+  bool is_added = false;  // to the source before it: the nanoseconds of secs+nsecs
 };
+
+/// The column of a file that is ours: the one that `map` names, the one of our name, or of our name and a unit, as "Position [deg]".
+/// The number of names where there is none.
+std::size_t FindColumn(const RecordingColumn& column, const std::vector<std::string>& names,
+                       const ReadSettings& layout, const Place& place);
 
 /// Finds our columns among the names that a file has. Throws BadInput for a missing column (naming
 /// what is there and the --map that would help), one that stands there twice, and unknown names
-/// and units in the layout. A temperature that nothing names is found by its unit.
+/// and units in the layout, and a unit of another quantity. A temperature that nothing names is found by its unit. Time, which --rate
+/// makes needless, comes first; `time=secs+nsecs` gives two sources, whose sum it is.
 /// place: of the header. there: what the file has, for messages; by default the names.
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const ReadSettings& layout, const Place& place,

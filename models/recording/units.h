@@ -1,6 +1,7 @@
 // Units that logs use, and how they become SI.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,22 @@ struct Unit {
 /// All units that `--unit` knows.
 const std::vector<Unit>& Units();
 
+/// The unit that a text means, in brackets or not and in any of its spellings, as "[°/s]", "1/min", "N*m" or "DEG".
+/// Nothing where it is none of those with one of `bases`; without bases any unit counts.
+std::optional<Unit> MeantUnit(std::string_view text, const std::vector<std::string>& bases = {});
+
 /// The unit of that name, whose base must be one of `bases`. Throws BadInput that names the column
 /// and the units that it can have.
-const Unit& FindUnit(std::string_view name, const std::vector<std::string>& bases,
-                     std::string_view column, const Place& place);
+Unit FindUnit(std::string_view name, const std::vector<std::string>& bases, std::string_view column,
+              const Place& place);
+
+/// A column's name in two, as "Winkel" and deg of "Winkel_deg", "speed" and rad/s of "speed [rad/s]" or "speed_rad_s".
+struct NameAndUnit {
+  std::string stem;
+  std::optional<Unit> unit = {};  // nothing where the name ends in none
+  bool is_sure =
+      false;  // the unit can be nothing else: it stands in brackets, or is deg, mm or rad/s
+};
+NameAndUnit SplitUnit(std::string_view name, const std::vector<std::string>& bases = {});
 
 }  // namespace warmjoint

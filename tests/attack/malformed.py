@@ -7,8 +7,8 @@ import sys
 
 from attack import FRICTION, RECORDING, SCENARIO, Attack, suite
 
-NUMBERS = ["", " ", "x", "nan", "NaN", "inf", "-inf", "1e999", "0x10", "1,5", "1e", "--1", "+-1", "1.2.3", "\u0663", "1_000",
-           "1\x00", "\ufeff1", "true", "null", "=1+1", "\x1b[31m1", "1 2", "'1'", "1e+", ".", "-", "e5", "1f", "0b1"]
+NUMBERS = ["x", "inf", "-inf", "1e999", "0x10", "1,5", "1e", "--1", "+-1", "1.2.3", "\u0663", "1_000",
+           "1\x00", "\ufeff1", "true", "=1+1", "\x1b[31m1", "1 2", "'1'", "1e+", ".", "e5", "1f", "0b1"]
 VALUES = ["x", "nan", ".inf", "-1", "1e999", "[]", "{}", "[1, 2, 3]", "'1'x", "&a [*a]", "!!binary x", "1e308"]
 KEYS = ["friction", "friction.law", "friction.parameters.viscous", "friction.thermal.thermal_gain",
         "friction.thermal.thermal_time_constant", "friction.gear", "motion", "motion.speeds", "motion.hold", "motion.order",
@@ -30,13 +30,13 @@ def recordings(attack):
     texts = {
         "empty": b"", "blank": b"\n\n\n", "header": header + "\n", "one row": header + "\n0,0,1,1\n",
         "no header": body, "twice": header.replace("velocity", "time") + "\n" + body, "short": header + "\n0,0\n" + body,
-        "utf16": RECORDING.encode("utf-16"), "utf32": RECORDING.encode("utf-32"), "latin": b"zeit\xe4,p\n1,2\n",
+        "utf32": RECORDING.encode("utf-32"), "latin": b"zeit\xe4,p\n1,2\n",
         "binary": bytes(range(256)) * 40, "png": b"\x89PNG\r\n\x1a\n" + bytes(500), "elf": b"\x7fELF" + bytes(500),
         "nul": RECORDING.encode().replace(b"1", b"\x00"), "commas": "," * 1_000_000, "wide": "a," * 200_000 + "\n",
         "wide row": header + "\n" + "1," * 200_000 + "\n", "quotes": '"' * 100_001, "open": header + '\n"0,0,1,1\n' + body,
         "long": "a" * 5_000_000, "backwards": header + "\n3,0,1,1\n2,0,1,2\n1,0,1,3\n", "same time": header + "\n" + "0,0,1,1\n" * 9,
         "constant": header + "\n" + "".join(f"{i},0,1,5\n" for i in range(9)), "semicolons": RECORDING.replace(",", ";", 4),
-        "spaces": RECORDING.replace(",", " "), "json": json.dumps({"time": [1]}), "yaml": SCENARIO, "html": "<html>",
+        "json": json.dumps({"time": [1]}), "yaml": SCENARIO, "html": "<html>",
         "controls": "\x1b]0;x\x07,\x9b31m,\u202e\n1,2,3\n", "huge": header + "\n" + "1" * 400_000 + ",0,1,1\n",
     }
     for name, text in texts.items():

@@ -5,7 +5,7 @@ usage: inputs_test.py WARMJOINT SHARED [KIND...]
 SHARED (or the variable WARMJOINT_SHARED) holds findings/inputs; what the table makes itself (made.py) needs NumPy, and h5py and SciPy for
 {containers}. A row whose folder is not there is skipped. A row has
   run       arguments of the program; {inputs} the folder of inputs, {shared} SHARED, {made} and {containers} those of made.py, {out} one
-            of the row's own; with {identifier} the row stands once for each identifier that the program lists
+            of the row's own; with {identifier} the row stands once for each identifier that the program lists, with {each} once for each text of `each`
   then      arguments of a second run, which must end with 0; what it says counts, too
   exit      its status (default 0), or a list of those that may be
   says      regular expressions that its output must match, on what is named: a column, a factor, an option
@@ -94,13 +94,13 @@ def faults_of_estimate(row, estimate):
     return found
 
 
-def each_identifier(rows, program):
-    """The rows, one with {identifier} in it once for each."""
+def each(rows, program):
+    """The rows, one with {identifier} or {each} in it once for each."""
     listed = subprocess.run([program, "list", "identifiers", "--format", "json"], capture_output=True, check=True)
     names = [one["name"] for one in json.loads(listed.stdout)]
     for row in rows:
-        for name in names if "{identifier}" in row["run"] else [""]:
-            yield {**row, "run": row["run"].replace("{identifier}", name)}
+        for name in names if "{identifier}" in row["run"] else row.get("each", [""]):
+            yield {**row, "run": row["run"].replace("{identifier}", name).replace("{each}", name)}
 
 
 def main():
@@ -118,7 +118,7 @@ def main():
         made.write(pathlib.Path(folder))
         places = {"inputs": inputs, "shared": shared, "made": pathlib.Path(folder), "containers": pathlib.Path(folder, "containers")}
         for kind, rows in table.items():
-            for row in each_identifier(rows, program) if not kinds or kind in kinds else []:
+            for row in each(rows, program) if not kinds or kind in kinds else []:
                 if not all(place.is_dir() for name, place in places.items() if f"{{{name}}}" in row["run"]):
                     skipped += 1
                     continue

@@ -181,6 +181,71 @@ def make_containers(folder):
     scipy.io.savemat(place / "cells.mat", {"time": time, "q": cells, "s": [struct, struct]}, do_compression=True)
 
 
+def make_tables(folder):
+    """One log as text in many forms: 20 s at 50 Hz, 1 rad there and back at 0.5 rad/s, viscous 0.8, Coulomb 4.5."""
+    place = folder / "tables"
+    place.mkdir()
+    n = np.arange(1000)
+    v = np.where(n // 100 % 2, -.5, .5)
+    torque = .8 * v + 4.5 * np.sign(v) + .1 * np.random.default_rng(7).standard_normal(1000)
+    t, q, v, torque = (["%.4f" % x for x in column] for column in (n * .02, np.cumsum(v) * .02, v, torque))
+    head = "time,position,velocity,torque"
+
+    def text(*columns, head=head, separator=",", mark=".", end=""):
+        rows = [separator.join(x.replace(".", mark) for x in row) for row in zip(*columns)]
+        return (end + "\n").join([*([head.replace(",", separator)] if head else []), *rows]) + end + "\n"
+
+    def degrees(column, factor=180 / np.pi):
+        return ["%.6f" % (float(x) * factor) for x in column]
+
+    def stamps(form, times=n * .02):
+        return [form.format(d=int(x // 86400), h=int(x // 3600) % 24, m=int(x // 60) % 60, s=x % 60, ms=round(x % 1 * 1000), ns=round(x % 1 * 1e9),
+                            sec=int(x), x=x) for x in np.round(times, 4)]
+
+    plain = text(t, q, v, torque)
+    lines = plain.splitlines()
+    six = [["%.4f" % x for x in np.repeat(np.array(c, float), 6)] for c in (t, v, torque)]
+    forms = {
+        "bom": b"\xef\xbb\xbf" + plain.encode(), "utf16": plain.encode("utf-16"), "utf16be": plain.encode("utf-16-be"),
+        "sep": "sep=;\r\n" + text(t, q, v, torque, separator=";", mark=",", end="\r"),
+        "trailing": text(t, q, v, torque, separator=";", end=";"), "trailing_rows": plain.replace("\n", ",\n").replace("torque,", "torque"),
+        "repeated": "\n".join([*lines[:500], head, *lines[500:]]) + "\n", "cut": plain + "20.0000,0.5",
+        "zeros": plain.encode() + bytes(4096), "footer": plain + "End of log\n",
+        "comment": "# of 2024\n# " + text(t, q, v, torque, separator=" "), "savetxt": "# " + head + "\n" + text(t, q, v, torque, head="", separator=" "),
+        "percent": "%" + text(t, q, v, torque, separator="\t"), "blanks": text(t, q, v, torque, separator="   "),
+        "blanks_comma": text(t, q, v, torque, separator=" ", mark=","), "tabs_comma": text(t, q, v, torque, separator="\t", mark=","),
+        "preamble": "Gain,1.0,2.0\nOffset,0.5,0\n\n" + plain, "keys": "Name\tRun 3\nRate\t50\n\n" + text(t, q, v, torque, separator="\t"),
+        "names": text(t, q, v, torque, head='"Time, s","Angle (joint 1)",velocity,"Torque, filtered"'),
+        "numbers": text(t, q, v, torque, head="time,1,2,3"), "headless": text(t, q, v, torque, head=""),
+        "no_clock": text(q, v, torque, head=""), "no_time": text(q, v, torque, head="position,velocity,torque"),
+        "iso": text(stamps("2024-03-01T10:{m:02}:{s:06.3f}+01:00"), q, v, torque), "hms": text(stamps("12:{m:02}:{s:06.3f}"), q, v, torque),
+        "iso_comma": text(stamps("2024-03-01 10:{m:02}:{s:06.3f}"), q, v, torque, separator=";", mark=","),
+        "hms_ms": text(stamps("12:00:{sec:02}:{ms:03}"), q, v, torque), "afternoon": text(stamps("1:{m:02}:{s:06.3f} PM"), q, v, torque),
+        "midnight": text(stamps("{h:02}:{m:02}:{s:06.3f}", 86390 + n * .02), q, v, torque),
+        "german_date": text(stamps("01.03.2024 10:00:{s:06.3f}"), q, v, torque),
+        "date_and_time": text(["2024-03-01"] * 1000, stamps("10:00:{s:06.3f}"), q, v, torque, head="date,clock,position,velocity,torque"),
+        "seconds": text(stamps("{x:.2f} sec"), q, v, torque), "milliseconds": text(stamps("{x:.2f}", n * 20.0), q, v, torque, head="time_ms" + head[4:]),
+        "timedelta": text(stamps("0 days 00:00:{s:09.6f}"), q, v, torque),
+        "secs": text(stamps("17000000{sec:02}"), stamps("{ns}"), q, v, torque, head="secs,nsecs,position,velocity,torque"),
+        **{f"epoch_{unit}": text([str(17 * 10**(8 + power) + k * 2 * 10**(power - 2)) for k in n], q, v, torque)
+           for unit, power in (("ms", 3), ("us", 6), ("ns", 9))},
+        "ticks": text(stamps("{sec}", .37 + n * .02), q, v, torque),
+        "german": text(["%g" % (20 * k) for k in n], degrees(q), degrees(v), degrees(torque, 1000),
+                       head="Zeit_ms,Winkel_deg,Drehzahl_deg/s,Moment_mNm"),
+        "ampere": text(t, degrees(q), degrees(v), torque, head="Time [s],Position [deg],Velocity [deg/s],i_A"),
+        "capitals": text(t, degrees(q), degrees(v, 30 / np.pi), torque, head="TIME_S,POSITION_DEG,VELOCITY_RPM,TORQUE_NM"),
+        "units": text(t, degrees(q), degrees(v), degrees(torque, 1000), head=head + "\n\n(s),(°),(°/s),(mN·m)"),
+        "empty_velocity": text(t, q, [""] * 1000, torque), "words": plain.replace("\n10.0000,0.02", "\n10.0000,null").replace("\n5.0000,", "\n,"),
+        "thousands": text(*([f"{1000 + k:,}" for k in n + 10 * i] for i in range(4)), separator=";"),
+        "decimal_comma": text(t, q, v, torque, mark=","), "rows_of_joints": text(six[0], np.tile(["%d" % k for k in range(6)], 1000), six[1], six[2]),
+        "month": text(stamps("03/04/2024 10:00:{s:06.3f}"), q, v, torque), "from_boot": text([str(36 * 10**11 + k * 20_000_000) for k in n], q, v, torque),
+        "wrong_quantity": text(t, q, v, torque, head="time,position,v_deg,torque"), "millimetres": text(t, q, v, torque, head=head + "\ns,mm,mm/s,N"),
+        "own_clocks": head + "\n" + "".join(f"{a},{b},,\n{float(a) + .001},,{c},\n{float(a) + .002},,,{d}\n" for a, b, c, d in zip(t, q, v, torque)),
+    }
+    for name, form in forms.items():
+        (place / name).write_bytes(form if isinstance(form, bytes) else form.encode())
+
+
 def write(folder):
     """All of them, into a folder."""
     for name, make in list(globals().items()):

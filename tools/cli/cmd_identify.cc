@@ -229,6 +229,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
+  activity.Aside([&] { TellNotes(log); });
   std::optional<CarriedHeat> heat;
   if (arguments.earlier.is_given()) {
     activity.Is("following " + arguments.earlier.file);

@@ -77,6 +77,7 @@ ExitStatus Predict(PredictArguments arguments) {
   const StoredModel stored = ReadStoredModel(arguments.estimate);
   arguments.recording = AsIdentified(stored, std::move(arguments.recording));
   const PreparedLog log = ReadAndPrepare(arguments.recording);
+  activity.Aside([&] { TellNotes(log); });
   const WarmStart begin = StartOf(stored, arguments.estimate, arguments.initial, arguments.earlier,
                                   arguments.recording, log.taken().measurements);
   // what the friction says of the log, and what the log says of it

@@ -122,6 +122,7 @@ Tree RecordingReport(const ReportArguments& arguments, Activity& activity) {
   settings.options = ReadPairs(arguments.set, "--set");
   const IdentifyTask task = CheckSettings(settings, recording.read.joint);
   const PreparedLog log = ReadAndPrepare(recording);
+  activity.Aside([&] { TellNotes(log); });
   activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
                           log.taken().measurements.size()));
   // of a void fit the numbers too

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
+#include "models/recording/table_format.h"
 #include "scenarios/yaml.h"
 #include "tools/cli/typed_options.h"
 #include "tools/identify/recording_source.h"
@@ -86,6 +89,14 @@ class Taking {
     }
   }
 
+  /// The same of names.
+  void Names(const char* name, std::vector<std::string>& from, std::vector<std::string>& into) {
+    if (IsGiven(parser_, std::string("--") + name)) from.clear();
+    if (from.empty()) return;
+    into = from;
+    Note(name, fmt::format("{}", fmt::join(from, ",")));
+  }
+
   const std::string& words() const { return words_; }
 
  private:
@@ -97,25 +108,43 @@ class Taking {
   std::string words_;
 };
 
-/// Adds an option for pairs column=value, as --map torque=force_N,time=t_s.
+/// The pairs of a list: a comma parts two where a key and a sign follow it, since names have commas, too.
+std::vector<std::string> SplitPairs(std::string_view list) {
+  std::vector<std::string> pairs;
+  for (std::size_t begin = 0, at = 0; at <= list.size(); ++at) {
+    if (at < list.size() && list[at] != ',') continue;
+    const std::string_view rest = list.substr(std::min(at + 1, list.size()));
+    const std::size_t key = rest.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ");
+    if (at < list.size() && (key == std::string_view::npos || rest[key] != '=')) continue;
+    pairs.emplace_back(list.substr(begin, at - begin));
+    begin = at + 1;
+  }
+  return pairs;
+}
+
+/// Adds an option for pairs column=value, as --map torque=force_N,time=t_s. A value may stand in quotes.
 CLI::Option* AddPairs(CLI::App& parser, const char* name, const char* description,
                       const std::function<void(const std::string&, const std::string&)>& take) {
-  const auto read = [name, take](const std::vector<std::string>& pairs) {
-    for (const auto& [column, value] : ReadPairs(pairs, name)) take(column, value);
+  const auto read = [name, take](const std::vector<std::string>& lists) {
+    std::vector<std::string> pairs;
+    for (const std::string& list : lists)
+      std::ranges::move(SplitPairs(list), std::back_inserter(pairs));
+    for (const auto& [column, value] : ReadPairs(pairs, name)) {
+      const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+      take(column, is_quoted ? value.substr(1, value.size() - 2) : value);
+    }
   };
-  return parser.add_option_function<std::vector<std::string>>(name, read, description)
-      ->delimiter(',')
-      ->take_all();
+  return parser.add_option_function<std::vector<std::string>>(name, read, description)->take_all();
 }
 
 }  // namespace
 
 void AddRecordingOptions(CLI::App& parser, RecordingSource& source) {
   parser
-      .add_option(
-          "RECORDING", source.files,
-          "CSV or HDF5 file, or - for a CSV on standard input; several of one joint, each from a "
-          "cold start")
+      .add_option("RECORDING", source.files,
+                  "table of text, HDF5 or MATLAB file, or - for a text on standard input; several "
+                  "of one joint, each from a "
+                  "cold start")
       ->type_name("RECORDING")
       ->required();
   AddLayoutOptions(parser, source.read);
@@ -140,6 +169,19 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
            scale)
       ->type_name("COLUMN=NUMBER");
 
+  // files without a header, or without a clock
+  const auto columns = [&settings](const std::string& list) {
+    std::vector<std::string_view> names;
+    SplitLine(list, ',', names);
+    settings.columns.assign(names.begin(), names.end());
+  };
+  parser
+      .add_option_function<std::string>(
+          "--columns", columns, "names of all columns of a text file, in place of its header")
+      ->type_name("NAME,...");
+  parser.add_option("--rate", settings.rate, "samples in a second of a file without time, Hz")
+      ->type_name("HZ");
+
   // sensors that wrap
   parser
       .add_option(
@@ -161,6 +203,10 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
           "or N of --unit torque=A")
       ->type_name("NUMBER");
   parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
+}
+
+void TellNotes(const PreparedLog& log) {
+  for (const std::string& note : log.taken().measurements.notes) SayNotice("notice: {}\n", note);
 }
 
 void AddHoldOptions(CLI::App& parser, PrepareSettings& holds) {
@@ -200,6 +246,8 @@ void TakeProject(const CLI::App& parser, RecordingSource& arguments) {
   taking.Pairs("scale", project.scale, read.scale);
 
   // as a whole
+  taking.Names("columns", project.columns, read.columns);
+  taking.Value("rate", project.rate, read.rate);
   taking.Value("wrap", project.wrap, read.wrap);
   taking.Value("joint", project.joint, read.joint);
   taking.Value("gear", project.gear, read.gear);

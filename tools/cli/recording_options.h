@@ -1,6 +1,8 @@
 // The options that say how a recording is to be read, shared by the subcommands that read one.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <CLI/CLI.hpp>
 
 #include "tools/identify/carried_heat.h"
@@ -11,8 +13,11 @@ namespace warmjoint {
 /// Adds RECORDING... and the options of AddLayoutOptions.
 void AddRecordingOptions(CLI::App& parser, RecordingSource& source);
 
-/// Adds --map, --unit, --scale, --wrap, --joint, --gear, --torque-constant and --no-project.
+/// Adds --map, --unit, --scale, --columns, --rate, --wrap, --joint, --gear, --torque-constant and --no-project.
 void AddLayoutOptions(CLI::App& parser, ReadSettings& settings);
+
+/// Says on stderr what reading made of a log, a line each.
+void TellNotes(const PreparedLog& log);
 
 /// Adds --trim and --shortest-hold.
 void AddHoldOptions(CLI::App& parser, PrepareSettings& holds);

@@ -1,6 +1,7 @@
 #include "tools/identify/recording_source.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -71,12 +72,14 @@ std::vector<std::string> WordsOf(const RecordingSource& source) {
   const auto add = [&](const char* option, const auto& value) {
     words.insert(words.end(), {option, fmt::format("{}", value)});
   };
-  const auto& [map, unit, scale, wrap, joint, gear, constant] = source.read;
+  const auto& [map, unit, scale, columns, rate, wrap, joint, gear, constant] = source.read;
   for (const auto& [column, text] : map) add("--map", column + "=" + text);
   for (const auto& [column, text] : unit) add("--unit", column + "=" + text);
   for (const auto& [column, factor] : scale) add("--scale", fmt::format("{}={}", column, factor));
   // what is as usual needs no words
   const ReadSettings usual;
+  if (!columns.empty()) add("--columns", fmt::join(columns, ","));
+  if (rate != usual.rate) add("--rate", rate);
   if (wrap != usual.wrap) add("--wrap", wrap);
   if (joint != usual.joint) add("--joint", NameOf(joint));
   if (gear != usual.gear) add("--gear", gear);

@@ -102,6 +102,9 @@ struct ReadSettings {
       map;  // ours -> theirs, as torque -> force_N (--map); an empty name leaves a column out
   ColumnTexts unit;     // ours -> unit in the file, as position -> deg (--unit)
   ColumnNumbers scale;  // ours -> factor on the values of the file, as torque -> -1 (--scale)
+  /// Names of all columns of a text file, in their order, in place of a header (--columns); a name may be empty.
+  std::vector<std::string> columns{};
+  double rate = 0;  // Hz; makes the time of a file without one (--rate); 0: none
   /// Range after which a position sensor starts again, in the unit of the file (--wrap); 0: a turn.
   double wrap = 0;
   JointKind joint = JointKind::rotary;
@@ -115,12 +118,14 @@ struct ReadSettings {
     a->Field("joint", &joint, {.meaning = "--joint"});
     a->Field("gear", &gear, {.meaning = "--gear"});
     a->Field("scale", &scale, LeftOut("--scale, column=factor"));
+    a->Field("columns", &columns, LeftOut("--columns"));
+    a->Field("rate", &rate, LeftOut("--rate"));
     a->Field("wrap", &wrap, LeftOut("--wrap"));
     a->Field("torque_constant", &torque_constant, LeftOut("--torque-constant"));
   }
 };
 
-/// Throws BadInput for a number that cannot be meant: a gear of 0, a range below 0, what is not finite.
+/// Throws BadInput for a number that cannot be meant: a gear of 0, a range or a rate below 0, what is not finite.
 void CheckReadSettings(const ReadSettings& settings);
 
 /// What a user asks of the segments that are kept.
@@ -141,8 +146,9 @@ struct PrepareSettings {
 struct Project {
   ColumnTexts map, unit;
   ColumnNumbers scale;
+  std::vector<std::string> columns{};
   std::optional<JointKind> joint;
-  std::optional<double> gear, wrap, trim, shortest_hold;
+  std::optional<double> rate, gear, wrap, trim, shortest_hold;
 
   template <class A>
   void Serialize(A* a) {
@@ -150,6 +156,8 @@ struct Project {
     a->Field("map", &map, left_out);
     a->Field("unit", &unit, left_out);
     a->Field("scale", &scale, left_out);
+    a->Field("columns", &columns, left_out);
+    a->Field("rate", &rate, {.unit = "Hz", .bounds = {.above = 0}});
     a->Field("joint", &joint);
     a->Field("gear", &gear);
     a->Check(!gear || *gear != 0, "gear", "a number other than 0");

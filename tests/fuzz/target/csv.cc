@@ -1,5 +1,5 @@
-// Recordings as CSV, with --map, --unit, --joint and --gear: a first line "#: torque=force_N position:deg linear 2"
-// gives the layout, and is a comment for the reader itself.
+// Recordings as tables of text, with --map, --unit, --columns, --rate, --joint and --gear: a first line
+// "#: torque=force_N position:deg ,time,position,torque 50Hz linear 2" gives the layout, and is a comment for the reader itself.
 #include "models/recording/csv.h"
 
 #include <warmjoint/prepared_log.h>
@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "models/foundation/parse_number.h"
+#include "models/recording/table_format.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
@@ -23,6 +24,12 @@ ReadSettings LayoutOf(std::string_view bytes) {
     const std::size_t mark = word.find_first_of("=:");
     if (word == "linear") {
       layout.joint = JointKind::linear;
+    } else if (word == "50Hz") {
+      layout.rate = 50;
+    } else if (word[0] == ',') {
+      std::vector<std::string_view> names;
+      SplitLine(std::string_view(word).substr(1), ',', names);
+      layout.columns.assign(names.begin(), names.end());
     } else if (mark != std::string::npos) {
       auto& pairs = word[mark] == '=' ? layout.map : layout.unit;
       pairs[word.substr(0, mark)] = word.substr(mark + 1);

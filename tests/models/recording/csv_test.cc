@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <numbers>
+#include <utility>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/recording/clock.h"
+#include "models/recording/units.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/refusal.h"
 
@@ -151,17 +155,23 @@ TEST(ReadCsv, RefusesWhatIsNoRecordingAtItsPlace) {
       {header + "0" + wide + "\n", "log.csv:2: ", "5000001"},
       // rows
       {header + "0,0,1,1\n1,1,1,two\n2,2,1,3\n", "log.csv:3: ", "torque is 'two'"},
-      {header + "0,0,1,1\n1,1,1,\n2,2,1,3\n", "log.csv:3: ", "torque"},
-      {header + "0,0,1,1\n1,1,1,2\n2,2,1\n", "log.csv:4: ", "3 fields"},
+      {header + "0,0,1,1\n1,1,1,\n2,2,1,3\n", "log.csv", "2 samples"},
+      {header + "0,0,1,1\n1,1,1,2\n2,2,1\n", "log.csv", "2 samples"},
+      {header + "0,0,1,1\n2,2,1\n1,1,1,2\n", "log.csv:3: ", "3 fields"},
       {header + "0,0,1,1\n1,1,1,2,5\n2,2,1,3\n", "log.csv:3: ", "5 fields"},
-      {"time;position;torque\n0;0;0,5\n1;1;0,6\n2;2;0,7\n", "log.csv:2: ", "point"},
-      {header + "0,0,1,1\n1,1,nan,2\n2,2,1,3\n", "log.csv:3: ", "velocity of sample 2 is nan"},
+      {"time;position;torque\n0;1,000;1,501\n1;1,001;1,502\n2;1,002;1,503\n",
+       "log.csv:2: ", "thousands"},
+      {"time,position,torque\n0,0,1\n1,1,\"1,002.5\"\n2,2,1\n", "log.csv:3: ", "thousands"},
+      {header + "0,0,1,1\n1,1,nan,2\n2,2,1,3\n", "log.csv", "2 samples"},
       {header + "0,0,1,1\n1,1,1,2\n2,-inf,1,3\n", "log.csv:4: ", "position of sample 3 is -inf"},
       {header + "0,0,1,1\n1,1,1,1e999\n2,2,1,3\n", "log.csv:3: ", "torque is '1e999'"},
       // times
       {start + "1,1,1,3\n", "log.csv:5: ", "time 1 s of sample 3"},
       {start + "0.5,1,1,3\n", "log.csv:5: ", "time of sample 3 is 0.5 s"},
-      {"time,position,torque\n0,0,1\n1e-300,1,2\n2e-300,2,3\n", "log.csv", "--unit time=ms"},
+      {"time,position,torque\n0,0,1\n1e-300,1,2\n2e-300,2,3\n", "log.csv", "--unit time="},
+      {"time,position,torque\n1,0,1\n2e7,1,2\n4e7,2,3\n", "log.csv", "--unit time="},
+      {"time,position,torque\n03/04/2024 10:00:00,0,1\n03/04/2024 10:00:01,1,2\n",
+       "log.csv:2: ", "tools/convert"},
       {header + "0,0,1,7\n1,1,1,7\n2,2,1,7\n", "log.csv", "torque is 7 N.m"},
   };
   test::ExpectRefused(rows, [](const std::string& text) { ParseCsv(text, "log.csv"); });
@@ -177,9 +187,78 @@ TEST(ReadCsv, RefusesColumnsAndUnitsThatAreNone) {
   const auto map = &ReadSettings::map, unit = &ReadSettings::unit;
   EXPECT_THAT(refusal(map, {{"time", "time"}, {"position", "positon"}}), HasSubstr("'position'"));
   EXPECT_THAT(refusal(map, {{"times", "time"}}), HasSubstr("'time'"));
-  EXPECT_THAT(refusal(unit, {{"position", "degg"}}), HasSubstr("'deg'"));
+  EXPECT_THAT(refusal(unit, {{"position", "degg"}}), HasSubstr("deg, "));
+  EXPECT_THAT(refusal(unit, {{"position", "counts"}}), HasSubstr("--scale position="));
   EXPECT_THAT(refusal(unit, {{"positon", "deg"}}), HasSubstr("'position'"));
   EXPECT_THAT(refusal(unit, {{"temperature", "K"}}), HasSubstr("temperature"));
+}
+
+TEST(Units, AreKnownInTheirSpellings) {
+  const std::vector<std::string> any;
+  for (const auto& [text, name] :
+       std::vector<std::pair<std::string, std::string>>{{"rev", "turn"},
+                                                        {"rev/s", "turn/s"},
+                                                        {"dps", "deg/s"},
+                                                        {"1/min", "rpm"},
+                                                        {"min^-1", "rpm"},
+                                                        {"[°]", "deg"},
+                                                        {"°/s", "deg/s"},
+                                                        {"rad s^-1", "rad/s"},
+                                                        {"N·m", "N.m"},
+                                                        {"N*m", "N.m"},
+                                                        {"NM", "N.m"},
+                                                        {"Nmm", "N.mm"},
+                                                        {"cNm", "cN.m"},
+                                                        {"kg.cm", "kgf.cm"},
+                                                        {"oz-in", "ozf.in"},
+                                                        {"µs", "us"},
+                                                        {"(ms)", "ms"},
+                                                        {"h", "h"},
+                                                        {"counts", "counts"}}) {
+    const auto unit = MeantUnit(text, any);
+    EXPECT_EQ(unit ? std::string(unit->name) : "none", name) << text;
+  }
+  for (const char* text : {"", "-", "MNm", "x", "N/m", "Mdeg"}) {
+    EXPECT_FALSE(MeantUnit(text, any)) << text;
+  }
+  for (const auto& [text, stem, name] :
+       std::vector<std::array<std::string, 3>>{{"Winkel_deg", "Winkel", "deg"},
+                                               {"Zeit_ms", "Zeit", "ms"},
+                                               {"Moment_mNm", "Moment", "mN.m"},
+                                               {"i_A", "i", "A"},
+                                               {"speed [rad/s]", "speed", "rad/s"},
+                                               {"v_rad_s", "v", "rad/s"},
+                                               {"tau (N·m)", "tau", "N.m"},
+                                               {"torque", "torque", ""},
+                                               {"state.q[0]", "state.q[0]", ""}}) {
+    const NameAndUnit split = SplitUnit(text);
+    EXPECT_EQ(split.stem, stem);
+    EXPECT_EQ(split.unit ? std::string(split.unit->name) : "", name) << text;
+  }
+}
+
+TEST(ReadStamp, GivesSeconds) {
+  for (const auto& [text, seconds] :
+       std::vector<std::pair<std::string, double>>{{"1970-01-02T00:00:01.5", 86401.5},
+                                                   {"1970-01-02 00:00:01,25", 86401.25},
+                                                   {"1970-01-02T01:00:00+01:00", 86400},
+                                                   {"19700102T000001.5Z", 86401.5},
+                                                   {"02.01.1970 00:00:01", 86401},
+                                                   {"12:00:00.123", 43200.123},
+                                                   {"12:00:00:123", 43200.123},
+                                                   {"1:00:00.5 PM", 46800.5},
+                                                   {"12:00:01 AM", 1},
+                                                   {"01:02.5", 62.5},
+                                                   {"0.02 sec", 0.02},
+                                                   {"20 ms", 0.02},
+                                                   {"1 days 00:00:01.5", 86401.5}}) {
+    const auto stamp = ReadStamp(text);
+    EXPECT_NEAR(stamp.value_or(-1), seconds, 1e-9) << text;
+  }
+  for (const char* text :
+       {"", "12", "12:34", "03/04/2024 10:00:00", "2024-13-01", "10:00:00x", "x", "5 deg"}) {
+    EXPECT_FALSE(ReadStamp(text)) << text;
+  }
 }
 
 TEST(RecordingToCsv, ReadsBackBitForBit) {

@@ -83,6 +83,7 @@ TEST_F(InitialEnergyOfAFile, SettledIsTheClosedForm) {
 TEST(ProjectFile, HoldsTheOptionsThatDescribeALog) {
   const Project project = ParseProject(
       "map: {time: t_s, velocity: }\nunit: {position: deg}\nscale: {torque: -1}\nwrap: 360\n"
+      "columns: [a, b]\nrate: 50\n"
       "joint: linear\ngear: 50\ntrim: 0.2\nshortest_hold: 1\n",
       "warmjoint.yaml");
   EXPECT_THAT(project.map, ElementsAre(Pair("time", "t_s"), Pair("velocity", "")));
@@ -93,7 +94,9 @@ TEST(ProjectFile, HoldsTheOptionsThatDescribeALog) {
   EXPECT_EQ(project.gear, 50);
   EXPECT_EQ(project.trim, 0.2);
   EXPECT_EQ(project.shortest_hold, 1);
-  EXPECT_EQ(WriteFields(project).size(), 8u);
+  EXPECT_THAT(project.columns, ElementsAre("a", "b"));
+  EXPECT_EQ(project.rate, 50);
+  EXPECT_EQ(WriteFields(project).size(), 10u);
   EXPECT_EQ(WriteFields(ParseProject("gear: 2\n", "")), Tree({{"gear", 2.0}}));
 }
 

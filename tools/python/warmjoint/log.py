@@ -140,14 +140,17 @@ class Log:
 
 def read(path: str | os.PathLike[str] | Sequence[str | os.PathLike[str]], *, map: Mapping[str, str] | None = None,
          joint: Joint = "rotary", unit: Mapping[str, str] | None = None, scale: Mapping[str, float] | None = None,
-         gear: float = 1, torque_constant: float = 0, wrap: float = 0, trim: float = 0, shortest_hold: float = 0) -> Log:
-    """Reads a recording: CSV, HDF5 or MATLAB; several of one joint, each from a cold start, as one.
+         columns: Sequence[str] | None = None, rate: float = 0, gear: float = 1, torque_constant: float = 0, wrap: float = 0,
+         trim: float = 0, shortest_hold: float = 0) -> Log:
+    """Reads a recording: a table of text, HDF5 or MATLAB; several of one joint, each from a cold start, as one.
 
-    map={"position": "q_m"} names the columns of the file; the other arguments are those of Log. Raises BadInput.
+    map={"position": "q_m"} names the columns of the file. columns=["time", "position", "torque"] stand in place of the header that
+    a text file lacks; rate (Hz) makes the time that a file lacks. The other arguments are those of Log. Raises BadInput.
     """
     paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
-    settings = _settings([os.fspath(one) for one in paths], joint=joint, unit=unit, scale=scale, gear=gear,
-                         torque_constant=torque_constant, wrap=wrap, trim=trim, shortest_hold=shortest_hold)
+    settings = _settings([os.fspath(one) for one in paths], joint=joint, unit=unit, scale=scale,
+                         columns=list(columns or []), rate=rate, gear=gear, torque_constant=torque_constant, wrap=wrap,
+                         trim=trim, shortest_hold=shortest_hold)
     return Log._of(_core.read_log({**settings, "map": dict(map or {})}))
 
 
