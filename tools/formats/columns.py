@@ -38,7 +38,7 @@ def arrays_of(tree, path=""):
     """{path: vector or matrix of numbers} of mappings, lists and arrays within each other: "log[1].joint.q"."""
     if isinstance(tree, Mapping):
         named = {f"{path}.{name}" if path else str(name): value for name, value in tree.items()}
-    elif isinstance(tree, (list, tuple)) or getattr(tree, "dtype", None) == object:
+    elif isinstance(tree, (list, tuple)) or getattr(getattr(tree, "dtype", None), "kind", "") == "O":
         named = {f"{path}[{i}]": value for i, value in enumerate(tree if isinstance(tree, (list, tuple)) else tree.ravel(order="F"))}
     else:
         shape = [length for length in getattr(tree, "shape", ()) if length != 1]

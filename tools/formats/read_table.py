@@ -54,7 +54,7 @@ def first_row(rows, place):
 def names_of(rows, width):
     """A name for each column, by the rows above the table: with the unit of a row of units, as "pos [deg]"."""
     rows = [[str(cell).strip() if not is_empty(cell) else "" for cell in row] for row in rows]
-    rows = [(row + [""] * width)[:width] for row in rows if 2 <= sum(map(bool, row))]
+    rows = [(row + [""] * width)[:width] for row in rows if sum(map(bool, row)) >= 2]
     if not rows:
         return [f"column[{i}]" for i in range(width)]
     named = next((row for row in reversed(rows) if row[0].lower() == "name"), None)  # channel by channel, as TwinCAT has it

@@ -204,7 +204,7 @@ class Convert(unittest.TestCase):
             with self.subTest(name):
                 found = self.columns(self.folder / name, *(["--map", "time=time [s],position=position [deg],torque=torque [Nm]"] if name == "units.txt" else []))
                 # as far as both clocks reach; a step between two samples is a line
-                inside = TIME >= (0.01 if "torque" in found and len(found["time"]) < COUNT else 0)
+                inside = (0.01 if "torque" in found and len(found["time"]) < COUNT else 0) <= TIME
                 numpy.testing.assert_allclose(found["time"], TIME[inside], atol=2e-6)
                 numpy.testing.assert_allclose(found["position"], POSITION[inside], atol=1e-8)
                 shift = 0 if name in {"log.xlsx", "units.txt"} else 0.01
