@@ -328,7 +328,7 @@ TEST_F(Run, ComparesInEveryFormat) {
   EXPECT_THAT(RunWarmjoint({"compare", Directory("run"), "--format", "markdown"}).out,
               HasSubstr("| nominal-ls |"));
   EXPECT_THAT(RunWarmjoint({"compare", Directory("run"), "--format", "csv"}).out,
-              HasSubstr("\nnominal-ls,5,"));
+              HasSubstr("\nall,nominal-ls,5,"));
 }
 
 TEST_F(Run, CommandsOfASuiteNeedConsent) {
