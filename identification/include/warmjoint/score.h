@@ -24,10 +24,11 @@ struct ParameterScore {
   double truth = 0;
   double estimate = 0;  // 0 where not estimated
   bool estimated = false;
-  std::optional<std::array<double, 2>> interval95;  // of the estimate
   std::optional<bool> covered;  // the 95 % interval holds the truth; empty without an interval
-  std::optional<double> relative_error;  // (estimate - truth) / |truth|; empty where the truth is 0
-  double bound = 0;  // Cramer-Rao standard deviation; NaN where it does not exist
+  double bound = 0;             // Cramer-Rao standard deviation; NaN where it does not exist
+  std::optional<std::array<double, 2>> interval95 = {};  // of the estimate
+  // (estimate - truth) / |truth|; empty where the truth is 0
+  std::optional<double> relative_error = {};
 
   template <class A>
   void Serialize(A* a) {
