@@ -128,15 +128,12 @@ Table ComparisonTable(const std::vector<ParameterScore>& parameters, int digits)
     return value ? fmt::format("{:.{}g}", *value, digits) : "-";
   };
   // what is not known is a dash
-  for (const auto& [name, truth, estimate, estimated, interval, covered, error, bound] :
-       parameters) {
-    table.rows.push_back({name, estimated ? cell(estimate) : "-",
-                          interval ? cell((*interval)[0]) : "-",
-                          interval ? cell((*interval)[1]) : "-", cell(truth),
-                          !covered   ? "-"
-                          : *covered ? "yes"
-                                     : "no",
-                          error ? cell(100 * *error) : "-"});
+  for (const ParameterScore& one : parameters) {
+    const std::string inside = !one.covered ? "-" : *one.covered ? "yes" : "no";
+    table.rows.push_back({one.name, one.estimated ? cell(one.estimate) : "-",
+                          one.interval95 ? cell((*one.interval95)[0]) : "-",
+                          one.interval95 ? cell((*one.interval95)[1]) : "-", cell(one.truth),
+                          inside, one.relative_error ? cell(100 * *one.relative_error) : "-"});
   }
   return table;
 }
