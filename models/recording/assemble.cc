@@ -98,7 +98,11 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
 /// Number of samples, time and torque. is_assumed: nobody says the unit of time.
 void CheckCourse(const RawColumns& raw, bool is_assumed, Measurements& measurements) {
   const Eigen::Index n = measurements.size();
-  if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
+  if (n < 3) {
+    const std::string left_out = fmt::format("{}", fmt::join(measurements.notes, "; "));
+    Refuse({raw.file}, "has {} samples; at least 3 are needed{}{}", n, left_out.empty() ? "" : ": ",
+           left_out);
+  }
   if (n > kMostSamples) {
     Refuse({raw.file}, "has {} samples; {} at most are read: cut it, or lower its rate", n,
            kMostSamples);
@@ -296,6 +300,9 @@ Measurements AssembleMeasurements(RawColumns raw, std::vector<ColumnSource> sour
   // all of it at once: at least three samples, in order, with a torque that changes
   std::ranges::move(raw.notes, std::back_inserter(measurements.notes));
   CheckCourse(raw, is_assumed, measurements);
+  if (measurements.position.size() == 0 && measurements.velocity.size() == 0) {
+    Refuse({raw.file}, "has neither a position nor a velocity with numbers; one is needed");
+  }
   if (measurements.position.size() == 0) {
     IntegrateVelocity(measurements);
   } else {

@@ -80,11 +80,13 @@ std::string Plain(std::string_view text) {
   return plain;
 }
 
-/// Whether two texts are alike, letters of either case being one. A capital M before a capital is mega, no milli.
+/// Whether two texts are alike, letters of either case being one. A capital M before a capital is mega, no milli. Of single letters a
+/// capital may be meant for a small one, as in TIME_S.
 bool AreAlike(std::string_view a, std::string_view b, bool same_case) {
   if (same_case) return a == b;
   const bool is_mega = a.size() > 1 && b.size() > 1 && a[0] != b[0] && std::isupper(b[1]);
-  return a.size() > 1 && !is_mega && Lower(a) == Lower(b);
+  const bool may_differ = a.size() > 1 || (b.size() == 1 && std::islower(b[0]));
+  return may_differ && !is_mega && Lower(a) == Lower(b);
 }
 
 }  // namespace

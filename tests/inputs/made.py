@@ -188,7 +188,7 @@ def make_tables(folder):
     n = np.arange(1000)
     v = np.where(n // 100 % 2, -.5, .5)
     torque = .8 * v + 4.5 * np.sign(v) + .1 * np.random.default_rng(7).standard_normal(1000)
-    t, q, v, torque = (["%.4f" % x for x in column] for column in (n * .02, np.cumsum(v) * .02, v, torque))
+    t, q, v, torque = ([f"{x:.4f}" for x in column] for column in (n * .02, np.cumsum(v) * .02, v, torque))
     head = "time,position,velocity,torque"
 
     def text(*columns, head=head, separator=",", mark=".", end=""):
@@ -204,7 +204,7 @@ def make_tables(folder):
 
     plain = text(t, q, v, torque)
     lines = plain.splitlines()
-    six = [["%.4f" % x for x in np.repeat(np.array(c, float), 6)] for c in (t, v, torque)]
+    six = [[f"{x:.4f}" for x in np.repeat(np.array(c, float), 6)] for c in (t, v, torque)]
     forms = {
         "bom": b"\xef\xbb\xbf" + plain.encode(), "utf16": plain.encode("utf-16"), "utf16be": plain.encode("utf-16-be"),
         "sep": "sep=;\r\n" + text(t, q, v, torque, separator=";", mark=",", end="\r"),
@@ -235,9 +235,9 @@ def make_tables(folder):
         "ampere": text(t, degrees(q), degrees(v), torque, head="Time [s],Position [deg],Velocity [deg/s],i_A"),
         "capitals": text(t, degrees(q), degrees(v, 30 / np.pi), torque, head="TIME_S,POSITION_DEG,VELOCITY_RPM,TORQUE_NM"),
         "units": text(t, degrees(q), degrees(v), degrees(torque, 1000), head=head + "\n\n(s),(°),(°/s),(mN·m)"),
-        "empty_velocity": text(t, q, [""] * 1000, torque), "words": plain.replace("\n10.0000,0.02", "\n10.0000,null").replace("\n5.0000,", "\n,"),
+        "empty_velocity": text(t, q, [""] * 1000, torque), "words": plain.replace("\n10.0000,0.9900", "\n10.0000,null").replace("\n5.0000,", "\n,"),
         "thousands": text(*([f"{1000 + k:,}" for k in n + 10 * i] for i in range(4)), separator=";"),
-        "decimal_comma": text(t, q, v, torque, mark=","), "rows_of_joints": text(six[0], np.tile(["%d" % k for k in range(6)], 1000), six[1], six[2]),
+        "decimal_comma": text(t, q, v, torque, mark=","), "rows_of_joints": text(six[0], np.tile([str(k) for k in range(6)], 1000), six[1], six[2]),
         "month": text(stamps("03/04/2024 10:00:{s:06.3f}"), q, v, torque), "from_boot": text([str(36 * 10**11 + k * 20_000_000) for k in n], q, v, torque),
         "wrong_quantity": text(t, q, v, torque, head="time,position,v_deg,torque"), "millimetres": text(t, q, v, torque, head=head + "\ns,mm,mm/s,N"),
         "own_clocks": head + "\n" + "".join(f"{a},{b},,\n{float(a) + .001},,{c},\n{float(a) + .002},,,{d}\n" for a, b, c, d in zip(t, q, v, torque)),

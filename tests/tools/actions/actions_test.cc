@@ -109,7 +109,7 @@ TEST(ProjectFile, RefusesWhatItDoesNotKnowAndWhatRuns) {
        {"set:\n  command: x\n", file, "'set'"},
        {"joint: rotary\ngaer: 50\n", second, "'gear'"},
        {"map: {torqe: f}\n", first, "'torque'"},
-       {"unit: {position: degree}\n", first, "position"},
+       {"unit: {position: dgr}\n", first, "position"},
        {"joint: prismatic\n", first, "joint is 'prismatic'"},
        {"gear: 0\n", first, "gear"},
        {"gear: .inf\n", first, "gear"},
