@@ -78,7 +78,7 @@ std::vector<std::string> WordsOf(const RecordingSource& source) {
   for (const auto& [column, factor] : scale) add("--scale", fmt::format("{}={}", column, factor));
   // what is as usual needs no words
   const ReadSettings usual;
-  if (!columns.empty()) add("--columns", fmt::join(columns, ","));
+  if (!columns.empty()) add("--columns", fmt::format("{}", fmt::join(columns, ",")));
   if (rate != usual.rate) add("--rate", rate);
   if (wrap != usual.wrap) add("--wrap", wrap);
   if (joint != usual.joint) add("--joint", NameOf(joint));
