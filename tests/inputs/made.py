@@ -235,7 +235,7 @@ def make_tables(folder):
         "ampere": text(t, degrees(q), degrees(v), torque, head="Time [s],Position [deg],Velocity [deg/s],i_A"),
         "capitals": text(t, degrees(q), degrees(v, 30 / np.pi), torque, head="TIME_S,POSITION_DEG,VELOCITY_RPM,TORQUE_NM"),
         "units": text(t, degrees(q), degrees(v), degrees(torque, 1000), head=head + "\n\n(s),(°),(°/s),(mN·m)"),
-        "empty_velocity": text(t, q, [""] * 1000, torque), "words": plain.replace("\n10.0000,0.9900", "\n10.0000,null").replace("\n5.0000,", "\n,"),
+        "empty_velocity": text(t, q, [""] * 1000, torque), "words": text(t, [*q[:500], "null", *q[501:]], v, ["", *torque[1:]]),
         "thousands": text(*([f"{1000 + k:,}" for k in n + 10 * i] for i in range(4)), separator=";"),
         "decimal_comma": text(t, q, v, torque, mark=","), "rows_of_joints": text(six[0], np.tile([str(k) for k in range(6)], 1000), six[1], six[2]),
         "month": text(stamps("03/04/2024 10:00:{s:06.3f}"), q, v, torque), "from_boot": text([str(36 * 10**11 + k * 20_000_000) for k in n], q, v, torque),
