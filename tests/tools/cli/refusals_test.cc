@@ -50,7 +50,7 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"check", "log.csv", "--map", "torque=torqe"}, "torque"},
       {{"check", "log.csv", "--map", "torque"}, "key=value"},
       {{"check", "log.csv", "--unit", "position=dgr"}, ", deg,"},
-      {{"check", "log.csv", "--unit", "torque=Nmm"}, "'N.m'"},
+      {{"check", "log.csv", "--unit", "torque=N.n"}, "N.m"},
       {{"check", "log.csv", "--joint", "prismatic"}, "'linear'"},
       {{"check", "log.csv", "--joint", "rotatory"}, "'rotary'"},
       {{"check", "log.csv", "--trim", "-1"}, "0 or more"},
