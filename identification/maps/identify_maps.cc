@@ -20,6 +20,7 @@
 #include "identification/maps/make_bands.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/sign.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -47,9 +48,10 @@ std::optional<std::string> Unseen(MapQuantity quantity, const Measurements& meas
     return "the recording has no column load; log the load that the joint transmits, or use "
            "energy-map";
   }
-  const bool logged = quantity == MapQuantity::motor_position && measurements.motor_position;
-  if (measurements.position_integrated && !logged &&
-      (quantity == MapQuantity::position || quantity == MapQuantity::motor_position)) {
+  const bool is_unknown =
+      quantity == MapQuantity::position ||
+      (quantity == MapQuantity::motor_position && !KnowsMotorAngle(measurements));
+  if (measurements.position_integrated && is_unknown) {
     return fmt::format(
         "the log has no positions, and a map over {} needs them; log them, or use nominal-ls or "
         "energy-ml",

@@ -218,9 +218,10 @@ bool TakeTime(RawColumns& raw, std::vector<ColumnSource>& sources, const ReadSet
     is_assumed = false;
   }
   if (const auto unit = is_assumed ? EpochUnit(time) : std::nullopt) {
-    time *= FindUnit(*unit, {"s"}, "time", {raw.file}).factor;
-    if (*unit != "s")
-      raw.notes.push_back(fmt::format("time counts {} since 1970 by its size", *unit));
+    time *= unit->factor;
+    if (unit->name != "s") {
+      raw.notes.push_back(fmt::format("time counts {} since 1970 by its size", unit->name));
+    }
     is_assumed = false;
   }
   sources.front().unit = FindUnit("s", {"s"}, "time", {raw.file});

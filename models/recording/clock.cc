@@ -104,7 +104,10 @@ std::optional<double> ReadStamp(std::string_view text) {
   double number = 0;
   const std::string_view unit(std::from_chars(stamp.data(), end, number).ptr, end);
   if (unit.empty()) return std::nullopt;
-  if (const std::optional<Unit> known = MeantUnit(unit, {"s"})) return number * known->factor;
+  // none begins as the rest of a date or a time does
+  const bool is_clock = unit.find_first_of("-:/.T") == 0;
+  const std::optional<Unit> known = is_clock ? std::nullopt : MeantUnit(unit, {"s"});
+  if (known) return number * known->factor;
   for (const std::string_view days : {" days ", " day "}) {
     const auto rest = unit.starts_with(days) ? ReadStamp(unit.substr(days.size())) : std::nullopt;
     if (rest) return number * kDay + *rest;
@@ -147,16 +150,16 @@ std::optional<double> ReadStamp(std::string_view text) {
   return *rest ? std::nullopt : std::optional(seconds);
 }
 
-std::optional<std::string> EpochUnit(const Eigen::VectorXd& time) {
+std::optional<Unit> EpochUnit(const Eigen::VectorXd& time) {
   constexpr double first = 978307200, last = 4102444800;  // s, of 2001 and 2100
   constexpr double longest = 100;                         // s between samples
   const Eigen::Index n = time.size();
   if (n < 2) return std::nullopt;
   const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
-  for (const char* unit : {"s", "ms", "us", "ns"}) {
-    const double factor = MeantUnit(unit, {"s"})->factor;
-    const double seconds = factor * time[0];
-    if (seconds >= first && seconds < last && std::abs(step) * factor <= longest) return unit;
+  for (const char* name : {"s", "ms", "us", "ns"}) {
+    const Unit unit = *MeantUnit(name, {"s"});
+    const double seconds = unit.factor * time[0];
+    if (seconds >= first && seconds < last && std::abs(step) * unit.factor <= longest) return unit;
   }
   return std::nullopt;
 }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "models/recording/units.h"
+
 namespace warmjoint {
 
 /// The seconds of a stamp: since 1970 of a date with or without a time, as 2024-03-01T12:00:00.123+01:00 or "01.03.2024 12:00:00";
@@ -16,7 +18,7 @@ std::optional<double> ReadStamp(std::string_view text);
 
 /// The part of a second that a plain count is in, where its size is that of a time since 1970: "s", "ms", "us" or "ns" of years
 /// from 2001 to 2100 at more than a sample in 100 s. Nothing for other counts. time: [N]
-std::optional<std::string> EpochUnit(const Eigen::VectorXd& time);
+std::optional<Unit> EpochUnit(const Eigen::VectorXd& time);
 
 /// What was made of a clock.
 struct MendedClock {

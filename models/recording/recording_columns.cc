@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/letter_case.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -57,19 +58,13 @@ void CheckNames(const Columns& given, std::string_view option, const Place& plac
   }
 }
 
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
-}
-
 /// A name in the file that looks like `column`.
 std::optional<std::string> LikelyName(const RecordingColumn& column,
                                       const std::vector<std::string>& names) {
   // hints from the likeliest on, of which the first that fits counts
   for (const std::string& hint : column.other_names) {
     for (const std::string& name : names) {
-      const std::string lower = Lower(name);
+      const std::string lower = Lowercase(name);
       const bool is_letter = hint.size() == 1;  // "t" fits t, t_s, t [s], but not torque
       const bool fits =
           is_letter ? lower.substr(0, 1) == hint && (lower.size() == 1 || !std::isalpha(lower[1]))
@@ -114,7 +109,7 @@ std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& n
 /// Name and unit of a temperature; no unit where the name tells none. K may be anything, as F and C: the rest must speak of a temperature.
 NameAndUnit SplitTemperature(const std::string& name) {
   NameAndUnit split = SplitUnit(name, {"degC"});
-  const std::string stem = Lower(split.stem);
+  const std::string stem = Lowercase(split.stem);
   const bool speaks = stem.find("temp") != std::string::npos || stem == "t" ||
                       stem.starts_with("t_") || stem.starts_with("t ");
   const std::string_view behind = std::string_view(name).substr(split.stem.size());
@@ -255,7 +250,7 @@ std::size_t FindColumn(const RecordingColumn& column, const std::vector<std::str
   if (ours < names.size()) return ours;
   // our name in other letters or with a unit; a temperature by its unit alone
   const std::size_t alike = OnlyOne(names, [&](const std::string& name) {
-    return Lower(Split(column, name, layout.joint).stem) == column.name;
+    return Lowercase(Split(column, name, layout.joint).stem) == column.name;
   });
   if (alike < names.size() || column.name != kTemperature) return alike;
   return OnlyOne(names,

@@ -11,6 +11,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/letter_case.h"
 #include "models/foundation/parse_number.h"
 #include "models/recording/clock.h"
 #include "models/recording/units.h"
@@ -335,8 +336,7 @@ std::optional<double> ReadCell(std::string_view field, char decimal_mark) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (field.empty()) return nan;
   if (field.size() > 12) return std::nullopt;
-  std::string word(field);
-  std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string word = Lowercase(field);
   const std::size_t sharp = word.find("1.#");
   const bool is_infinite = word.find("inf") != std::string::npos;
   if (std::ranges::find(words, word) != words.end() || (sharp <= 1 && !is_infinite)) return nan;

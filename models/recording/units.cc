@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/letter_case.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -56,12 +57,6 @@ constexpr std::array kSpellings = std::to_array<Texts>({
 constexpr std::string_view kOfMotion = "m/s rad/s";  // these, and what they begin with
 constexpr std::size_t kLongest = 24;                 // bytes of any unit in brackets
 
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
-}
-
 /// The text in the characters of Units, without brackets around it.
 std::string Plain(std::string_view text) {
   constexpr std::string_view open = "([{<", close = ")]}>";
@@ -86,7 +81,7 @@ bool AreAlike(std::string_view a, std::string_view b, bool same_case) {
   if (same_case) return a == b;
   const bool is_mega = a.size() > 1 && b.size() > 1 && a[0] != b[0] && std::isupper(b[1]);
   const bool may_differ = a.size() > 1 || (b.size() == 1 && std::islower(b[0]));
-  return may_differ && !is_mega && Lower(a) == Lower(b);
+  return may_differ && !is_mega && EqualIgnoringCase(a, b);
 }
 
 }  // namespace

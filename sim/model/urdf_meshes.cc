@@ -7,6 +7,7 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/letter_case.h"
 #include "models/foundation/xml_tags.h"
 #include "sim/model/spec_elements.h"
 
@@ -21,9 +22,7 @@ constexpr std::string_view kFile = "file:";
 std::string NameOf(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
 
 bool MujocoReads(const fs::path& file) {
-  std::string extension = file.extension();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = Lowercase(file.extension().native());
   return extension == ".stl" || extension == ".obj" || extension == ".msh";
 }
 

@@ -107,7 +107,7 @@ def cells_of(path):
         return sheet.head(PEEK).to_numpy(object).tolist(), lambda first: sheet.iloc[first:]
     text = text_of(path)
     lines = text.splitlines()
-    head = [line for line in lines[:PEEK]]
+    head = lines[:PEEK]
     separator = max("\t;,", key=lambda one: sum(line.count(one) for line in head[len(head) // 2:]) * (2 if one != "," else 1))
     decimal = "," if separator != "," and re.search(r"\d,\d", "\n".join(head[len(head) // 2:])) else "."
     rows = [line.rstrip("\r").removesuffix(separator).split(separator) for line in head]

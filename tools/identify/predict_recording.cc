@@ -108,7 +108,6 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
     Refuse({m.source}, "has a torque in {} and friction is in {}; give {}", m.torque_unit, unit,
            amperes.empty() ? "--torque-constant" : "--unit torque=A");
   }
-  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
   // gravity and maps need the positions that a velocity alone does not tell
   const auto over_position = [](const FrictionMap& map) {
     return FindAxis(map, MapQuantity::position) || FindAxis(map, MapQuantity::motor_position);
@@ -118,6 +117,7 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
   if (m.position_integrated && needs) {
     Refuse({m.source}, "has no positions, and the estimate's gravity or map needs them; log them");
   }
+  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
   // samples put in between those that were logged are no rows of the log
   const Eigen::VectorXd& logged = log.taken().measurements.time;
   for (Eigen::Index i = 0, n = 0; i < m.size() && n < logged.size(); ++i) {
