@@ -1,4 +1,4 @@
-"""Logs that the tests share. The program is WARMJOINT_PROGRAM; the package is found by PYTHONPATH."""
+"""Logs that the tests share. The program is WARMJOINT_PROGRAM; the package is found by PYTHONPATH, its script is WARMJOINT_SCRIPT."""
 
 import os
 import pathlib

@@ -1,7 +1,9 @@
 """Simulation, suites and scores from Python are those of the program."""
 
 import json
+import os
 import pathlib
+import subprocess
 
 import numpy as np
 import pytest
@@ -14,6 +16,17 @@ SCENARIO = {"friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, 
                          "thermal": {"thermal_gain": -3, "thermal_time_constant": 600}},
             "motion": {"speeds": {"uniform": [0.1, 1]}, "hold": 20}, "noise": {"torque": 0.5}, "sampling": {"rate": 1},
             "duration": 3600}
+
+
+@pytest.mark.skipif("WARMJOINT_SCRIPT" not in os.environ, reason="WARMJOINT_SCRIPT names no script of an installed package")
+def test_the_script_of_the_package_is_the_program(program, tmp_path):
+    # MuJoCo's library lies elsewhere than in the folder of packages, where the script looks
+    environment = os.environ | {"LD_LIBRARY_PATH": os.fspath(pathlib.Path(mujoco.__file__).parent)}
+    for command in (["list", "identifiers"], ["new", "scenario", "one"], ["simulate", "one.yaml", "--set", "duration=60", "-o", "one"]):
+        done = subprocess.run([os.environ["WARMJOINT_SCRIPT"], *command], cwd=tmp_path, env=environment, capture_output=True, text=True,
+                              check=True)
+        assert done.stdout == program(*command)
+    assert (tmp_path / "one/recording.csv").read_bytes() == (program.folder / "one/recording.csv").read_bytes()
 
 
 def test_a_simulation_is_that_of_the_program(program, recording, columns):
