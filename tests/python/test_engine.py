@@ -22,7 +22,7 @@ SCENARIO = {"friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, 
 def test_the_script_of_the_package_is_the_program(program, tmp_path):
     # MuJoCo's library lies elsewhere than in the folder of packages, where the script looks
     environment = os.environ | {"LD_LIBRARY_PATH": os.fspath(pathlib.Path(mujoco.__file__).parent)}
-    for command in (["list", "identifiers"], ["new", "scenario", "one"], ["simulate", "one.yaml", "--set", "duration=60", "-o", "one"]):
+    for command in (["list", "robots"], ["list", "suites"], ["new", "scenario", "one"], ["simulate", "one.yaml", "--set", "duration=60", "-o", "one"]):
         done = subprocess.run([os.environ["WARMJOINT_SCRIPT"], *command], cwd=tmp_path, env=environment, capture_output=True, text=True,
                               check=True)
         assert done.stdout == program(*command)

@@ -12,6 +12,7 @@
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_json.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -109,8 +110,9 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
            amperes.empty() ? "--torque-constant" : "--unit torque=A");
   }
   // gravity and maps need the positions that a velocity alone does not tell
-  const auto over_position = [](const FrictionMap& map) {
-    return FindAxis(map, MapQuantity::position) || FindAxis(map, MapQuantity::motor_position);
+  const auto over_position = [&m](const FrictionMap& map) {
+    return FindAxis(map, MapQuantity::position) ||
+           (FindAxis(map, MapQuantity::motor_position) && !KnowsMotorAngle(m));
   };
   const bool needs =
       stored.model.gravity || std::ranges::any_of(stored.model.friction.maps, over_position);
