@@ -49,7 +49,7 @@ struct FitParameter {
 /// changes of it.
 struct ErrorModel {
   Eigen::MatrixXd cofactor;  // [p x p] C, the inverse of what the fit solved
-  Eigen::VectorXd prior;     // [p] what is known beforehand (JudgeUncertainty); or empty
+  Eigen::VectorXd prior;     // [p] what is known beforehand (EstimateCovariance); or empty
   Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss or a lag; or empty
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
   /// Of the rows that the fit solved, and with which C is; or none.
@@ -70,7 +70,7 @@ struct Iterate {
 };
 
 /// That the colour of a fit's residual is structure and no noise: what whitening would have changed.
-struct HeldStructure {
+struct UnmodelledResidual {
   Disagreement change;
   Eigen::VectorXd
       friction;  // [n] F at the kept samples, N.m or N, beside which it is little or much
@@ -144,7 +144,7 @@ struct Fit {
   /// The same structure, fitted to other samples: of an identifier that chooses one; else not set.
   std::function<Fit(const IdentifierInput&)> structure;
 
-  std::optional<HeldStructure> held_structure;  // where the residual is not only noise
+  std::optional<UnmodelledResidual> unmodelled_residual;  // where the residual is not only noise
   std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
 
   /// The heat that the log began with: E(0), and the jumps of E.

@@ -4,13 +4,13 @@
 
 namespace warmjoint {
 
-IdentifierInput Seen(const Identifier& identifier, const IdentifierInput& input) {
+IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input) {
   // of a whole log, what is absurd pulls no less at a loss that bounds its pull than others do
   const auto* loss = input.options.Find<LossOption>();
   const bool is_bounded = loss && loss->loss == LossKind::huber;
   const PreparedLog& bounded = is_bounded ? input.log.WithoutAbsurd() : input.log;
   if (&bounded != &input.log && &input.selection == &input.log.steady().selection) {
-    return Seen(identifier, {bounded, input.options, input.start, input.narrator});
+    return SelectSamples(identifier, {bounded, input.options, input.start, input.narrator});
   }
 
   if (identifier.regime == Regime::transient) return input.AsTaken();

@@ -33,7 +33,7 @@ void AddMap(const IdentifierInput& input, const std::string& identifier, Nominal
   // kernels join the law as further columns
   part.maps = choice->fit.maps;
   const MapPoints all = PointsOf(input.measurements);
-  part.columns = Beside(part.columns, DenseKernels(part.maps, all, 0, all.rows()));
+  part.columns = ConcatColumns(part.columns, DenseKernels(part.maps, all, 0, all.rows()));
   part.cofactor = choice->fit.inverse;
   part.solution = choice->fit.x;
   part.strength = choice->fit.strength;
@@ -78,7 +78,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   }
 
   // the columns of Fn and G must be distinct before any warming is thought of
-  part.columns = Beside(part.columns, part.gravity.columns);
+  part.columns = ConcatColumns(part.columns, part.gravity.columns);
   const LeastSquares fit =
       SolveLeastSquares(Kept(part.columns, part.moving), Kept(m.torque, part.moving));
   if (fit.rank < d) {

@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <string_view>
 
-#include "identification/lack_of_fit/judge.h"
+#include "identification/inference/apply.h"
+#include "identification/lack_of_fit/explain.h"
+#include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/report/report_fit.h"
-#include "identification/report/tell_preparation.h"
 #include "identification/seen_samples.h"
+#include "models/friction/law.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -17,93 +23,184 @@ namespace {
 
 constexpr Eigen::Index kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
 constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be another motion
-constexpr double kWorse = 10.8;  // why: chi-squared of one degree of freedom, once in a thousand
+constexpr double kWorse = 10.8;     // why: chi-squared of one degree of freedom, once in a thousand
+constexpr double kHarmless = 1e-3;  // attenuation
+constexpr double kUnseenPath = 5e-3;  // share of the path
 
-/// Voids an answer that is worthless whatever the tests let pass: it rests on next to nothing of the log, or one
+/// The row that refuses an answer that is worthless whatever the tests let pass: it rests on next to nothing of the log, or one
 /// number, the mean of the torque, follows it better beyond chance.
-void JudgeFloor(const Fit& fit, const Measurements& m, Inference& judged) {
+std::optional<Cause> FloorCause(const Fit& fit, const Measurements& m, const Inference& by_noise) {
   const auto used = static_cast<double>(fit.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {
-    judged.Void(
-        Status::not_identifiable,
-        fmt::format("the fit rests on {} of {} samples that move, and takes {} and {:.0f} % of "
-                    "them: record longer, or use the others (--motion {})",
-                    used, moving, kFewest, 100 * kLeastShare, m.acceleration ? "constant" : "any"));
-    return;
+    return Cause{.source = Source::few_samples,
+                 .action = Action::refuse,
+                 .status = Status::not_identifiable,
+                 .sentence = ExplainFewSamples(used, moving, kFewest, kLeastShare,
+                                               m.acceleration.has_value())};
   }
   const double left = fit.residual().squaredNorm();
   const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
-  if (left - by_mean <= kWorse * judged.known.noise.variance_inflation * left / used) return;
-  judged.Void(
-      Status::inadequate_model,
-      fmt::format("the torque's mean follows it better than the friction does (Fit {:.3g} %): "
-                  "is there gravity (--gravity sincos), or a wrong sign or unit?",
-                  100 * (1 - std::sqrt(left / by_mean))));
+  if (left - by_mean <= kWorse * by_noise.known.noise.variance_inflation * left / used) return {};
+  return Cause{.source = Source::worse_than_mean,
+               .action = Action::refuse,
+               .status = Status::inadequate_model,
+               .sentence = ExplainWorseThanMean(100 * (1 - std::sqrt(left / by_mean)))};
+}
+
+/// The first row of the law that is a slope over speed; nullptr where there is none.
+const FitParameter* SlopeOf(const Fit& fit) {
+  for (const FitParameter& row : fit.parameters) {
+    if (row.role == Role::law && row.part == LawPart::slope) return &row;
+  }
+  return nullptr;
+}
+
+/// Whether maps slope over speed: those over it, and those that it multiplies.
+bool MapsSlope(const Fit& fit) {
+  return std::ranges::any_of(fit.friction.maps, [](const FrictionMap& map) {
+    return FindAxis(map, MapQuantity::velocity) || map.factor == MapFactor::velocity;
+  });
+}
+
+/// What averaging left of the noise: a slope that is off moves the levels by as much as it takes at the mean speed.
+Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitParameter* viscous,
+                         std::string_view slope) {
+  Cause cause{.source = Source::velocity_noise,
+              .action = Action::widen,
+              .sentence = ExplainVelocityNoise(taken, slope)};
+  if (!viscous) return cause;
+  const double move = std::abs(taken.left * viscous->value);
+  std::vector<double> moves;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    const bool is_level = row.part == LawPart::level;
+    if (row.role != Role::law || !(is_level || row.part == LawPart::slope)) continue;
+    cause.rows.push_back(i);
+    moves.push_back(is_level ? move * taken.mean_speed : move);
+  }
+  cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
+  return cause;
+}
+
+/// What was done to the velocity.
+void AddVelocity(const VelocityNoise& taken, JointKind joint, const Fit& fit,
+                 std::vector<Cause>& causes) {
+  const FitParameter* const viscous = SlopeOf(fit);
+  const std::string_view slope = viscous          ? viscous->name
+                                 : MapsSlope(fit) ? "slopes over speed"
+                                                  : "";
+  causes.push_back({.source = Source::velocity_averaged,
+                    .sentence = ExplainAveraging(taken, joint, slope),
+                    .sentence_in = SentenceIn::message});
+  if (!slope.empty() && taken.left > kHarmless) {
+    causes.push_back(VelocityNoiseCause(taken, fit, viscous, slope));
+  }
+}
+
+Cause OfTheLog(Source source, std::string sentence) {
+  return {.source = source, .sentence = std::move(sentence), .sentence_in = SentenceIn::any_answer};
+}
+
+/// Rows of what was done to the log. Of fits at constant speed: where more than 0.1 % of a slope's attenuation by noise of the
+/// velocity is left, intervals of viscous and of the levels reach as far as that moves them; of a warming, how far the gain may be off
+/// where reversals happen between two samples, unless that is below half a per cent. Of all: positions that the log
+/// lacks, and torque that was left out as absurd. input: what the identifier saw; by_noise: of the fit.
+std::vector<Cause> PreparationCauses(const Identifier& identifier, const IdentifierInput& input,
+                                     const Fit& fit, const Inference& by_noise) {
+  std::vector<Cause> causes;
+  const PreparedLog& log = input.log;
+  const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
+  if (steady && log.faults().empty()) {
+    const bool warms = fit.RowOf(Role::heat) && !by_noise.parameters.empty();
+    if (warms && log.unseen() >= kUnseenPath) {
+      causes.push_back(OfTheLog(Source::reversals, ExplainReversals(log.unseen())));
+    }
+    for (const std::string& warning : log.warnings()) {
+      causes.push_back(OfTheLog(Source::preparation, warning));
+    }
+    if (log.velocity_noise()) {
+      AddVelocity(*log.velocity_noise(), log.taken().measurements.joint, fit, causes);
+    }
+  }
+  if (input.measurements.position_integrated) {
+    causes.push_back(OfTheLog(Source::recording, kNoPositions));
+  }
+  if (!steady && log.absurd()) causes.push_back(OfTheLog(Source::recording, *log.absurd()));
+  return causes;
+}
+
+/// What was found in log and fit, and the tests as data.
+LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
+                     const LackOfFitSettings& judging, const Answer& answer) {
+  LackOfFit found;
+  const std::vector<std::string>& faults = input.log.faults();
+  if (!faults.empty()) {
+    found.causes.push_back({.source = Source::faults,
+                            .action = Action::refuse,
+                            .status = Status::bad_data,
+                            .sentence = fmt::format("{}", fmt::join(faults, "; and "))});
+  } else {
+    found = FindLackOfFit(identifier, input, answer.fit, answer.inferred, judging);
+    if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
+      auto floor = FloorCause(answer.fit, input.measurements, answer.inferred);
+      if (floor) found.causes.push_back(std::move(*floor));
+    }
+  }
+  std::ranges::move(PreparationCauses(identifier, input, answer.fit, answer.inferred),
+                    std::back_inserter(found.causes));
+  return found;
 }
 
 }  // namespace
 
-Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
-                   const Judging& judging) {
-  const IdentifierInput input = Seen(identifier, given);
-
-  // fit, then infer
+Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
+                   const LackOfFitSettings& judging) {
+  const IdentifierInput input = SelectSamples(identifier, given);
   Answer answer;
   answer.fit = AtBounds(identifier.fit(input), input.measurements);
   answer.inferred = Infer(answer.fit);
 
-  // judge
-  answer.judged = answer.inferred;
-  const std::vector<std::string>& faults = input.log.faults();
-  if (faults.empty()) {
-    JudgeLackOfFit(identifier, input, answer.fit, judging, answer.judged);
-    if (answer.judged.status == Status::ok) {
-      JudgeFloor(answer.fit, input.measurements, answer.judged);
-    }
-  } else {
-    answer.judged.Void(Status::bad_data, fmt::format("{}", fmt::join(faults, "; and ")));
-  }
+  // what is said about it, and what that leaves of it
+  LackOfFit found = FindCauses(identifier, input, judging, answer);
+  answer.causes = std::move(found.causes);
+  answer.judged = Apply(answer.inferred, answer.causes);
+  answer.judged.diagnostics = std::move(found.diagnostics);
+  answer.judged.assumptions =
+      AssumptionsOf(answer.causes, answer.fit, input.measurements.torque_unit);
   return answer;
 }
 
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,
                       const Answer& answer) {
-  const IdentifierInput input = Seen(identifier, given);
+  const IdentifierInput input = SelectSamples(identifier, given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
   estimate.options = input.options.Changed();
-
-  // how the samples were prepared, of fits at constant speed
-  const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
-  if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
-  if (input.measurements.position_integrated) estimate.warnings.emplace_back(kNoPositions);
-  if (!steady && input.log.absurd()) estimate.warnings.push_back(*input.log.absurd());
   return estimate;
 }
 
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input,
-                          const Judging& judging) {
-  return ReportAnswer(identifier, input, FitAndJudge(identifier, input, judging));
+Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& input,
+                          const LackOfFitSettings& judging) {
+  return ReportAnswer(identifier, input, FitAndCheck(identifier, input, judging));
 }
 
-Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& given) {
-  const IdentifierInput input = Seen(identifier, given);
+Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& given) {
+  const IdentifierInput input = SelectSamples(identifier, given);
   const Fit fit = AtBounds(identifier.fit(input), input.measurements);
   return ReportFit(fit, Infer(fit), input.measurements);
 }
 
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
-                         const Answer& answer) {
-  Estimate shown = ReportAnswer(identifier, input, answer);
-
-  // a verdict that voided nothing leaves nothing to force
-  if (answer.judged.status == answer.inferred.status) return shown;
-  Estimate before = ReportFit(answer.fit, answer.inferred, Seen(identifier, input).measurements);
-  shown.parameters = std::move(before.parameters);
-  shown.friction = std::move(before.friction);
-  shown.bands = std::move(before.bands);
-  shown.message += "; forced: all numbers are void";
-  return shown;
+                         const Answer& answer, Estimate refused) {
+  // causes that refused nothing leave nothing to force
+  if (answer.judged.status == answer.inferred.status) return refused;
+  Estimate before =
+      ReportFit(answer.fit, answer.inferred, SelectSamples(identifier, input).measurements);
+  refused.parameters = std::move(before.parameters);
+  refused.friction = std::move(before.friction);
+  refused.bands = std::move(before.bands);
+  refused.message += "; forced: all numbers are void";
+  return refused;
 }
 
 }  // namespace warmjoint

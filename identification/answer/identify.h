@@ -1,43 +1,46 @@
-// The way from a prepared log to an answer: fit, infer, judge, report.
+// From a prepared log to an answer: fit, infer, find causes, apply, report.
 #pragma once
 
 #include <warmjoint/estimate.h>
 
+#include <vector>
+
 #include "identification/identifier.h"
+#include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
-#include "identification/lack_of_fit/judging.h"
+#include "identification/lack_of_fit/lack_of_fit_settings.h"
 
 namespace warmjoint {
 
-/// A fit, what it tells by itself, and what the verdict leaves of that.
+/// A fit, what noise says of it, what else is known about it, and what that leaves.
 struct Answer {
   Fit fit;
   Inference inferred;
+  std::vector<Cause> causes;
   Inference judged;
 };
 
 /// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
-/// makes the inference void, bad_data, and its message names them; else the residual is examined for
-/// structure (lack_of_fit/judge.h), and what the preparation of the log means for the numbers is told. No answer is ok that
+/// is bad_data, and the message names them; else the residual is examined for
+/// structure (lack_of_fit/find_lack_of_fit.h). What the preparation of the log means for the numbers is a cause, too. No answer is ok that
 /// rests on fewer than 30 samples or a twentieth of those that move, or that the mean of the torque beats beyond chance.
-Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& input,
-                   const Judging& judging = {});
+Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& input,
+                   const LackOfFitSettings& judging = {});
 
-/// The judged answer as an estimate: FitAndJudge, ReportFit, TellPreparation.
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input,
-                          const Judging& judging = {});
+/// The judged answer as an estimate: FitAndCheck, ReportFit.
+Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& input,
+                          const LackOfFitSettings& judging = {});
 
 /// The same of an answer that is there already.
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& input,
                       const Answer& answer);
 
 /// Without a verdict: what the fit tells by itself.
-Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& input);
+Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& input);
 
-/// What --force shows of a judged answer: its status and its figures with the numbers of the answer
-/// before the verdict, and a message that calls them void. An answer that was not voided by the
-/// verdict stays as it is.
+/// What --force shows of an answer that a cause refused: its report with the numbers that noise alone would give, and a message that
+/// calls them void. refused: ReportAnswer; stays as it is where no cause refused it.
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
-                         const Answer& answer);
+                         const Answer& answer, Estimate refused);
 
 }  // namespace warmjoint

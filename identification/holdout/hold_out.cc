@@ -37,7 +37,7 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
 
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
                                       double fraction, const Fit& all_data) {
-  const IdentifierInput input = Seen(identifier, given);
+  const IdentifierInput input = SelectSamples(identifier, given);
   const auto& keep = input.selection.keep;
   // a share of the samples that take part, however long they last
   const auto first = std::llround((1 - fraction) * static_cast<double>(keep.count()));
@@ -52,52 +52,40 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   return FirstPart{split, AtBounds(std::move(fit), seen.measurements)};
 }
 
-std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& given,
-                               double fraction, const Fit& all_data) {
-  const auto first = FitFirstPart(identifier, given, fraction, all_data);
-  if (!first) return std::nullopt;
-
-  // the test part alone is compared, the prediction runs from the start
-  const IdentifierInput input = Seen(identifier, given);
-  Selection test = input.selection;
-  test.keep.head((input.measurements.time.array() < first->split).count()) = false;
-  return Evaluate(first->fit, input.measurements, test, first->fit.Start());
-}
-
-std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,
-                               const PreparedLog& other) {
-  const CourseStart cold;
-  const LogView& seen = SeenBy(identifier, fit, other);
-  return Evaluate(fit, seen.measurements, seen.selection, cold);
-}
-
-std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& given,
-                         double fraction, const Fit& all_data) {
+HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, double fraction,
+                const Fit& all_data) {
   const std::string part = fmt::format("the first {:.3g} % of the log", 100 * (1 - fraction));
   const auto first = FitFirstPart(identifier, given, fraction, all_data);
-  if (!first) return fmt::format("{}, or the rest, hold fewer than two samples", part);
+  if (!first) return {{}, fmt::format("{}, or the rest, hold fewer than two samples", part)};
 
-  // a fit without friction predicts nothing
-  const Inference inferred = Infer(first->fit);
-  if (!inferred.gives_friction) {
-    const std::string& why = inferred.status == Status::ok && !inferred.warnings.empty()
-                                 ? inferred.warnings.front()
-                                 : inferred.message;
-    return fmt::format("a fit to {} gives no friction ({})", part, why);
+  // the test part alone is compared, the prediction runs from the start
+  const IdentifierInput input = SelectSamples(identifier, given);
+  Selection test = input.selection;
+  const auto before = (input.measurements.time.array() < first->split).count();
+  test.keep.head(before) = false;
+  if (auto metrics = Evaluate(first->fit, input.measurements, test, first->fit.Start())) {
+    return {std::move(metrics), ""};
   }
 
-  // else the rest holds no sample to compare
-  const IdentifierInput input = Seen(identifier, given);
-  const auto before = (input.measurements.time.array() < first->split).count();
-  const Eigen::Index left = input.measurements.size() - before;
-  return fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction,
-                     WhyNone(first->fit, input.selection.keep.tail(left).count()));
+  // a fit without friction predicts nothing; else the rest holds no sample to compare
+  const Inference inferred = Infer(first->fit);
+  if (!inferred.gives_friction) {
+    return {{}, fmt::format("a fit to {} gives no friction ({})", part, inferred.message)};
+  }
+  return {{},
+          fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction,
+                      WhyNone(first->fit, test.keep.count()))};
 }
 
-std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
-  if (!GivesFriction(fit)) return "the fit gives no friction that could predict them";
+HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
+  const CourseStart cold;
   const LogView& seen = SeenBy(identifier, fit, other);
-  return fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()));
+  if (auto metrics = Evaluate(fit, seen.measurements, seen.selection, cold)) {
+    return {std::move(metrics), ""};
+  }
+  if (!GivesFriction(fit)) return {{}, "the fit gives no friction that could predict them"};
+  return {{},
+          fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()))};
 }
 
 }  // namespace warmjoint

@@ -21,21 +21,21 @@ struct FirstPart {
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& input,
                                       double fraction, const Fit& all_data);
 
+/// Figures on what a fit has not seen, or why there are none.
+struct HeldOut {
+  std::optional<Metrics> metrics;
+  std::string why_none;  // a clause; empty where there are figures
+};
+
 /// FitFirstPart, evaluated on the kept samples of the
 /// rest. The prediction starts with the recording, at E(0) where the fit estimates it, so that the
-/// joint comes to the test part as warm as it was. 0 < fraction < 1. Nothing where that fit gives
+/// joint comes to the test part as warm as it was. 0 < fraction < 1. None where that fit gives
 /// no friction or the rest keeps no sample.
-std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
-                               double fraction, const Fit& all_data = {});
+HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& input, double fraction,
+                const Fit& all_data = {});
 
 /// Evaluates a fit of the identifier on the kept samples of another recording, which starts cold.
-/// Nothing where the fit gives no friction.
-std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,
-                               const PreparedLog& other);
-
-/// Why HoldOut gives nothing for these arguments: a clause.
-std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& input,
-                         double fraction, const Fit& all_data);
-std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other);
+/// None where the fit gives no friction.
+HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other);
 
 }  // namespace warmjoint

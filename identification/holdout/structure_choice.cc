@@ -18,7 +18,7 @@ double Bic(double mean_square, double parameters, double samples) {
   return samples * std::log(mean_square) + parameters * std::log(samples);
 }
 
-Choice ChooseStructure(const std::vector<Contender>& contenders, double samples) {
+Choice ChooseStructure(const std::vector<StructureCandidate>& contenders, double samples) {
   Choice choice;
   // the one of the least error on blocks that it has not seen
   for (size_t i = 1; i < contenders.size(); ++i) {
@@ -26,18 +26,18 @@ Choice ChooseStructure(const std::vector<Contender>& contenders, double samples)
   }
 
   // of all that are not worse beyond doubt, the simplest
-  const Contender& best = contenders[choice.best];
-  const auto bic = [&](const Contender& one) {
+  const StructureCandidate& best = contenders[choice.best];
+  const auto bic = [&](const StructureCandidate& one) {
     return Bic(one.in_sample, one.parameters, samples);
   };
   choice.chosen = choice.best;
   for (size_t i = 0; i < contenders.size(); ++i) {
-    const Contender& one = contenders[i];
+    const StructureCandidate& one = contenders[i];
     const Eigen::VectorXd difference = one.errors - best.errors;
     const double doubt = StandardError(difference);
     // as good as the best within one standard error, or by BIC
     const bool equal = difference.mean() <= doubt || bic(one) <= bic(best);
-    const Contender& so_far = contenders[choice.chosen];
+    const StructureCandidate& so_far = contenders[choice.chosen];
     // with fewer parameters, or with as many and a smaller error
     const bool simpler =
         one.parameters < so_far.parameters ||

@@ -8,7 +8,7 @@
 namespace warmjoint {
 
 /// A structure that fits the recording.
-struct Contender {
+struct StructureCandidate {
   std::string name;
   Eigen::VectorXd errors;  // [blocks] mean squared error on each block that it has not seen
   double in_sample = 0;    // mean squared error of the fit to all samples
@@ -29,6 +29,6 @@ struct Choice {
 /// best one's by no more than one standard error of their difference over the blocks (Breiman et
 /// al. 1984, 3.4.3, on paired differences), or BIC prefers it on all samples. Of equally simple
 /// ones, the one of the least error. contenders: at least one; samples: n of BIC.
-Choice ChooseStructure(const std::vector<Contender>& contenders, double samples);
+Choice ChooseStructure(const std::vector<StructureCandidate>& contenders, double samples);
 
 }  // namespace warmjoint

@@ -19,8 +19,8 @@
 #include "identification/fit_data.h"
 #include "identification/holdout/structure_choice.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/identifiers/model_comparison.h"
 #include "identification/identifiers/structures.h"
-#include "identification/identifiers/tournament.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
@@ -32,7 +32,7 @@ namespace {
 constexpr const char* kName = "auto";
 
 /// Laws with and without warming, then gravity beside the best of them.
-void TryLinear(const IdentifierInput& input, Tournament& tournament) {
+void TryLinear(const IdentifierInput& input, ModelComparison& tournament) {
   const std::vector<FittedGravity> kinds = GravityKinds(input);
   for (const FittedGravity gravity : kinds) {
     if (gravity == FittedGravity::paired && kinds.size() > 1) continue;
@@ -64,7 +64,7 @@ FittedGravity GravityBesideMaps(const IdentifierInput& input, const Structure* b
 }
 
 /// What bends or ripples, with the gravity of the best linear one.
-void TryCurved(const IdentifierInput& input, Tournament& tournament) {
+void TryCurved(const IdentifierInput& input, ModelComparison& tournament) {
   const FittedGravity gravity = GravityBesideMaps(input, tournament.Best());
   const bool cold = TakesColdStart(input.options);
 
@@ -98,19 +98,19 @@ void TryCurved(const IdentifierInput& input, Tournament& tournament) {
 /// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds
 /// one.
 struct Trials {
-  std::unique_ptr<Tournament> tournament;
+  std::unique_ptr<ModelComparison> tournament;
   std::optional<double> lag;  // s
 };
 
 Trials TryAll(const IdentifierInput& input) {
   Trials trials;
-  trials.tournament = std::make_unique<Tournament>(input, input.selection);
+  trials.tournament = std::make_unique<ModelComparison>(input, input.selection);
   TryLinear(input, *trials.tournament);
   trials.lag = trials.tournament->LagOfBest(input);
 
   // a torque that lags: all again, on samples where it has settled
   if (trials.lag) {
-    trials.tournament = std::make_unique<Tournament>(
+    trials.tournament = std::make_unique<ModelComparison>(
         input, Settled(input.measurements, input.selection, *trials.lag));
     TryLinear(input, *trials.tournament);
   }
@@ -133,9 +133,9 @@ Fit FitOnAll(const Structure& chosen, const std::optional<double>& lag,
 }
 
 /// Why the chosen one.
-std::string Reason(const std::vector<Contender>& contenders, const Choice& choice, int blocks,
-                   const std::string& unit) {
-  const Contender& chosen = contenders[choice.chosen];
+std::string Reason(const std::vector<StructureCandidate>& contenders, const Choice& choice,
+                   int blocks, const std::string& unit) {
+  const StructureCandidate& chosen = contenders[choice.chosen];
   std::string reason = fmt::format("chose {}: RMSE {:.4g} {} on {} held-out blocks of time, ",
                                    chosen.name, std::sqrt(chosen.errors.mean()), unit, blocks);
   if (choice.chosen == choice.best) return reason + "the smallest of all";
@@ -162,7 +162,7 @@ std::string NotShown(const Fit& fit, const PreparedLog& log) {
 }
 
 /// Nothing that was tried fits.
-Fit NothingFits(const Tournament& tournament, StructureChoice choice) {
+Fit NothingFits(const ModelComparison& tournament, StructureChoice choice) {
   const Inference& first = tournament.First().told;
   const Status status = first.status == Status::ok ? Status::not_identifiable : first.status;
   Fit fit = Refused(kName, status,
@@ -178,12 +178,12 @@ Fit FitChosen(const IdentifierInput& input) {
 
   // compare on rows that hold the means of neighbours
   const Trials trials = TryAll(input);
-  Tournament& tournament = *trials.tournament;
+  ModelComparison& tournament = *trials.tournament;
 
   // what cannot be chosen goes first, the rest is held out block by block
-  tournament.DropOutdone();
+  tournament.DropDominated();
   const Structure* only = tournament.OnlyOne();
-  std::vector<Contender> contenders;
+  std::vector<StructureCandidate> contenders;
   if (!only) contenders = tournament.Compare(blocks);
   StructureChoice told{"", "", blocks, tournament.Told()};
   const Structure* best = tournament.Best();

@@ -139,7 +139,7 @@ std::optional<Refusal> WhyRefused(const Measurements& m, const DescentState& las
   if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
     return Refusal{
         Status::inadequate_model,
-        WouldFeedItself(m.time[i], AgainstPushing("energy-ml", "", FittedGravity::none))};
+        WouldFeedItself(m.time[i], RemedyForNonDissipative("energy-ml", "", FittedGravity::none))};
   }
   return std::nullopt;
 }
@@ -242,7 +242,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
 
   // what is known now, and how far from the end it is
   const Uncertainty known =
-      JudgeUncertainty(jacobian, *cofactor, fit.residual(), fit.used, fit.fitted);
+      EstimateCovariance(jacobian, *cofactor, fit.residual(), fit.used, fit.fitted);
   const auto d = static_cast<Eigen::Index>(fit.friction.parameters.size());
   fit.errors.known = OfTable(part, d, known);
   const auto [arrived, message] =

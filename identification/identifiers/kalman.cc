@@ -97,7 +97,7 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
   if (response.feeds_itself) {
     return Refusal{Status::inadequate_model,
                    WouldFeedItself(m.time[*response.feeds_itself],
-                                   AgainstPushing("energy-ml", "", FittedGravity::none))};
+                                   RemedyForNonDissipative("energy-ml", "", FittedGravity::none))};
   }
   return std::nullopt;
 }
@@ -140,7 +140,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   fit.refusal = WhyRefused(track, fit, ending, joint, response, nominal_squares);
   if (fit.refusal) return fit;
   fit.errors.known =
-      JudgeUncertainty(jacobian, joint.cofactor, fit.residual(), fit.used, fit.fitted);
+      EstimateCovariance(jacobian, joint.cofactor, fit.residual(), fit.used, fit.fitted);
   fit.summary = fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}",
                             passes.size(), fit.torque.size(), last.mean.tail(1)[0], m.torque_unit);
 

@@ -33,7 +33,7 @@ Fit FitMotorMaps(const IdentifierInput& given) {
 
   // how sure law and maps are, for intervals and bands
   const MapFit& maps = choice->fit;
-  const Uncertainty known = JudgeMaps(choice->problem, maps);
+  const Uncertainty known = MapCovariance(choice->problem, maps);
   Fit fit = AsFit(input, task, maps, known);
   if (!GivesFriction(fit)) return fit;
 

@@ -34,7 +34,7 @@ std::optional<Disagreement> FindStructure(const Eigen::MatrixXd& A, const Eigen:
                                           const LeastSquares& plain, const LeastSquares& white,
                                           const Whitening& whitening, const Selection& selection) {
   const Uncertainty known =
-      JudgeUncertainty(A, plain.cofactor, torque - A * plain.solution, selection);
+      EstimateCovariance(A, plain.cofactor, torque - A * plain.solution, selection);
   return FindDisagreement({plain.solution, known.covariance},
                           {white.solution, whitening.noise().innovation * white.cofactor},
                           known.freedom);
@@ -149,7 +149,8 @@ Fit FitLaw(const IdentifierInput& given) {
   }
   if (rows.structure) {
     const Eigen::Index count = task.law_count();
-    fit.held_structure = {*rows.structure, rows.A.leftCols(count) * solved.solution.head(count)};
+    fit.unmodelled_residual = {*rows.structure,
+                               rows.A.leftCols(count) * solved.solution.head(count)};
   }
   if (rows.lag) AddLag(rows.lag, task.columns * solved.solution, input.measurements, fit);
   if (!rows.lag && AsksForLag(given.options)) fit.afterword = kNoLagSeen;

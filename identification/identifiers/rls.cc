@@ -6,23 +6,81 @@
 // measured losses, H |tau v| without gravity's, is taken off first, so that a friction that changes
 // does not spoil it. The trace holds the parameters at 50 moments of the recording.
 // Intervals as in uncertainty.h, for the weighted samples; with a warming they hold the noise that
-// comes through the heat, too (measured_heat.h).
+// comes through the heat, too.
 #include <fmt/format.h>
+#include <warmjoint/recording.h>
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/forward/thermal_filter.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/covariance.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/online/measured_heat.h"
 #include "identification/online/recursive_least_squares.h"
 
 namespace warmjoint {
 namespace {
+
+/// What a known warming takes off the torque, sign(v) E with E = H |F v|, Eqs. (19)-(22), where F is
+/// the torque itself. Friction brakes, so that |F v| = F v, and the map
+///     M: y -> sign(v) H (v y)
+/// is linear. With the torque y = A p + sign(v) E + G x + e (law, heat, gravity, noise) and
+/// F = y - G x - e,
+///     (1 - M) y = A p + (1 - M) G x + (1 - M) e:
+/// a regression on [A, (1 - M) G] whose noise is no longer e alone. M averages e over the time
+/// constant: at each sample little, of standard deviation |k v| (h / 2 tau)^(1/2) that of e, but for
+/// so long that it shifts a mean by as much as e itself. Weighted squares with the rows X, weights w
+/// and C = (X^T W X)^-1 err by
+///     C X^T W (1 - M) e = C B^T e,   B = (1 - M)^T W X,
+/// so that their covariance is C B^T R B C with R that of e. Power that brakes a mass comes back
+/// when it accelerates, so that F v, unlike |F v|, loses nothing to accelerations.
+class MeasuredHeat {
+ public:
+  MeasuredHeat(const Measurements& measurements, const Thermal& thermal);
+
+  /// (1 - M) of each column. columns: [N x q]; returns [N x q].
+  Eigen::MatrixXd TakenOff(const Eigen::MatrixXd& columns) const;
+
+  /// (1 - M)^T of each column. columns: [N x q], 0 at samples without weight; returns [N x q].
+  Eigen::MatrixXd Transposed(const Eigen::MatrixXd& columns) const;
+
+ private:
+  Thermal thermal_;
+  ThermalFilter filter_;
+  Eigen::VectorXd velocity_;   // [N] rad/s or m/s
+  Eigen::VectorXd direction_;  // [N] its sign
+};
+
+MeasuredHeat::MeasuredHeat(const Measurements& measurements, const Thermal& thermal)
+    : thermal_(thermal),
+      filter_(measurements.time, measurements.starts),
+      velocity_(measurements.velocity),
+      direction_(measurements.velocity.array().sign()) {}
+
+Eigen::MatrixXd MeasuredHeat::TakenOff(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd result = columns;
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    // the loss that the column stands for, and the energy that it leaves
+    const Eigen::VectorXd loss = velocity_.cwiseProduct(columns.col(j));
+    result.col(j) -= direction_.cwiseProduct(filter_.Energy(thermal_, loss));
+  }
+  return result;
+}
+
+Eigen::MatrixXd MeasuredHeat::Transposed(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd result = columns;
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    // the same three steps, each transposed, in reverse order
+    const Eigen::VectorXd weights = direction_.cwiseProduct(columns.col(j));
+    result.col(j) -= velocity_.cwiseProduct(filter_.Transposed(thermal_, weights));
+  }
+  return result;
+}
 
 constexpr const char* kName = "rls";
 constexpr Eigen::Index kMoments = 50;  // of the trace
@@ -94,7 +152,7 @@ ColdRows Cold(const std::optional<MeasuredHeat>& heat, Eigen::MatrixXd columns,
 }
 
 /// Covariance of what rows [N x d] of a measured heat tell, with weights [n] of the kept samples:
-/// the noise of all samples comes through the heat (measured_heat.h), that of those not kept taken
+/// the noise of all samples comes through the heat, that of those not kept taken
 /// for that of the others. residual: [n]; cofactor: [d x d].
 Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
                         const Eigen::VectorXd& weights, const Eigen::VectorXd& residual,

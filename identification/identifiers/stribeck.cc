@@ -25,7 +25,7 @@
 #include "identification/physical_bounds.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/scan_time_constant.h"
-#include "identification/warming/warm_fit.h"
+#include "identification/warming/thermal_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
 
@@ -56,8 +56,8 @@ double SquaresWithout(const StribeckProblem& problem) {
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
   const InitialGuess start = ScanTimeConstant(loop, level, weight);
   const double scale = std::sqrt(squares / static_cast<double>(torque.size()));
-  const WarmFit fit = FitWarmFriction(loop, level, Eigen::MatrixXd(m.size(), 0), weight, start,
-                                      InitialEnergy::zero, scale);
+  const ThermalFit fit = FitThermalFriction(loop, level, Eigen::MatrixXd(m.size(), 0), weight,
+                                            start, InitialEnergy::zero, scale);
   return std::min(squares, fit.solution.squares);
 }
 
@@ -128,9 +128,10 @@ void JudgeWarmth(const Measurements& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
-  fit.voided = {Status::inadequate_model,
-                WouldFeedItself(m.time[predicted.feeds_itself],
-                                AgainstPushing("energy-ml", without, FittedGravity::none))};
+  fit.voided = {
+      Status::inadequate_model,
+      WouldFeedItself(m.time[predicted.feeds_itself],
+                      RemedyForNonDissipative("energy-ml", without, FittedGravity::none))};
 }
 
 std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {
@@ -201,8 +202,8 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
 
   // how sure it is, and whether that will do
   fit.errors.known =
-      JudgeUncertainty(best.jacobian, Cofactor(best.jacobian.transpose() * best.jacobian),
-                       fit.residual(), fit.used, fit.fitted);
+      EstimateCovariance(best.jacobian, Cofactor(best.jacobian.transpose() * best.jacobian),
+                         fit.residual(), fit.used, fit.fitted);
   const Uncertainty& known = *fit.errors.known;
   const StribeckEvidence evidence = EvidenceOf(
       problem.law, best.solution.x, known.covariance.topLeftCorner(LogVs(problem), LogVs(problem)),

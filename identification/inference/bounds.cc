@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
-#include "identification/linear/against_curve.h"
+#include "identification/linear/remedy_for_curve.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/parameter_rows.h"
 #include "models/recording/course_of.h"
@@ -18,13 +18,13 @@ namespace {
 /// A parameter beside the bound that its value lies outside of.
 struct Excess {
   const FitParameter& parameter;
-  const KnownParameter& known;
+  const ParameterInterval& known;
   double bound = 0;
   bool below = false;   // the bound; else above
   bool beyond = false;  // with its whole 95 % interval
 };
 
-std::optional<Excess> FindExcess(const FitParameter& parameter, const KnownParameter& known) {
+std::optional<Excess> FindExcess(const FitParameter& parameter, const ParameterInterval& known) {
   // a value that is no number counts as below
   const bool below = !(parameter.value >= parameter.lower);
   if (!below && parameter.value <= parameter.upper) return std::nullopt;
@@ -64,7 +64,7 @@ std::string_view Linear(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nom
 
 /// What to try against friction that falls with speed: what the fit has of curve and warming is not
 /// named again.
-std::string AgainstFallingSlope(const Fit& fit) {
+std::string RemedyForFallingSlope(const Fit& fit) {
   const std::string& law = fit.friction.law;
   // whether the law has a Stribeck curve already
   const bool curved = fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
@@ -87,7 +87,7 @@ std::string AgainstFallingSlope(const Fit& fit) {
 
 /// What makes a fit leave its bounds, and what to try.
 std::string Remedy(const Fit& fit, const FitParameter& parameter) {
-  if (parameter.part == LawPart::slope) return AgainstFallingSlope(fit);
+  if (parameter.part == LawPart::slope) return RemedyForFallingSlope(fit);
   // neither slope nor level: a linear law may do without it
   if (parameter.part != LawPart::level) {
     return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law));
@@ -107,30 +107,27 @@ bool IsRise(const FitParameter& parameter) { return parameter.part == LawPart::r
 
 }  // namespace
 
-void JudgeBounds(const Fit& fit, Inference& inference) {
+std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
   const std::string& law = fit.friction.law;
-  const std::vector<Excess> excesses = FindExcesses(fit, inference);
+  const std::vector<Excess> excesses = FindExcesses(fit, by_noise);
+  Cause cause{
+      .source = Source::bound, .action = Action::refuse, .status = Status::inadequate_model};
 
   // what could not be held at its bound; that friction rises from rest has words of its own
   const auto sure = std::ranges::find_if(
       excesses, [](const Excess& excess) { return !IsRise(excess.parameter); });
   if (sure != excesses.end()) {
-    inference.Void(Status::inadequate_model,
-                   fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
-                               Remedy(fit, sure->parameter)));
-    return;
+    cause.sentence = fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
+                                 Remedy(fit, sure->parameter));
+    return cause;
   }
-  if (const auto rises = RisesFromRest(fit.friction)) {
-    inference.Void(
-        Status::inadequate_model,
-        fmt::format("{}: friction rises from rest with speed, where law {} lets it fall; try "
-                    "--identifier {} --set law={}",
-                    *rises, law, Linear(fit),
-                    TellsDirections(law) ? "asymmetric" : "viscous_coulomb"));
-    return;
-  }
-
-  inference.gives_friction = true;
+  const auto rises = RisesFromRest(fit.friction);
+  if (!rises) return std::nullopt;
+  cause.sentence = fmt::format(
+      "{}: friction rises from rest with speed, where law {} lets it fall; try "
+      "--identifier {} --set law={}",
+      *rises, law, Linear(fit), TellsDirections(law) ? "asymmetric" : "viscous_coulomb");
+  return cause;
 }
 
 namespace {

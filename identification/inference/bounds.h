@@ -1,13 +1,16 @@
 // Whether the intervals of a fit reach into the physical bounds of a friction.
 #pragma once
 
+#include <optional>
+
+#include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {
 
-/// Voids an inference some law parameter of which lies outside of its bound, or whose static level is below
-/// its Coulomb level; else the friction may be used.
-void JudgeBounds(const Fit& fit, Inference& inference);
+/// The row that refuses an answer some law parameter of which lies outside of its bound, or whose static level is below
+/// its Coulomb level. by_noise: what noise alone says of the fit.
+std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 
 /// Sets law parameters that lie outside of a bound within their intervals to it: what is beyond is noise. The others are
 /// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x, and the model follows. A fit stays

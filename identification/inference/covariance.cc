@@ -33,7 +33,7 @@ Uncertainty OfSquares(const Fit& fit, const Eigen::VectorXd& residual,
     return exact;
   }
   Uncertainty known =
-      JudgeUncertainty(rows, errors.cofactor, residual, fit.used, fit.fitted, errors.prior);
+      EstimateCovariance(rows, errors.cofactor, residual, fit.used, fit.fitted, errors.prior);
   const bool has_prior = errors.prior.size() > 0 && !errors.prior.isZero();
   if (!has_prior && HasFewSegments(fit.used, errors.cofactor.rows())) {
     CountSegments(rows(), errors.cofactor, residual, fit.used, known);

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/inference/apply.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/covariance.h"
-#include "identification/inference/hold_structure.h"
+#include "identification/inference/hausman_test.h"
 #include "identification/linear/robust.h"
 #include "identification/physical_bounds.h"
 #include "identification/uncertainty/tails.h"
@@ -16,7 +17,7 @@ namespace warmjoint {
 namespace {
 
 /// std and interval of an estimated parameter. deviation: of its coordinate
-KnownParameter Known(const FitParameter& parameter, double deviation, double quantile) {
+ParameterInterval Known(const FitParameter& parameter, double deviation, double quantile) {
   const double value = parameter.value;
   // errors of the value itself: an interval that is even to both sides
   if (parameter.coordinate == Coordinate::value) {
@@ -33,10 +34,10 @@ KnownParameter Known(const FitParameter& parameter, double deviation, double qua
 }
 
 /// The same about the fit's own value, where it was moved; of one that was set to a bound from that on.
-KnownParameter KnownWithin(FitParameter row, double deviation, double quantile) {
+ParameterInterval KnownWithin(FitParameter row, double deviation, double quantile) {
   const double value = row.value;
   row.value -= row.moved;
-  KnownParameter known = Known(row, deviation, quantile);
+  ParameterInterval known = Known(row, deviation, quantile);
   known.value = value;
   if (row.role != Role::law || (value != row.lower && value != row.upper)) return known;
   for (double& end : *known.interval95) end = std::clamp(end, row.lower, row.upper);
@@ -44,12 +45,12 @@ KnownParameter KnownWithin(FitParameter row, double deviation, double quantile) 
 }
 
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
-std::vector<KnownParameter> IntervalsOf(const Fit& fit, const Inference& inference) {
+std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& inference) {
   const Uncertainty& known = inference.known;
-  std::vector<KnownParameter> all;
+  std::vector<ParameterInterval> all;
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
-    KnownParameter one{parameter.value, {}, {}, 0};
+    ParameterInterval one{parameter.value, {}, {}, 0};
     if (parameter.estimated) {
       const double quantile = StudentQuantile(known.Freedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
@@ -70,33 +71,8 @@ std::string MessageOf(const Fit& fit, const Inference& inference) {
   return fit.summary + loss + NoiseOf(inference.known) + fit.afterword;
 }
 
-}  // namespace
-
-void Inference::Void(Status why, std::string sentence) {
-  status = why;
-  message = std::move(sentence);
-  warnings.clear();
-  gives_friction = false;
-  gives_bands = false;
-  // the values stay, without what would make them look sure
-  for (KnownParameter& one : parameters) {
-    one.std.reset();
-    one.interval95.reset();
-  }
-}
-
-void Inference::Widen(size_t parameter, double move) {
-  KnownParameter& one = parameters[parameter];
-  one.widened += std::abs(move);
-  if (!one.interval95) return;
-  (*one.interval95)[0] -= std::abs(move);
-  (*one.interval95)[1] += std::abs(move);
-}
-
-namespace {
-
-/// Whatever the bounds.
-Inference Unjudged(const Fit& fit) {
+/// What noise alone says, whatever the bounds.
+Inference ByNoise(const Fit& fit) {
   Inference inference;
   if (fit.refusal) {
     inference.status = fit.refusal->status;
@@ -112,30 +88,36 @@ Inference Unjudged(const Fit& fit) {
     return inference;
   }
   inference.without_intervals = fit.without_intervals;
-  if (fit.held_structure) HoldStructure(fit, inference);
+  if (fit.unmodelled_residual) ApplyHausmanTest(fit, inference);
   inference.parameters = IntervalsOf(fit, inference);
   inference.message = MessageOf(fit, inference);
   inference.warnings.insert(inference.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  inference.gives_friction = true;
   return inference;
+}
+
+/// Why the numbers make no friction; empty where they do.
+std::vector<Cause> CausesOf(const Fit& fit, const Inference& by_noise) {
+  if (by_noise.status != Status::ok) return {};
+  if (fit.voided) {
+    return {
+        {.action = Action::refuse, .status = fit.voided->status, .sentence = fit.voided->message}};
+  }
+  const auto bound = BeyondBounds(fit, by_noise);
+  return bound ? std::vector{*bound} : std::vector<Cause>{};
 }
 
 }  // namespace
 
 Inference Infer(const Fit& fit) {
-  Inference inference = Unjudged(fit);
-  if (inference.status != Status::ok) return inference;
-  // whether the numbers make a friction
-  if (fit.voided) {
-    inference.Void(fit.voided->status, fit.voided->message);
-  } else {
-    JudgeBounds(fit, inference);
-  }
-  return inference;
+  Inference by_noise = ByNoise(fit);
+  std::vector<Cause> causes = CausesOf(fit, by_noise);
+  return Apply(std::move(by_noise), std::move(causes));
 }
 
 Fit AtBounds(Fit fit, const Measurements& measurements) {
   if (fit.refusal || fit.voided || !LeavesBounds(fit.parameters)) return fit;
-  const Inference told = Unjudged(fit);
+  const Inference told = ByNoise(fit);
   if (told.status == Status::ok) HoldAtBounds(told, measurements, fit);
   return fit;
 }

@@ -15,7 +15,7 @@
 namespace warmjoint {
 
 /// What is known of one row of the fit's table.
-struct KnownParameter {
+struct ParameterInterval {
   double value = 0;  // of the fit, or moved by what the verdict found
   std::optional<double> std;
   std::optional<std::array<double, 2>> interval95;
@@ -31,18 +31,10 @@ struct Inference {
   std::vector<std::string> warnings;
   Uncertainty known;
   std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
-  std::vector<KnownParameter> parameters;  // [P] as the fit's table
-  bool gives_friction = false;  // whether the fit's friction may be used: inside of its bounds
-  bool gives_bands = true;
-  std::vector<Diagnostic> diagnostics;  // of the verdict, one for each test for lack of fit
+  std::vector<ParameterInterval> parameters;  // [P] as the fit's table
+  bool gives_friction = false;                // whether the fit's friction may be used
+  std::vector<Diagnostic> diagnostics;        // of the verdict, one for each test for lack of fit
   std::vector<Assumption> assumptions;
-
-  /// Takes back what is claimed: values stay, for scores and for a look, but no interval, friction
-  /// or band.
-  void Void(Status why, std::string sentence);
-
-  /// Lets an interval reach farther by a move.
-  void Widen(size_t parameter, double move);
 };
 
 /// Covariance, intervals with Student's quantile, and physical bounds (bounds.h). The interval of a row that is held

@@ -50,9 +50,8 @@ Open Affordable(const std::vector<const LackOfFitTest*>& tests, const Bins& bins
 }
 
 /// Makes a test beside the present fit.
-void Make(const Open& open, size_t i, const AskedFeatures& asked, const GrowingFit& fit,
-          const ErrorLevel& level) {
-  Finding made = fit.Test(asked, i);
+void Make(const Open& open, size_t i, const GrowingFit& fit, const ErrorLevel& level) {
+  Finding made = fit.Test(open.features[i]);
   made.test = open.tests[i];
   if (!made.made) made.reason = kHeldByTheFit;
   made.p_adjusted = level.Adjusted(made.p);
@@ -69,14 +68,13 @@ BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins&
   BinFindings result;
   result.findings.resize(tests.size());
   Open open = Affordable(tests, bins, known, fit, derivatives.cols(), result.findings);
-  AskedFeatures asked = fit.Ask(open.features);
-  fit.LearnNoise(asked);
+  fit.LearnNoise(open.features);
 
   while (open.size() > 0) {
     // the test that rejects with the largest gain
     size_t best = open.size();
     for (size_t i = 0; i < open.size(); ++i) {
-      Make(open, i, asked, fit, level);
+      Make(open, i, fit, level);
       const Finding& made = *open.findings[i];
       if (!level.WouldReject(made.p) || made.explained <= 0) continue;
       if (best == open.size() || made.gain > open.findings[best]->gain) best = i;
@@ -91,7 +89,6 @@ BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins&
       if (open.features[i].candidates == 1) continue;
       open.features[i] = open.tests[i]->features(bins, known, fit);
     }
-    asked = fit.Ask(open.features);
   }
   result.explained = fit.Explained();
   return result;

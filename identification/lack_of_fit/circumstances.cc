@@ -75,7 +75,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
 
   // the start where it is taken to be known, load and temperature where they are logged
   if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);
-  if (m.load) known.loads = bins.Means(Beside(*m.load, m.load->cwiseAbs()));
+  if (m.load) known.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
   if (m.temperature) known.temperatures = bins.Means(*m.temperature);
 
   // friction that follows the speed late, by half a hold to an eighth of the log

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/bin_tests.h"
@@ -10,12 +11,13 @@
 #include "identification/lack_of_fit/fading.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
-#include "identification/lack_of_fit/left_open.h"
 #include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/sensitivity.h"
+#include "identification/lack_of_fit/undetected_bias.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 namespace {
@@ -113,16 +115,17 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
 /// Sums up how what was found moves the parameters, and how far that changes the friction.
 void SumMoves(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
               Index p, Examination& examination) {
-  examination.moves.setZero(p);
+  if (examination.Found().empty()) return;
+  Eigen::VectorXd bias = Eigen::VectorXd::Zero(p);
   // findings count as independent of each other: their variances add up
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
   for (const Finding& finding : examination.findings) {
     if (!finding.rejected || finding.moves.size() == 0) continue;
-    examination.moves += finding.moves.head(p);
+    bias += finding.moves.head(p);
     variance += finding.move_deviations.head(p).cwiseAbs2();
   }
-  examination.move_deviations = variance.cwiseSqrt();
-  if (examination.Found().empty()) return;
+  examination.Add(Source::findings, Action::widen, std::move(bias));
+  examination.causes.back().spread = variance.cwiseSqrt();
 
   const FrictionChange change(model, bins, derivatives, examination.friction);
   for (Finding& finding : examination.findings) {
@@ -132,18 +135,21 @@ void SumMoves(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd&
 
 /// What hints move parameters by, with 95 % of it. They may be one and the same thing seen twice: the largest of them
 /// counts.
-void LearnHints(Index p, Examination& examination) {
-  for (const Finding* hint : examination.Hints()) {
-    if (examination.by_hints.size() == 0) examination.by_hints.setZero(p);
-    examination.by_hints = examination.by_hints.cwiseMax(hint->moves.head(p).cwiseAbs() +
-                                                         kNormal95 * hint->move_deviations.head(p));
+void AddHints(Index p, Examination& examination) {
+  const std::vector<const Finding*> hints = examination.Hints();
+  if (hints.empty()) return;
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(p);
+  for (const Finding* hint : hints) {
+    most =
+        most.cwiseMax(hint->moves.head(p).cwiseAbs() + kNormal95 * hint->move_deviations.head(p));
   }
+  examination.Add(Source::hints, Action::widen, std::move(most));
 }
 
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
 /// than its values are from each other. The mean looks like friction, or like an offset. Of two directions that
 /// differ either may be the one without what disturbs, by as much as their mean is off.
-void HideMeans(const Bins& bins, const ForceMoves& moves, Index p, Examination& examination) {
+void AddHiddenMeans(const Bins& bins, const ForceMoves& moves, Index p, Examination& examination) {
   // how far apart the values lie of all that returns with the holds
   double range = 0;
   for (const Finding& finding : examination.findings) {
@@ -156,7 +162,8 @@ void HideMeans(const Bins& bins, const ForceMoves& moves, Index p, Examination& 
   // such a mean acts against the motion, as friction, or in one direction, as an offset
   Eigen::MatrixXd means(bins.size(), 2);
   means << bins.velocity.array().sign().matrix(), Eigen::VectorXd::Ones(bins.size());
-  examination.by_hidden = moves.By(range * means).topRows(p).cwiseAbs().rowwise().sum();
+  examination.Add(Source::hidden_means, Action::widen,
+                  moves.By(range * means).topRows(p).cwiseAbs().rowwise().sum());
 }
 
 /// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
@@ -168,13 +175,14 @@ void TakeOffRounding(const FittedModel& model, const Measurements& m, const Bins
     // any error within half a step, at each bin the worst
     rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
     const Eigen::MatrixXd each = Eigen::MatrixXd::Identity(bins.size(), bins.size());
-    examination.by_steps = step / 2 * moves.By(each).topRows(p).cwiseAbs().rowwise().sum();
+    examination.Add(Source::hidden_steps, Action::widen,
+                    step / 2 * moves.By(each).topRows(p).cwiseAbs().rowwise().sum());
     return;
   }
   const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
   if (rounding.size() == 0) return;
   rest -= rounding;
-  examination.by_rounding = moves.By(bins.Means(rounding)).topRows(p);
+  examination.Add(Source::rounding, Action::shift, moves.By(bins.Means(rounding)).topRows(p));
 }
 
 /// What sizes are measured by: the friction of law and heat, without what a map may hold of gravity.
@@ -189,6 +197,11 @@ void Measure(const FittedModel& model, const Bins& bins, Examination& examinatio
 }
 
 }  // namespace
+
+void Examination::Add(Source source, Action action, Eigen::VectorXd bias, double size) {
+  causes.push_back(
+      {.source = source, .action = action, .rows = rows, .bias = std::move(bias), .size = size});
+}
 
 double Examination::Rms(const Finding& finding) const {
   return std::sqrt(std::min(finding.explained, squares) / samples);
@@ -222,11 +235,11 @@ std::vector<Finding> NotMade(const std::string& reason) {
   return table;
 }
 
-Examination ExamineResidual(const Fit& fit, const Inference& inference, const Measurements& m,
+Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const Measurements& m,
                             const Selection& selection) {
   // the fit along the log, and why it may not be examined
   Examination examination;
-  const std::optional<FittedModel> model = EvaluateModel(fit, inference, m, selection);
+  const std::optional<FittedModel> model = EvaluateModel(fit, by_noise, m, selection);
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
   const std::string obstacle = Obstacle(model, bins);
   examination.findings = NotMade(obstacle);
@@ -236,12 +249,12 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
   const Index p = model->derivatives.cols() - model->jump_spread.size();
   Measure(*model, bins, examination);
-  LearnHeat(*model, bins, p, derivatives, examination);
+  AddHeldLosses(*model, bins, p, derivatives, examination);
   const ForceMoves moves(bins, derivatives);
   const Circumstances known = CircumstancesOf(*model, m, bins);
-  LearnAssumptions(fit, *model, bins, known, p, derivatives, moves, examination);
-  LearnLeftOpen(*model, m, bins, known, p, moves, examination);
-  LearnOtherUnits(fit, inference, m.joint, examination);
+  AddAssumptions(fit, *model, bins, known, p, derivatives, moves, examination);
+  AddUndetectedBias(*model, m, bins, known, p, moves, examination);
+  AddOtherUnits(fit, by_noise, m.joint, examination);
 
   // what is known to act on friction, then what changes within segments, then what stays
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
@@ -253,8 +266,8 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
 
   // what all of that does to the parameters
   SumMoves(*model, bins, derivatives, p, examination);
-  LearnHints(p, examination);
-  HideMeans(bins, moves, p, examination);
+  AddHints(p, examination);
+  AddHiddenMeans(bins, moves, p, examination);
   return examination;
 }
 

@@ -17,9 +17,9 @@ Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLev
   const Features steady{maps}, fading{maps.cwiseProduct(Kept(model.energy, selection))};
   GrowingFit fit(Eigen::VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection),
                  selection);
-  fit.LearnNoise(fit.Ask({steady, fading}));
+  fit.LearnNoise({steady, fading});
   fit.Take(steady);
-  finding = fit.Test(fit.Ask({fading}), 0);
+  finding = fit.Test(fading);
   finding.test = &FadingTest();
   finding.p_adjusted = level.Adjusted(finding.p);
   if (finding.explained <= 0 || !level.Rejects(finding.p)) return finding;

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/lack_of_fit/distinct.h"
-#include "identification/lack_of_fit/wave_products.h"
+#include "identification/lack_of_fit/rows_by_value.h"
+#include "identification/lack_of_fit/waves.h"
 #include "identification/linear/rigid_part.h"
 
 namespace warmjoint {
@@ -36,25 +36,50 @@ MatrixXd BothWays(const Bins& bins, const MatrixXd& columns) {
   return both;
 }
 
-/// Squares of the products of a rest, of the rows of one direction of motion, with the waves of some cycles over the
-/// log. left: [m] weighted, N.m or N; returns [cycles].
-VectorXd SquaresOf(const Bins& bins, const VectorXd& left, double sign, const Frequencies& cycles) {
-  std::vector<Index> rows;
-  for (Index c = 0; c < bins.size(); ++c) {
-    if (bins.velocity[c] * sign > 0) rows.push_back(c);
-  }
-  return WaveProducts(left(rows), bins.time(rows), cycles).rowwise().squaredNorm();
-}
+/// Waves of values at some times, each of which turns by its own step.
+struct TurningWaves {
+  std::vector<double> cosine, sine;            // [m] of the values
+  std::vector<double> turn_cosine, turn_sine;  // [m] of the steps
 
-/// How many of some cycles over the log explain most of what is left if they cover it evenly.
-double StrongestCycles(const Bins& bins, const GrowingFit& fit, const Frequencies& cycles) {
+  /// Square of the sum of all, which then turn by a step.
+  double SquareAndTurn() {
+    double cosines = 0, sines = 0;
+    for (std::size_t i = 0; i < cosine.size(); ++i) {
+      const double c = cosine[i], s = sine[i];
+      cosines += c;
+      sines += s;
+      cosine[i] = c * turn_cosine[i] - s * turn_sine[i];
+      sine[i] = c * turn_sine[i] + s * turn_cosine[i];
+    }
+    return cosines * cosines + sines * sines;
+  }
+};
+
+/// Which of the first `count` multiples of kCyclesApart over the log, from kFirstCycles on, explains most of what is left if it
+/// covers it evenly.
+double StrongestCycles(const Bins& bins, const GrowingFit& fit, Index count) {
+  // forwards and backwards: as a force in one direction and as one against the motion it is sum and difference of
+  // both, whose squares add up to twice those of both
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
-  // as a force in one direction and as one against the motion: sum and difference of the directions, whose squares add
-  // up to twice those of both
-  const VectorXd explained = SquaresOf(bins, left, 1, cycles) + SquaresOf(bins, left, -1, cycles);
+  const ArrayXd step = 2 * kPi * kCyclesApart * bins.time.array();
+  const MatrixXd turns = Waves(step);
+  const MatrixXd first = left.asDiagonal() * Waves(kFirstCycles * step);
+  TurningWaves ways[2];
+  for (Index c = 0; c < bins.size(); ++c) {
+    TurningWaves& waves = ways[bins.velocity[c] < 0];
+    waves.cosine.push_back(first(c, 0));
+    waves.sine.push_back(first(c, 1));
+    waves.turn_cosine.push_back(turns(c, 0));
+    waves.turn_sine.push_back(turns(c, 1));
+  }
   Index strongest = 0;
-  explained.maxCoeff(&strongest);
-  return cycles.At(strongest);
+  double most = -1;
+  for (Index k = 0; k < count; ++k) {
+    const double explained = ways[0].SquareAndTurn() + ways[1].SquareAndTurn();
+    if (explained > most) strongest = k;
+    most = std::max(most, explained);
+  }
+  return kCyclesApart * static_cast<double>(kFirstCycles + strongest);
 }
 
 }  // namespace
@@ -87,7 +112,7 @@ Features OfInitialEnergy(const Bins&, const Circumstances& known, const GrowingF
 }
 
 Features OfLoad(const Bins& bins, const Circumstances& known, const GrowingFit&) {
-  return {Beside(Signed(bins, known.loads), known.loads.leftCols(known.loads.cols() / 2))};
+  return {ConcatColumns(Signed(bins, known.loads), known.loads.leftCols(known.loads.cols() / 2))};
 }
 
 Features OfTemperature(const Bins& bins, const Circumstances& known, const GrowingFit&) {
@@ -116,52 +141,43 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const Growi
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
-  // a column for each place, of the rows that have passed it
-  SharedColumns after;
-  after.shares = MatrixXd::Zero(kPlaces, kPlaces - 1);
-  after.shares.triangularView<Eigen::StrictlyLower>().setOnes();
-  // the places that a row has passed, by the samples before it
+  // a column for each place, of the rows that have passed it, by the samples before them
+  MatrixXd after = MatrixXd::Zero(bins.size(), kPlaces - 1);
   const double total = bins.weight.sum();
   double before = 0;
   for (Index c = 0; c < bins.size(); ++c) {
-    after.place.push_back(
-        std::min<Index>(static_cast<Index>(before / total * kPlaces), kPlaces - 1));
+    const auto passed = static_cast<Index>(before / total * kPlaces);
+    after.row(c).head(std::min<Index>(passed, kPlaces - 1)).setOnes();
     before += bins.weight[c];
   }
 
   // the one step, of the offset or of the friction, that explains most beside the fit
-  SharedColumns turned = after;
-  after.factor.setOnes(bins.size());
-  turned.factor = SignOf(bins);
-  VectorXd explained(2 * after.shares.cols());
-  explained << fit.ExplainedBy(after), fit.ExplainedBy(turned);
+  const MatrixXd steps = BothWays(bins, after);
   Index best = 0;
-  explained.maxCoeff(&best);
-  const Index offsets = after.shares.cols();
-  return {best < offsets ? after.Column(best) : turned.Column(best - offsets),
-          static_cast<int>(explained.size())};
+  fit.ExplainedBy(steps).maxCoeff(&best);
+  return {steps.col(best), static_cast<int>(steps.cols())};
 }
 
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
   // half a turn with each segment, which changes the sign of its waves
-  const Distinct phases(bins.phase);
-  const MatrixXd waves = Waves(kPi * phases.values());
+  const MatrixXd waves =
+      RowsByValue(bins.phase, [](const ArrayXd& phases) { return Waves(kPi * phases); });
   MatrixXd parity(bins.size(), 3);
   for (Index i = 0; i < bins.size(); ++i) {
     const double sign = static_cast<Index>(bins.hold[i]) % 2 == 0 ? 1 : -1;
     parity(i, 0) = sign;
-    parity.row(i).tail<2>() = sign * waves.row(phases.place[static_cast<size_t>(i)]);
+    parity.row(i).tail<2>() = sign * waves.row(i);
   }
   return {BothWays(bins, parity)};
 }
 
 Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
-  const Distinct phases(bins.phase);
-  const ArrayXd waves = (2 * kPi * phases.values()).cos();
+  const MatrixXd waves = RowsByValue(
+      bins.phase, [](const ArrayXd& phases) -> MatrixXd { return (2 * kPi * phases).cos(); });
   MatrixXd phase(bins.size(), 2);
-  phase << (bins.phase.array() - 0.5).matrix(), waves(phases.place).matrix();
+  phase << (bins.phase.array() - 0.5).matrix(), waves;
   return {BothWays(bins, phase)};
 }
 
@@ -171,7 +187,7 @@ Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit
                                known.hold > 0 ? known.duration / known.hold : kInfinity);
   const Index count = static_cast<Index>(most / kCyclesApart) - kFirstCycles + 1;
   if (count < 1) return {MatrixXd(bins.size(), 0)};
-  const double cycles = StrongestCycles(bins, fit, {kCyclesApart, kFirstCycles, count});
+  const double cycles = StrongestCycles(bins, fit, count);
   return {BothWays(bins, Waves(2 * kPi * cycles * bins.time.array())), static_cast<int>(count),
           known.duration / cycles};
 }

@@ -8,8 +8,6 @@ namespace warmjoint {
 
 struct LackOfFitTest;
 
-inline constexpr double kNormal95 = 1.96;  // why: 95 % of a normal variable
-
 /// Outcome of a test. A test that was not made keeps p = 1 and says why.
 struct Finding {
   const LackOfFitTest* test = nullptr;

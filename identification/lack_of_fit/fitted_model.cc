@@ -60,7 +60,7 @@ void TakeOff(const GravityModel& gravity, const Eigen::VectorXd& position, Fitte
 void AddGravity(const GravityModel& gravity, const Eigen::VectorXd& position, FittedModel& model) {
   if (gravity.kind == GravityKind::paired) return;
   model.derivatives =
-      Beside(model.derivatives, GravityColumns(gravity.kind, gravity.knots, position));
+      ConcatColumns(model.derivatives, GravityColumns(gravity.kind, gravity.knots, position));
 }
 
 /// Rows of the fit's table in the order of the derivatives.
@@ -145,6 +145,9 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
   if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);
+  for (const FrictionMap& map : fit.friction.maps) {
+    for (const MapAxis& axis : map.axes) model.mapped.push_back(axis.quantity);
+  }
 
   // and how its parameters could change that
   model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
@@ -156,8 +159,8 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   model.of_friction = model.derivatives.cols();
   if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
-  if (fit.inertia) model.derivatives = Beside(model.derivatives, *m.acceleration);
-  if (by_jumps.cols() > 0) model.derivatives = Beside(model.derivatives, by_jumps);
+  if (fit.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
+  if (by_jumps.cols() > 0) model.derivatives = ConcatColumns(model.derivatives, by_jumps);
   return model;
 }
 

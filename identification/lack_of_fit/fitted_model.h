@@ -29,6 +29,7 @@ struct FittedModel {
   std::optional<Eigen::VectorXd> held_loss;  // [N] what (22) leaves out (held_loss.h), N.m or N,
                                              // where that matters
   std::optional<Eigen::VectorXd> maps;       // [N] what they give, N.m or N, where there are any
+  std::vector<MapQuantity> mapped;           // what they are over
 
   std::optional<Thermal> thermal;  // where a warming was estimated
   std::optional<ClosedLoop> loop;  // there: of the law's parameters, with the jumps

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "identification/lack_of_fit/orthonormal.h"
 #include "identification/lack_of_fit/significance.h"
@@ -49,17 +51,14 @@ double CarryingParts(const VectorXd& shares) {
   return shares.sum() * shares.sum() / shares.squaredNorm();
 }
 
-/// Squares that columns explain by themselves beside a fit. squares: [c] of each; held: [r x c] products with the fit's
-/// basis; products: [c] with what the fit leaves, which none of that has
-VectorXd SquaresExplained(const VectorXd& squares, const MatrixXd& held, const VectorXd& products) {
-  VectorXd explained = VectorXd::Zero(squares.size());
-  for (Index i = 0; i < squares.size(); ++i) {
-    const double beside = squares[i] - held.col(i).squaredNorm();
-    if (beside > kDistinct * kDistinct * squares[i]) {
-      explained[i] = products[i] * products[i] / beside;
-    }
+/// Columns weighed by roots, of norm 1; a column of zeros stays one.
+MatrixXd Normed(const MatrixXd& columns, const VectorXd& roots) {
+  MatrixXd weighted = roots.asDiagonal() * columns;
+  for (Index j = 0; j < weighted.cols(); ++j) {
+    const double norm = weighted.col(j).norm();
+    if (norm > 0) weighted.col(j) *= 1 / norm;
   }
-  return explained;
+  return weighted;
 }
 
 }  // namespace
@@ -69,53 +68,47 @@ GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
     : place_(place),
       ends_(EndsOf(weight, std::min(kParts, weight.size() / 2))),
       roots_(weight.cwiseSqrt()),
-      columns_(derivatives.rows(), derivatives.cols()),
+      norms_((roots_.asDiagonal() * derivatives).colwise().norm().cwiseMax(1e-300)),
+      columns_(Normed(derivatives, roots_)),
       residual_(roots_.cwiseProduct(residual)) {
-  norms_ = WriteNormed(derivatives, roots_, columns_).cwiseMax(1e-300);
   Refit();
 }
 
-AskedFeatures GrowingFit::Ask(const std::vector<Features>& all) const {
-  return {residual_, fit_.basis, all, roots_, ends_};
-}
-
-void GrowingFit::LearnNoise(const AskedFeatures& all) {
-  // products of the fit's columns, which are mixes of its basis, and of all features
-  const Index r = all.rank(), p = columns_.cols(), q = all.table().cols() - 1 - r;
-  const MatrixXd& held = fit_.held;
-  MatrixXd products(p + q, p + q);
-  products.topLeftCorner(p, p) = held.transpose() * all.products().block(1, 1, r, r) * held;
-  products.topRightCorner(p, q) = held.transpose() * all.products().block(1, 1 + r, r, q);
-  products.bottomLeftCorner(q, p) = products.topRightCorner(p, q).transpose();
-  products.bottomRightCorner(q, q) = all.products().bottomRightCorner(q, q);
+void GrowingFit::LearnNoise(const std::vector<Features>& all) {
+  // the fit's columns and all features
+  std::vector<MatrixXd> parts{columns_};
+  Index count = columns_.cols();
+  for (const Features& one : all) {
+    parts.push_back(Normed(one.columns, roots_));
+    count += one.columns.cols();
+  }
+  MatrixXd columns(size(), count);
+  for (Index c = 0; const MatrixXd& part : parts) {
+    columns.middleCols(c, part.cols()) = part;
+    c += part.cols();
+  }
 
   // what remains beside them all together is noise
-  const MatrixXd of_all = MixOfDistinct(products, kDistinct);
-  MatrixXd mix(r + q, of_all.cols());
-  mix.topRows(r) = held * of_all.topRows(p);
-  mix.bottomRows(q) = of_all.bottomRows(q);
-  const VectorXd shared = mix.transpose() * all.products().col(0).tail(r + q);
-  const auto columns = all.table().rightCols(r + q);
-  noise_ = FitNoise(residual_ - columns * (mix * shared), place_);
+  const MatrixXd basis = Orthonormal(columns, kDistinct).basis;
+  noise_ = FitNoise(residual_ - basis * (basis.transpose() * residual_), place_);
 
   // what all of them took up counts in samples, at most half of them
   const auto m = static_cast<double>(size());
-  taken_ = static_cast<double>(mix.cols());
-  const double all_taken =
-      noise_.order() == 0
-          ? taken_
-          : ScatterThrough(noise_, MatrixXd(columns * mix), place_).trace() / noise_.variance;
+  taken_ = static_cast<double>(basis.cols());
+  const double all_taken = noise_.order() == 0
+                               ? taken_
+                               : ScatterThrough(noise_, basis, place_).trace() / noise_.variance;
   const double taken = std::min(all_taken, 0.5 * m);
   noise_.variance *= m / (m - taken);
   noise_.innovation *= m / (m - taken);
 }
 
-GrowingFit::Evidence GrowingFit::ByColour(const AskedFeatures& asked, const OwnBasis& own) const {
+GrowingFit::Evidence GrowingFit::ByColour(const MatrixXd& own, const VectorXd& b) const {
   // white noise scatters alike along all directions
   const bool white = noise_.order() == 0;
-  const Index q = own.size();
+  const Index q = own.cols();
   const MatrixXd scatter = white ? MatrixXd(noise_.variance * MatrixXd::Identity(q, q))
-                                 : ScatterThrough(noise_, asked.Rows(own), place_);
+                                 : ScatterThrough(noise_, own, place_);
   const auto rows = static_cast<double>(size());
 
   // the coefficient a of AR(1) noise is estimated too small by (1 + 3 a)/m (Marriott, Pope 1954),
@@ -131,27 +124,39 @@ GrowingFit::Evidence GrowingFit::ByColour(const AskedFeatures& asked, const OwnB
   const double red = std::max(small * seen, 1.0);
   const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
   const double fewest = kFewestFree + static_cast<double>(q);
-  return {unbiased, HotellingPValue(own.b, unbiased, std::max(samples, fewest))};
+  return {unbiased, HotellingPValue(b, unbiased, std::max(samples, fewest))};
 }
 
 /// By how the scores of the rest scatter from part to part; no evidence where the parts that carry
 /// the features are too few.
-GrowingFit::Evidence GrowingFit::ByParts(const AskedFeatures& asked, const OwnBasis& own) const {
-  const Index q = own.size();
+GrowingFit::Evidence GrowingFit::ByParts(const MatrixXd& own, const VectorXd& b) const {
+  // what each part has of the features, and its products with what is left of the residual
+  const Index q = own.cols();
+  const VectorXd rest = left_ - own * b;
+  VectorXd shares(std::ssize(ends_));
+  MatrixXd scores(shares.size(), q);
+  Index begin = 0;
+  for (Index k = 0; k < shares.size(); ++k) {
+    const Index count = ends_[static_cast<size_t>(k)] - begin;
+    const auto part = own.middleRows(begin, count);
+    shares[k] = part.squaredNorm();
+    scores.row(k) = rest.segment(begin, count).transpose() * part;
+    begin += count;
+  }
+
   // the parts that carry the features have to outnumber the columns clearly
-  const double parts = CarryingParts(asked.Shares(own));
+  const double parts = CarryingParts(shares);
   const double freedom = parts - static_cast<double>(columns_.cols() + q);
   if (freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
 
   // the score of each part: they scatter as much as the noise makes them
-  const MatrixXd scores = asked.Scores(own);
   MatrixXd scatter = parts / freedom * scores.transpose() * scores;
-  const double p = HotellingPValue(own.b, scatter, parts);
+  const double p = HotellingPValue(b, scatter, parts);
   if (noise_.order() == 0 || p > kWorthACloserLook) return {scatter, p};
 
   // what the noise of neighbouring parts has in common is not in their scatter
-  scatter *= AcrossParts(asked.Rows(own));
-  return {scatter, HotellingPValue(own.b, scatter, parts)};
+  scatter *= AcrossParts(own);
+  return {scatter, HotellingPValue(b, scatter, parts)};
 }
 
 double GrowingFit::AcrossParts(const MatrixXd& own) const {
@@ -167,20 +172,24 @@ double GrowingFit::AcrossParts(const MatrixXd& own) const {
   return std::max(1.0, ScatterThrough(noise_, own, place_).trace() / within);
 }
 
-Finding GrowingFit::Test(const AskedFeatures& asked, size_t i) const {
+Finding GrowingFit::Test(const Features& features) const {
   Finding finding;
-  finding.period = asked.place(i).period;
-  const OwnBasis own = asked.Beside(i, kDistinct);
-  if (own.size() == 0) return finding;
+  finding.period = features.period;
+  // what the features have beside the fit
+  MatrixXd columns = Normed(features.columns, roots_);
+  const MatrixXd shared = fit_.basis.transpose() * columns;
+  columns.noalias() -= fit_.basis * shared;
+  const Basis own = Orthonormal(columns, kDistinct);
+  if (own.basis.cols() == 0) return finding;
 
   // how likely noise alone does that
-  const VectorXd& b = own.b;
-  Evidence evidence = ByColour(asked, own);
-  if (Evidence parts = ByParts(asked, own); parts.p < evidence.p) evidence = std::move(parts);
+  const VectorXd b = own.basis.transpose() * left_;
+  Evidence evidence = ByColour(own.basis, b);
+  if (Evidence parts = ByParts(own.basis, b); parts.p < evidence.p) evidence = std::move(parts);
 
   // the smaller of two probabilities counts twice, and once for each candidate
   finding.made = true;
-  finding.p = std::min(1.0, 2 * evidence.p * asked.place(i).candidates);
+  finding.p = std::min(1.0, 2 * evidence.p * features.candidates);
   // noise alone explains a part of it: that is taken off
   finding.explained = std::max(0.0, b.squaredNorm() - evidence.scatter.trace());
   finding.gain = b.squaredNorm() - static_cast<double>(b.size()) *
@@ -188,7 +197,7 @@ Finding GrowingFit::Test(const AskedFeatures& asked, size_t i) const {
 
   // the parameters give way by what the features share with the fit
   const Index p = norms_.size();
-  const MatrixXd give = fit_.mix.topRows(p) * own.mix.topRows(asked.rank());
+  const MatrixXd give = -fit_.mix.topRows(p) * (shared * own.mix);
   finding.moves = (give * b).cwiseQuotient(norms_.transpose());
   finding.move_deviations = (give * evidence.scatter * give.transpose())
                                 .diagonal()
@@ -201,27 +210,19 @@ Finding GrowingFit::Test(const AskedFeatures& asked, size_t i) const {
 void GrowingFit::Take(const Features& features) {
   const Index more = features.columns.cols();
   columns_.conservativeResize(Eigen::NoChange, columns_.cols() + more);
-  WriteNormed(features.columns, roots_, columns_.rightCols(more));
+  columns_.rightCols(more) = Normed(features.columns, roots_);
   Refit();
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
   const MatrixXd weighted = roots_.asDiagonal() * columns;
-  return SquaresExplained(weighted.colwise().squaredNorm(), fit_.basis.transpose() * weighted,
-                          weighted.transpose() * left_);
-}
-
-VectorXd GrowingFit::ExplainedBy(const SharedColumns& columns) const {
-  // what rows of one place have together, then what each column makes of it
-  const VectorXd weight = roots_.cwiseProduct(columns.factor);
-  const MatrixXd& shares = columns.shares;
-  MatrixXd held(fit_.basis.cols(), shares.rows());
-  for (Index k = 0; k < held.rows(); ++k) {
-    held.row(k) = columns.SumsOf(weight.cwiseProduct(fit_.basis.col(k)));
-  }
-  return SquaresExplained(shares.cwiseAbs2().transpose() * columns.SumsOf(weight.cwiseAbs2()),
-                          held * shares,
-                          shares.transpose() * columns.SumsOf(weight.cwiseProduct(left_)));
+  const VectorXd squares = weighted.colwise().squaredNorm();
+  const VectorXd held = (fit_.basis.transpose() * weighted).colwise().squaredNorm();
+  // what the fit leaves of the residual has nothing of its columns
+  const VectorXd products = weighted.transpose() * left_;
+  const Eigen::ArrayXd beside = (squares - held).array();
+  return (beside > kDistinct * kDistinct * squares.array())
+      .select(products.array().square() / beside, 0);
 }
 
 double GrowingFit::CoefficientOf(const VectorXd& column) const {

@@ -4,13 +4,18 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/lack_of_fit/asked_features.h"
 #include "identification/lack_of_fit/finding.h"
 #include "identification/lack_of_fit/orthonormal.h"
-#include "identification/lack_of_fit/shared_columns.h"
 #include "identification/uncertainty/noise_model.h"
 
 namespace warmjoint {
+
+/// Features that a residual may depend on, asked about together: the best of several candidates.
+struct Features {
+  Eigen::MatrixXd columns;  // [m x q]; q = 0: nothing to ask
+  int candidates = 1;       // of which these explain most
+  double period = 0;        // of those, or time constant, s; 0 where they have none
+};
 
 /// The fit beside which features are tested.
 class GrowingFit {
@@ -20,19 +25,16 @@ class GrowingFit {
   GrowingFit(const Eigen::VectorXd& weight, const Eigen::VectorXd& residual,
              const Eigen::MatrixXd& derivatives, const Selection& place);
 
-  /// Features beside the fit as it is now. They outlast it; what joins the fit later is not in them.
-  AskedFeatures Ask(const std::vector<Features>& all) const;
-
   /// Learns the noise from what all features that will be asked about leave together.
-  void LearnNoise(const AskedFeatures& all);
+  void LearnNoise(const std::vector<Features>& all);
 
-  /// What the i-th features explain beyond the fit, with the probability that noise alone explains as much.
+  /// What features explain beyond the fit, with the probability that noise alone explains as much.
   /// The coefficients are tested by Hotelling's T^2 against two estimates of their scatter: that
   /// of the noise as an autoregressive model (noise_model.h), and that of the scores of the rest
   /// over kParts parts of the recording, where enough of them carry the features. The smaller
   /// probability counts twice, and times the candidates (Bonferroni). p = 1 where the fit holds the
   /// features already.
-  Finding Test(const AskedFeatures& asked, size_t i) const;
+  Finding Test(const Features& features) const;
 
   /// Lets features join the fit.
   void Take(const Features& features);
@@ -44,7 +46,6 @@ class GrowingFit {
   /// Squares of the weighted residual that each column explains by itself beside the fit.
   /// columns: [m x c]; returns [c], 0 for a column that the fit holds.
   Eigen::VectorXd ExplainedBy(const Eigen::MatrixXd& columns) const;
-  Eigen::VectorXd ExplainedBy(const SharedColumns& columns) const;
   /// The coefficient of a column beside the fit's, by least squares; 0 for one that the fit holds.
   double CoefficientOf(const Eigen::VectorXd& column) const;
 
@@ -60,8 +61,9 @@ class GrowingFit {
   /// Counts the samples that tell the noise's variance along the features: noise whose variance there is R times its
   /// mean over all frequencies counts as AR(1) noise of that R does, m/(2 R - 1), less the columns that were there
   /// when it was learned.
-  Evidence ByColour(const AskedFeatures& asked, const OwnBasis& own) const;
-  Evidence ByParts(const AskedFeatures& asked, const OwnBasis& own) const;
+  /// own: [m x q] orthonormal, what features have beside the fit; b: [q] its products with the residual
+  Evidence ByColour(const Eigen::MatrixXd& own, const Eigen::VectorXd& b) const;
+  Evidence ByParts(const Eigen::MatrixXd& own, const Eigen::VectorXd& b) const;
   /// How much larger the noise model makes the scatter of coefficients than its parts by
   /// themselves do: at least 1, about 1 where the noise forgets within a part. own: [m x q]
   double AcrossParts(const Eigen::MatrixXd& own) const;

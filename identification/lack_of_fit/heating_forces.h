@@ -12,7 +12,7 @@ namespace warmjoint {
 /// is neither even nor over before the warming (heating_forces.cc).
 inline constexpr Eigen::Index kCourses = 4;
 
-/// dF/dc of forces c f beside the fit's with what their losses change of E (with_heat.h), means over bins. s: sign(v).
+/// dF/dc of forces c f beside the fit's with what their losses change of E, means over bins. s: sign(v).
 struct HeatingForces {
   Eigen::MatrixXd drifts;  // [m x kCourses] of s d(t), 0 at first and 1 at the end
   Eigen::VectorXd level;   // [m] of s

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
-#include "identification/lack_of_fit/distinct.h"
+#include "identification/lack_of_fit/rows_by_value.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
@@ -112,15 +111,13 @@ VectorXd TimeConstants(double step, double hold) {
   return VectorXd::LinSpaced(kLags, std::log(shortest), std::log(longest)).array().exp();
 }
 
-/// (F0 - F1) exp(-t/T), a column for each T.
-SharedColumns Decays(const Followers& followers, const VectorXd& lags) {
-  // rows of different segments share their times
-  Distinct times(followers.Column(&Follower::since));
-  SharedColumns decays{std::move(times.place), followers.Column(&Follower::drop), {}};
-  const auto since = times.values();
-  decays.shares.resize(since.size(), lags.size());
-  for (Index k = 0; k < lags.size(); ++k) decays.shares.col(k) = (-since / lags[k]).exp();
-  return decays;
+/// (F0 - F1) exp(-t/T), a column for each T. [rows x lags]
+MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
+  const auto decay = [&](const Eigen::ArrayXd& since) -> MatrixXd {
+    return (-since.matrix() * lags.cwiseInverse().transpose()).array().exp();
+  };
+  return followers.Column(&Follower::drop).asDiagonal() *
+         RowsByValue(followers.Column(&Follower::since), decay);
 }
 
 }  // namespace
@@ -143,13 +140,12 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   VectorXd holds = Eigen::Map<const VectorXd>(followers.holds.data(),
                                               static_cast<Index>(followers.holds.size()));
   const VectorXd lags = TimeConstants(model.step, MedianInPlace(holds));
-  const SharedColumns decays = Decays(followers, lags);
+  const MatrixXd decays = Decays(followers, lags);
   Index best = 0;
   fit.ExplainedBy(decays).maxCoeff(&best);
-  const Features decay{decays.Column(best), kLags};
-  const AskedFeatures asked = fit.Ask({decay});
-  fit.LearnNoise(asked);
-  finding = fit.Test(asked, 0);
+  const Features decay{decays.col(best), kLags};
+  fit.LearnNoise({decay});
+  finding = fit.Test(decay);
   finding.test = &LagTest();
 
   // a lag leaves a share of what was before, not of what comes: the test has one side

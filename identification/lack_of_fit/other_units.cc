@@ -16,7 +16,7 @@ Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inf
   Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
   for (size_t i = 0; i < rows.size(); ++i) {
     const FitParameter& parameter = fit.parameters[rows[i]];
-    const KnownParameter& known = inference.parameters[rows[i]];
+    const ParameterInterval& known = inference.parameters[rows[i]];
     const double factor = std::pow(way, parameter.way_power) * std::pow(time, parameter.time_power);
     // the end of the interval that is farther from 0 moves most
     const double farthest = std::abs(known.value) + known.HalfWidth();
@@ -27,12 +27,14 @@ Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inf
 
 }  // namespace
 
-void LearnOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
-                     Examination& examination) {
+void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
+                   Examination& examination) {
   if (joint == JointKind::rotary) {
-    examination.by_degrees = FarthestMoves(kDegree, 1, fit, inference, examination.rows);
+    examination.Add(Source::degrees, Action::note,
+                    FarthestMoves(kDegree, 1, fit, inference, examination.rows));
   }
-  examination.by_clock = FarthestMoves(1, kClock, fit, inference, examination.rows);
+  examination.Add(Source::clock, Action::note,
+                  FarthestMoves(1, kClock, fit, inference, examination.rows));
 }
 
 }  // namespace warmjoint

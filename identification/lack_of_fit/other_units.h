@@ -5,11 +5,11 @@
 
 namespace warmjoint {
 
-/// Fills by_degrees and by_clock: no residual shows either, where all columns of way or of time share the slip.
+/// Adds the rows degrees and clock: no residual shows either, where all columns of way or of time share the slip.
 /// A parameter of dimension torque way^a time^b is f = w^a t^b times as large once way and time are w and t
 /// times as large; each end of its interval moves by (f - 1) of itself, and the farther move counts.
 /// degrees: w = pi/180; clock: t = 1.01.
-void LearnOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
-                     Examination& examination);
+void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
+                   Examination& examination);
 
 }  // namespace warmjoint

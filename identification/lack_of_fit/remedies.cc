@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "identification/lack_of_fit/words.h"
 #include "identification/lagged/lagged_fit.h"
-#include "identification/linear/against_curve.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/remedy_for_curve.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/expected_start.h"
 #include "models/friction/law_list.h"
@@ -18,9 +17,10 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kSettledAfter = 3;    // time constants; why 3: 5 % are left
-constexpr size_t kMostKernels = 128;   // of a map over position; why: most that the options take
-constexpr size_t kKernelsAPeriod = 3;  // why: a wave has two coefficients, and kernels overlap
+constexpr double kSettledAfter = 3;       // time constants; why 3: 5 % are left
+constexpr size_t kMostKernels = 128;      // of a map over position; why: most that the options take
+constexpr size_t kMostSpeedKernels = 64;  // for each direction; why: most that the options take
+constexpr size_t kKernelsAPeriod = 3;     // why: a wave has two coefficients, and kernels overlap
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HoldsMap(const Advice& advice, MapQuantity quantity) {
@@ -91,12 +91,12 @@ bool MayBeGravity(const Advice& advice) {
 
 }  // namespace
 
-std::string AgainstWarmStart(const Identifier& identifier) {
+std::string RemedyForWarmStart(const Identifier& identifier) {
   if (identifier.options.Find<InitialEnergyOptions>()) return "try --start estimated";
   return "record it from cold, or learn E(0) by energy-ml with --start estimated";
 }
 
-std::string AgainstWarming(const Advice& advice) {
+std::string RemedyForWarming(const Advice& advice) {
   // no warming yet: one beside whatever else the fit holds
   if (!HoldsWarming(advice)) {
     if (HoldsMap(advice, MapQuantity::motor_position)) {
@@ -116,11 +116,11 @@ std::string AgainstWarming(const Advice& advice) {
          "a steady ambient temperature";
 }
 
-std::string AgainstStart(const Advice& advice) {
-  return "was the joint warm at the start? " + AgainstWarmStart(advice.identifier);
+std::string RemedyForStart(const Advice& advice) {
+  return "was the joint warm at the start? " + RemedyForWarmStart(advice.identifier);
 }
 
-std::string AgainstSpeed(const Advice& advice) {
+std::string RemedyForSpeed(const Advice& advice) {
   if (HoldsCurve(advice)) {
     return "the law has a curve over speed already, and the joint's is another one";
   }
@@ -136,7 +136,7 @@ std::string AgainstSpeed(const Advice& advice) {
   return Try(advice, CurveCommand(advice.fit.friction.law, WarmingOf(advice)));
 }
 
-std::string AgainstWarmingSlope(const Advice& advice) {
+std::string RemedyForWarmingSlope(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::energy)) {
     return "the map over energy does not follow it: record more than one warm-up";
   }
@@ -145,7 +145,7 @@ std::string AgainstWarmingSlope(const Advice& advice) {
 }
 
 /// What to try where a law with a curve misses something that turns with the direction.
-std::string AgainstDirectionOfACurve(const Advice& advice) {
+std::string RemedyForDirectionOfACurve(const Advice& advice) {
   const Friction& friction = advice.fit.friction;
   if (TellsDirections(friction.law)) {
     const std::string differ =
@@ -167,8 +167,8 @@ std::string AgainstDirectionOfACurve(const Advice& advice) {
                                  damped ? "" : " --set damping=none"));
 }
 
-std::string AgainstDirection(const Advice& advice) {
-  if (HoldsCurve(advice)) return AgainstDirectionOfACurve(advice);
+std::string RemedyForDirection(const Advice& advice) {
+  if (HoldsCurve(advice)) return RemedyForDirectionOfACurve(advice);
 
   // first a law with a level for each direction, where the identifier has one
   const bool can = advice.identifier.options.Has("law");
@@ -195,37 +195,37 @@ std::string AgainstDirection(const Advice& advice) {
   return "friction differs in slope between the directions: " + Try(advice, warm);
 }
 
-std::string AgainstLoad(const Advice& advice) {
+std::string RemedyForLoad(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::load)) {
     return "the map over load does not follow it: friction depends on more than the load";
   }
   return Try(advice, "load-map");
 }
 
-std::string AgainstTemperature(const Advice&) { return "record it at a steady temperature"; }
+std::string RemedyForTemperature(const Advice&) { return "record it at a steady temperature"; }
 
-std::string AgainstStep(const Advice&) {
+std::string RemedyForStep(const Advice&) {
   return "something changed at that moment (load, lubrication, sensor): identify the parts before "
          "and after it as recordings of their own";
 }
 
-std::string AgainstMemory(const Advice& advice) {
+std::string RemedyForMemory(const Advice& advice) {
   const double settled = kSettledAfter * advice.finding.period;
   return fmt::format(
       "hold each speed for {0:.2g} s or longer, and leave out what has not settled: --trim {1:.2g}",
       3 * settled, settled);
 }
 
-std::string AgainstHolds(const Advice&) {
+std::string RemedyForHolds(const Advice&) {
   return "something changes with the holds (load, settling of the drive, backlash): leave out the "
          "beginning of each hold, or log what changes as load";
 }
 
-std::string AgainstPeriod(const Advice&) {
+std::string RemedyForPeriod(const Advice&) {
   return "something acts on the joint in a rhythm of its own: log it as load, or record without it";
 }
 
-std::string AgainstLag(const Advice& advice) {
+std::string RemedyForLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
   // a lag is estimated beside linear laws alone, without maps and inertia
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
@@ -240,14 +240,14 @@ std::string AgainstLag(const Advice& advice) {
                                  by_default ? "" : " --set law=", by_default ? "" : law.name));
 }
 
-std::string AgainstFading(const Advice& advice) {
+std::string RemedyForFading(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::energy)) {
     return "the map over energy does not follow it: record more than one warm-up";
   }
   return Try(advice, "energy-map");
 }
 
-std::string AgainstPosition(const Advice& advice) {
+std::string RemedyForPosition(const Advice& advice) {
   const bool warm = HoldsWarming(advice);
   const bool alike = advice.finding.alike > 0.8;
   const std::string how = alike ? "it acts alike in both directions, as " : "";
@@ -280,11 +280,27 @@ std::string AgainstPosition(const Advice& advice) {
          "a load does that depends on position: " + Try(advice, map + " --set basis=position");
 }
 
-std::string AgainstMotorAngle(const Advice& advice) {
+std::string RemedyForMotorAngle(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::motor_position)) {
     return Finer(advice, MapQuantity::motor_position, "motor_kernels", kMostKernels);
   }
   return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=motor" : "motor-ridge");
+}
+
+std::string RemedyForAngleBySpeed(const Advice& advice) {
+  const bool motor = HoldsMap(advice, MapQuantity::motor_position);
+  std::string command = HoldsWarming(advice)
+                            ? fmt::format("energy-ml --set position={}", motor ? "motor" : "map")
+                        : motor ? "motor-ridge"
+                                : "position-ridge";
+  if (!motor) command += " --set basis=velocity";
+  // a map that tells directions alone gets kernels over speed, one that has some twice as many for each direction
+  const size_t kernels = KernelsOver(advice, MapQuantity::velocity);
+  if (kernels <= 2) return Try(advice, command);
+  if (kernels > kMostSpeedKernels) {
+    return "no map of this program is finer over speed: record fewer speeds, each for longer";
+  }
+  return Try(advice, fmt::format("{} --set velocity_kernels={}", command, kernels));
 }
 
 }  // namespace warmjoint

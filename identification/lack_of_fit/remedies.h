@@ -7,20 +7,24 @@
 
 namespace warmjoint {
 
-std::string AgainstWarming(const Advice& advice);
-std::string AgainstStart(const Advice& advice);
-std::string AgainstSpeed(const Advice& advice);
-std::string AgainstWarmingSlope(const Advice& advice);
-std::string AgainstDirection(const Advice& advice);
-std::string AgainstLoad(const Advice& advice);
-std::string AgainstTemperature(const Advice& advice);
-std::string AgainstStep(const Advice& advice);
-std::string AgainstMemory(const Advice& advice);
-std::string AgainstHolds(const Advice& advice);
-std::string AgainstPeriod(const Advice& advice);
-std::string AgainstLag(const Advice& advice);
-std::string AgainstFading(const Advice& advice);
-std::string AgainstPosition(const Advice& advice);
-std::string AgainstMotorAngle(const Advice& advice);
+/// What to do where a start that was taken to be cold may have been warm.
+std::string RemedyForWarmStart(const Identifier& identifier);
+
+std::string RemedyForWarming(const Advice& advice);
+std::string RemedyForStart(const Advice& advice);
+std::string RemedyForSpeed(const Advice& advice);
+std::string RemedyForWarmingSlope(const Advice& advice);
+std::string RemedyForDirection(const Advice& advice);
+std::string RemedyForLoad(const Advice& advice);
+std::string RemedyForTemperature(const Advice& advice);
+std::string RemedyForStep(const Advice& advice);
+std::string RemedyForMemory(const Advice& advice);
+std::string RemedyForHolds(const Advice& advice);
+std::string RemedyForPeriod(const Advice& advice);
+std::string RemedyForLag(const Advice& advice);
+std::string RemedyForFading(const Advice& advice);
+std::string RemedyForPosition(const Advice& advice);
+std::string RemedyForMotorAngle(const Advice& advice);
+std::string RemedyForAngleBySpeed(const Advice& advice);
 
 }  // namespace warmjoint

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <unsupported/Eigen/FFT>
 
 #include "identification/fit_data.h"
-#include "identification/lack_of_fit/power_spectra.h"
 #include "identification/lack_of_fit/significance.h"
-#include "identification/lack_of_fit/wave_products.h"
+#include "identification/lack_of_fit/waves.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
@@ -26,6 +26,7 @@ constexpr int kMost = 6;  // frequencies that are reported together
 constexpr int kMotorHarmonics = 8;
 constexpr double kFinestPosition = 512;  // cycles over the travel; why: twelve times a map's
 constexpr double kSamplesACycle = 16;    // why: two samples a bin
+constexpr double kSpeedsDiffer = 0.02;   // relative; why: bins take such speeds for one
 constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
 
 /// The residual of the kept samples by bins of the axis, apart for each direction and part.
@@ -34,6 +35,7 @@ class BinnedResidual {
   /// A kept sample.
   struct Sample {
     double value;   // what is left of its residual, N.m or N
+    double factor;  // of its ripple
     int bin, part;  // of the axis, of the recording
     int direction;  // 0 forwards, 1 backwards
   };
@@ -56,40 +58,42 @@ class BinnedResidual {
       const auto bin = static_cast<int>(Bin(axis.phase[i]));
       while ((next - samples_.begin()) * kParts >= (part + 1) * n) ++part;
       const int d = velocity[i] < 0;
-      *next++ = {residual[i], bin, part, d};
-      ++counts[d][bin];
-      sums[0] += d ? 0 : residual[i];
-      sums[1] += d ? residual[i] : 0;
+      const double factor = axis.FactorOf(i);
+      *next++ = {residual[i], factor, bin, part, d};
+      counts[d][bin] += factor * factor;
+      sums[d] += factor * residual[i];
     }
 
-    // a level of each direction is no ripple
+    // a level of each direction, or a slope, is no ripple
     for (int d = 0; d < 2; ++d) {
       numbers_[d] = counts_.col(d).sum();
       sums[d] /= std::max(numbers_[d], 1.0);
     }
-    for (Sample& sample : samples_) sample.value -= sums[sample.direction];
+    for (Sample& sample : samples_) sample.value -= sample.factor * sums[sample.direction];
   }
 
   Index bins() const { return bins_; }
-  double number(int d) const { return numbers_[d]; }               // of samples in a direction
-  const std::vector<Sample>& samples() const { return samples_; }  // in time
-  Eigen::MatrixXd::ConstColXpr counts(int d) const { return counts_.col(d); }  // [bins] samples
+  double number(int d) const {
+    return numbers_[d];
+  }  // of samples in a direction, by their squared factors
+  const std::vector<Sample>& samples() const { return samples_; }              // in time
+  Eigen::MatrixXd::ConstColXpr counts(int d) const { return counts_.col(d); }  // [bins] as number
 
   /// Sums over each bin, N.m or N. [bins x 2] forwards, backwards
   MatrixXd Totals() const {
     MatrixXd totals = MatrixXd::Zero(bins_, 2);
     double* total[2] = {totals.col(0).data(), totals.col(1).data()};
-    for (const Sample& sample : samples_) total[sample.direction][sample.bin] += sample.value;
+    for (const Sample& one : samples_) total[one.direction][one.bin] += one.factor * one.value;
     return totals;
   }
 
   /// Takes a wave of each direction off every sample. waves: [bins x 2]
   void TakeOff(const MatrixXd& waves) {
-    for (Sample& sample : samples_) sample.value -= waves(sample.bin, sample.direction);
+    for (Sample& one : samples_) one.value -= one.factor * waves(one.bin, one.direction);
     taken_ += waves;
   }
 
-  /// All that was taken off a sample, N.m or N.
+  /// All that was taken off a sample of factor 1, N.m or N.
   double Taken(double phase, double velocity) const { return taken_(Bin(phase), velocity < 0); }
 
  private:
@@ -113,7 +117,22 @@ struct Peak {
 /// cos and sin of 2 pi f phase in the middle of each bin. [bins x 2]
 MatrixXd WavesOver(Index bins, double frequency) {
   const double step = 2 * std::numbers::pi * frequency / static_cast<double>(bins);
-  return EvenWaves(0.5 * step, step, bins);
+  const auto last = static_cast<double>(bins - 1);
+  return Waves(step * (Eigen::ArrayXd::LinSpaced(bins, 0, last) + 0.5));
+}
+
+/// |sum over n of x[n] exp(-2 pi i k n / length)|^2 for k = 0 to last < length. x: [n], n <= length: zeros follow; length: best
+/// a power of 2
+VectorXd PowerSpectrum(const VectorXd& x, Index length, Index last) {
+  VectorXd padded = VectorXd::Zero(length);
+  padded.head(x.size()) = x;
+  // one number is its own transform, which Eigen's is not made for
+  if (length == 1) return padded.cwiseAbs2();
+  // one transform a thread, which keeps its tables
+  static thread_local Eigen::FFT<double> transform;
+  Eigen::VectorXcd spectrum;
+  transform.fwd(spectrum, padded);
+  return spectrum.head(last + 1).cwiseAbs2();
 }
 
 /// totals: of the bins
@@ -121,10 +140,11 @@ Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
                         const MatrixXd& totals) {
   // with zeros behind for steps below a cycle
   const auto length = static_cast<Index>(static_cast<double>(binned.bins()) / axis.step);
-  const MatrixXd squares = PowerSpectra(totals, length, axis.frequencies);
-  const Eigen::Vector2d share(2 / std::max(binned.number(0), 1.0),
-                              2 / std::max(binned.number(1), 1.0));
-  const VectorXd explained = squares * share;
+  VectorXd explained = VectorXd::Zero(axis.frequencies + 1);
+  for (int d = 0; d < 2; ++d) {
+    explained += 2 / std::max(binned.number(d), 1.0) *
+                 PowerSpectrum(totals.col(d), length, axis.frequencies);
+  }
 
   // the constant is no ripple
   Peak peak;
@@ -160,8 +180,8 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
 
   // the scores of what is left, in each part of the recording
   MatrixXd scores = MatrixXd::Zero(4, kParts);
-  for (const auto& [value, bin, part, d] : binned.samples()) {
-    const double rest = value - ripple.waves(bin, d);
+  for (const auto& [value, factor, bin, part, d] : binned.samples()) {
+    const double rest = factor * (value - factor * ripple.waves(bin, d));
     scores(2 * d, part) += rest * waves(bin, 0);
     scores(2 * d + 1, part) += rest * waves(bin, 1);
   }
@@ -215,6 +235,15 @@ std::optional<AngleAxis> PositionAxis(const FittedModel& model, const Measuremen
   return axis;
 }
 
+/// |v| less its mean over the kept samples, of rms 1 over them. [N]; empty where there is but one speed
+VectorXd SpeedFactor(const VectorXd& velocity, const Selection& selection) {
+  const VectorXd speeds = Kept(velocity, selection).cwiseAbs();
+  const double mean = speeds.mean();
+  const double spread = std::sqrt((speeds.array() - mean).square().mean());
+  if (!(spread > kSpeedsDiffer * mean)) return {};
+  return (velocity.cwiseAbs().array() - mean) / spread;
+}
+
 }  // namespace
 
 Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selection& selection,
@@ -241,7 +270,8 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
   // one rejection for the whole axis, and all of its waves off the residual
   level.Rejects(finding.p);
   for (Index i = 0; i < residual.size(); ++i) {
-    if (selection.keep[i]) residual[i] -= binned.Taken(axis.phase[i], velocity[i]);
+    if (!selection.keep[i]) continue;
+    residual[i] -= axis.FactorOf(i) * binned.Taken(axis.phase[i], velocity[i]);
   }
   return finding;
 }
@@ -249,10 +279,20 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
 std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& m, VectorXd& residual,
                                 ErrorLevel& level) {
   std::vector<Finding> findings;
-  for (const auto& axis : {MotorAxis(m), PositionAxis(model, m)}) {
-    if (!axis) continue;
-    Finding finding = TestAxis(*axis, m.velocity, model.selection, residual, level);
+  const auto test = [&](const AngleAxis& axis) {
+    Finding finding = TestAxis(axis, m.velocity, model.selection, residual, level);
     if (finding.test) findings.push_back(std::move(finding));
+  };
+  for (auto axis : {MotorAxis(m), PositionAxis(model, m)}) {
+    if (!axis) continue;
+    test(*axis);
+    // a map follows the ripple at the mean of the speeds
+    const bool is_motor = axis->test == &MotorAngleTest();
+    const MapQuantity quantity = is_motor ? MapQuantity::motor_position : MapQuantity::position;
+    if (std::ranges::find(model.mapped, quantity) == model.mapped.end()) continue;
+    axis->test = is_motor ? &MotorAngleBySpeedTest() : &PositionBySpeedTest();
+    axis->factor = SpeedFactor(m.velocity, model.selection);
+    if (axis->factor.size() > 0) test(*axis);
   }
   return findings;
 }

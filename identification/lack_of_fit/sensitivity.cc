@@ -18,6 +18,8 @@ constexpr double kWarmStart =
 constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
 constexpr double kAlike =
     1e-13;  // beside other columns, of norm 1; why: what rounding leaves of a column that is a mix
+constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
+constexpr double kSureMove = 3;  // deviations from which a move is there; why 3: 1 in 370
 constexpr double kFading = 1.0 / 3;  // of the log: time constant of a drift that dies away
 
 /// s t and s (1 - exp(-t/T)), the friction's drift over the log, even and fading. [m x 2]
@@ -62,56 +64,64 @@ double FrictionChange::By(const Eigen::VectorXd& changes) const {
 
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
   const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);
-  return model.held_loss ? Beside(derivatives, bins.Means(*model.held_loss)) : derivatives;
+  return model.held_loss ? ConcatColumns(derivatives, bins.Means(*model.held_loss)) : derivatives;
 }
 
-void LearnHeat(const FittedModel& model, const Bins& bins, Index p,
-               const Eigen::MatrixXd& derivatives, Examination& examination) {
+void AddHeldLosses(const FittedModel& model, const Bins& bins, Index p,
+                   const Eigen::MatrixXd& derivatives, Examination& examination) {
   if (!model.held_loss) return;
   // the force that held losses leave out is the last column
   const Index q = derivatives.cols() - 1;
   const ForceMoves moves(bins, derivatives.leftCols(q));
-  examination.by_heat = moves.By(derivatives.rightCols(1)).topRows(p);
+  const Eigen::VectorXd bias = moves.By(derivatives.rightCols(1)).topRows(p);
 
   // the share of that force in the residual
   const Eigen::VectorXd root = bins.weight.cwiseSqrt();
   const Eigen::MatrixXd weighted = root.asDiagonal() * derivatives;
   const Eigen::VectorXd residual = root.asDiagonal() * bins.Means(model.residual);
   const LeastSquares fit = SolveLeastSquares(weighted, residual);
-  examination.heat_deviation = kInfinity;
   const Index free = bins.size() - q - 1;
-  if (!fit.mixed.empty() || free < 1) return;
-  const double variance =
-      (residual - weighted * fit.solution).squaredNorm() / static_cast<double>(free);
-  examination.heat_share = fit.solution[q];
-  examination.heat_deviation = std::sqrt(variance * fit.cofactor(q, q));
+  Action action = Action::cover;
+  if (fit.mixed.empty() && free >= 1) {
+    const double variance =
+        (residual - weighted * fit.solution).squaredNorm() / static_cast<double>(free);
+    const double share = fit.solution[q], deviation = std::sqrt(variance * fit.cofactor(q, q));
+    const auto is_at = [&](double value) {
+      return std::abs(share - value) < kSureMove * deviation;
+    };
+    // losses are held over each step, as the fit has them
+    if (1 - share > kSure * deviation && is_at(0)) return;
+    // or they follow the heat: the numbers become theirs; else both are possible
+    if (share > kSure * deviation && is_at(1)) action = Action::shift;
+  }
+  examination.Add(Source::held_losses, action, bias);
 }
 
-void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
-                      const Circumstances& known, Index p, const Eigen::MatrixXd& derivatives,
-                      const ForceMoves& moves, Examination& examination) {
+void AddAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
+                    const Circumstances& known, Index p, const Eigen::MatrixXd& derivatives,
+                    const ForceMoves& moves, Examination& examination) {
   // a start that was not cold
   if (known.initial.cols() > 0) {
     const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
-    examination.by_start = moves.By(energy * known.initial).topRows(p);
+    examination.Add(Source::cold_start, Action::note, moves.By(energy * known.initial).topRows(p));
   }
 
   // friction that drifts for another reason than its losses
   const Eigen::MatrixXd by_drifts =
       moves.By(kDrift * examination.friction * Drifts(bins)).topRows(p);
-  examination.by_drift = by_drifts.cwiseAbs().rowwise().maxCoeff();
+  examination.Add(Source::slow_drift, Action::note, by_drifts.cwiseAbs().rowwise().maxCoeff());
 
   // a torque sensor that swallows what is small
-  examination.dead_band = known.torque.cwiseAbs().minCoeff();
-  const Eigen::VectorXd swallowed = -examination.dead_band * bins.velocity.array().sign();
-  examination.by_dead_band = moves.By(swallowed).topRows(p);
+  const double band = known.torque.cwiseAbs().minCoeff();
+  const Eigen::VectorXd swallowed = -band * bins.velocity.array().sign();
+  examination.Add(Source::dead_band, Action::note, moves.By(swallowed).topRows(p), band);
 
   // heat that came or went in gaps of the log
   const Index jumps = model.jump_spread.size();
   if (jumps == 0 || !fit.jump_samples.empty()) return;
   const Eigen::MatrixXd forces = derivatives.middleCols(p, jumps) * model.jump_spread.asDiagonal();
   const ForceMoves without_jumps(bins, derivatives.leftCols(p));
-  examination.by_gaps = without_jumps.By(forces).cwiseAbs().rowwise().sum();
+  examination.Add(Source::gaps, Action::widen, without_jumps.By(forces).cwiseAbs().rowwise().sum());
 }
 
 }  // namespace warmjoint

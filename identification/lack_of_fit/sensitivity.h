@@ -55,15 +55,15 @@ class FrictionChange {
 /// bins. [m x (p + ...)]
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model);
 
-/// Fills what the examination knows of heat within the steps: its moves, and whether the residual tells that it is
-/// there. derivatives: DerivativesOver.
-void LearnHeat(const FittedModel& model, const Bins& bins, Eigen::Index p,
-               const Eigen::MatrixXd& derivatives, Examination& examination);
+/// Adds the row held_losses where the step of the log matters to the warming (held_loss.h): the parameters of heat that is
+/// followed within the steps where the residual tells that it is, an interval that covers both where it cannot tell; no row where
+/// it tells that losses are held. derivatives: DerivativesOver.
+void AddHeldLosses(const FittedModel& model, const Bins& bins, Eigen::Index p,
+                   const Eigen::MatrixXd& derivatives, Examination& examination);
 
-/// Fills the moves by start, slow drift and gaps. derivatives: DerivativesOver; moves: by them.
-void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
-                      const Circumstances& known, Eigen::Index p,
-                      const Eigen::MatrixXd& derivatives, const ForceMoves& moves,
-                      Examination& examination);
+/// Adds the rows cold_start, slow_drift, dead_band and gaps. derivatives: DerivativesOver; moves: by them.
+void AddAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
+                    const Circumstances& known, Eigen::Index p, const Eigen::MatrixXd& derivatives,
+                    const ForceMoves& moves, Examination& examination);
 
 }  // namespace warmjoint

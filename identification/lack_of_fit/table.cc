@@ -66,6 +66,12 @@ std::string MotorAngle(const Finding& finding, const Measurements& measurements)
                      OrElse(measurements, in_time));
 }
 
+/// "speed x motor angle (period 0.1 rad)", of what changes with both.
+template <std::string (*angle)(const Finding&, const Measurements&)>
+std::string BySpeed(const Finding& finding, const Measurements& measurements) {
+  return "speed x " + angle(finding, measurements);
+}
+
 constexpr const char* kDirection = "direction";
 constexpr const char* kSpeed = "speed";
 constexpr const char* kEnergy = "energy (warming)";
@@ -79,6 +85,7 @@ constexpr const char* kParity = "the order of the holds (every other one differs
 constexpr const char* kPhase = "the time within each hold";
 constexpr const char* kFading = "position x energy (the map fades or grows as the joint warms)";
 
+constexpr std::string_view kNoMapOrOneSpeed = "the fit has no map over it, or the log one speed";
 constexpr std::string_view kNoHolds = "no segments of constant speed are known";
 
 }  // namespace
@@ -89,69 +96,80 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
   using enum Harm;
   static const std::vector<LackOfFitTest> tests{
       {"direction", kHeldByTheFit, first, independent, of_direction, OfDirection, Say<kDirection>,
-       AgainstDirection, "Do forward and backward motion leave different residuals?",
+       RemedyForDirection, "Do forward and backward motion leave different residuals?",
        "Friction differs by direction: try --set law=asymmetric, with stribeck or lugre --set "
        "law=asymmetric_stribeck or asymmetric_lugre. If gravity or a load acts, try --gravity "
        "sincos or --gravity paired."},
-      {"speed", kHeldByTheFit, first, independent, of_effect, OfSpeed, Say<kSpeed>, AgainstSpeed,
+      {"speed", kHeldByTheFit, first, independent, of_effect, OfSpeed, Say<kSpeed>, RemedyForSpeed,
        "Does the residual depend on the speed?",
        "The law over speed is too simple: try --identifier stribeck, and record five speeds or "
        "more, the slowest below a twentieth of the fastest."},
-      {"energy", kHeldByTheFit, first, confounded, of_moves, OfEnergy, Say<kEnergy>, AgainstWarming,
-       "Does it depend on how warm the joint is?",
+      {"energy", kHeldByTheFit, first, confounded, of_moves, OfEnergy, Say<kEnergy>,
+       RemedyForWarming, "Does it depend on how warm the joint is?",
        "Warming is not followed: try --identifier energy-ml, on a log that begins cold and lasts "
        "until the torque settles."},
       {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, starts, of_moves,
-       OfInitialEnergy, Say<kStart>, AgainstStart, "Was the joint warm when the log began?",
+       OfInitialEnergy, Say<kStart>, RemedyForStart, "Was the joint warm when the log began?",
        "The joint seems warm at the start: try --start estimated, or let it cool down for an hour "
        "before you record."},
       {"load", "the log has no column load", first, independent, of_moves, OfLoad, Say<kLoad>,
-       AgainstLoad, "Does it depend on the load?",
+       RemedyForLoad, "Does it depend on the load?",
        "Friction depends on the load: record one load at a time."},
       {"temperature", "the log has no column temperature", first, independent, of_effect,
-       OfTemperature, Say<kTemperature>, AgainstTemperature,
+       OfTemperature, Say<kTemperature>, RemedyForTemperature,
        "Does it depend on the measured temperature?",
        "The surroundings warm the joint: record at a steady temperature."},
-      {"time", kHeldByTheFit, first, confounded, of_moves, OfTime, Say<kTime>, AgainstWarming,
+      {"time", kHeldByTheFit, first, confounded, of_moves, OfTime, Say<kTime>, RemedyForWarming,
        "Does it drift over time?",
        "Friction drifts: try a model that warms (--identifier energy-ml), or record for longer."},
       {"speed_by_energy", "the fit knows no warming", first, independent, of_moves, OfSpeedByEnergy,
-       Say<kSpeedByEnergy>, AgainstWarmingSlope, "Does the slope over speed change with warmth?",
+       Say<kSpeedByEnergy>, RemedyForWarmingSlope, "Does the slope over speed change with warmth?",
        "The slope changes as the joint warms: try --identifier lpv-energy."},
       {"speed_memory", "the fit knows no warming, or the segments are too long for the log", first,
-       confounded, of_moves, OfSpeedMemory, Memory, AgainstMemory,
+       confounded, of_moves, OfSpeedMemory, Memory, RemedyForMemory,
        "Does friction follow the speed late?",
        "Friction still depends on the speed of a while ago: hold each speed for longer, so that it "
        "settles."},
-      {"step", kHeldByTheFit, first, confounded, of_moves, OfStep, Say<kStep>, AgainstStep,
+      {"step", kHeldByTheFit, first, confounded, of_moves, OfStep, Say<kStep>, RemedyForStep,
        "Does it jump at some moment?",
        "Something changed in the middle of the log (load, controller, grease): record again, or "
        "cut the log there."},
       {"lag", "too few samples follow a change of speed", sample, independent, of_either_twice,
-       nullptr, Lag, AgainstLag, "Does the torque lag behind changes of speed?",
+       nullptr, Lag, RemedyForLag, "Does the torque lag behind changes of speed?",
        "The torque column is filtered or delayed: raise --trim, so that samples after each change "
        "of speed are left out."},
       {"position_by_energy", "the fit has no map beside a warming", sample, independent, of_moves,
-       nullptr, Say<kFading>, AgainstFading, "Does the pattern over position change with warmth?",
+       nullptr, Say<kFading>, RemedyForFading, "Does the pattern over position change with warmth?",
        "The pattern over position fades or grows as the joint warms: let the map depend on "
        "energy."},
       {"position", "the log has no positions, or too short a travel for its speed", sample,
-       independent, of_effect, nullptr, Position, AgainstPosition, "Does it repeat over position?",
+       independent, of_effect, nullptr, Position, RemedyForPosition,
+       "Does it repeat over position?",
        "Friction varies over position: try --identifier position-ridge, with motion over the whole "
        "travel."},
       {"motor_angle", "the log has neither a gear nor the column motor_position", sample,
-       independent, of_effect, nullptr, MotorAngle, AgainstMotorAngle,
+       independent, of_effect, nullptr, MotorAngle, RemedyForMotorAngle,
        "Does it repeat over the motor's angle?",
        "The motor or the gear ripples: give --gear or a column motor_position and try --identifier "
        "motor-ridge."},
+      {"position_by_speed", kNoMapOrOneSpeed, sample, independent, of_effect, nullptr,
+       BySpeed<Position>, RemedyForAngleBySpeed,
+       "Does the pattern over position change with speed?",
+       "The pattern over position changes with speed: let the map depend on speed (--set "
+       "basis=velocity), or give it more kernels over speed."},
+      {"motor_angle_by_speed", kNoMapOrOneSpeed, sample, independent, of_effect, nullptr,
+       BySpeed<MotorAngle>, RemedyForAngleBySpeed,
+       "Does the pattern over the motor's angle change with speed?",
+       "The motor's ripple changes with speed: give its map more kernels over speed (--set "
+       "velocity_kernels)."},
       {"hold_parity", kNoHolds, hold, independent, of_either, OfHoldParity, Say<kParity>,
-       AgainstHolds, "Is every other hold of constant speed different?",
+       RemedyForHolds, "Is every other hold of constant speed different?",
        "Holds alternate: look whether the two directions have the same load."},
-      {"hold_phase", kNoHolds, hold, independent, of_either, OfHoldPhase, Say<kPhase>, AgainstHolds,
-       "Does it change within each hold of constant speed?",
+      {"hold_phase", kNoHolds, hold, independent, of_either, OfHoldPhase, Say<kPhase>,
+       RemedyForHolds, "Does it change within each hold of constant speed?",
        "Torque settles within each hold: raise --trim, or hold each speed for longer."},
       {"periodic", "the log is too short", last, independent, of_moves, OfPeriod, Period,
-       AgainstPeriod, "Does it repeat in time?",
+       RemedyForPeriod, "Does it repeat in time?",
        "Something repeats in time: look for a controller that swings, or another joint that "
        "moves."}};
   return tests;
@@ -184,6 +202,14 @@ const LackOfFitTest& PositionTest() {
 }
 const LackOfFitTest& MotorAngleTest() {
   static const LackOfFitTest& row = Row("motor_angle");
+  return row;
+}
+const LackOfFitTest& PositionBySpeedTest() {
+  static const LackOfFitTest& row = Row("position_by_speed");
+  return row;
+}
+const LackOfFitTest& MotorAngleBySpeedTest() {
+  static const LackOfFitTest& row = Row("motor_angle_by_speed");
   return row;
 }
 

@@ -65,5 +65,7 @@ const LackOfFitTest& LagTest();
 const LackOfFitTest& FadingTest();
 const LackOfFitTest& PositionTest();
 const LackOfFitTest& MotorAngleTest();
+const LackOfFitTest& PositionBySpeedTest();
+const LackOfFitTest& MotorAngleBySpeedTest();
 
 }  // namespace warmjoint

@@ -138,7 +138,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   fit.jacobian = [rows, of_model = std::move(fit.jacobian), torque, held, all = m.size()] {
     const KeptRuns& kept = *rows->runs();
     MatrixXd columns =
-        Beside(rows->Lagged(AtKept(of_model(), kept)), ByLogarithm(*rows, torque, held));
+        ConcatColumns(rows->Lagged(AtKept(of_model(), kept)), ByLogarithm(*rows, torque, held));
     columns -= rows->Dying(rows->HeldBy(columns));
     return AtSamples(columns, kept, all);
   };

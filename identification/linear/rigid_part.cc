@@ -136,7 +136,7 @@ RigidPart PrepareRigid(const IdentifierInput& input) {
   // the inertia, behind gravity
   const auto& acceleration = input.measurements.acceleration;
   fit.inertia = acceleration && !fit.why;
-  if (fit.inertia) fit.columns = Beside(fit.columns, *acceleration);
+  if (fit.inertia) fit.columns = ConcatColumns(fit.columns, *acceleration);
   return fit;
 }
 
@@ -183,8 +183,8 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
   Append({InertiaParameter(values[q], measurements)}, fit);
 }
 
-std::string AgainstPushing(std::string_view identifier, std::string_view law,
-                           FittedGravity gravity) {
+std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
+                                    FittedGravity gravity) {
   // levels of their own for both directions
   const std::string asymmetric =
       fmt::format("try --identifier {} --set law=asymmetric", identifier);
@@ -201,7 +201,7 @@ std::string AgainstPushing(std::string_view identifier, std::string_view law,
   return "is the sign of the torque reversed (--scale torque=-1)?";
 }
 
-Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
   both << a, b;
   return both;
@@ -225,7 +225,7 @@ LinearTask BeginLinear(const IdentifierInput& given, int more) {
   }
 
   // the columns of the law, then gravity and inertia
-  task.columns = Beside(LawColumns(task.law, given.measurements.velocity), gravity.columns);
+  task.columns = ConcatColumns(LawColumns(task.law, given.measurements.velocity), gravity.columns);
   return task;
 }
 

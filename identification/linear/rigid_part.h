@@ -67,11 +67,11 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
 
 /// A remedy where a fitted friction pushes the joint, which the fit does not hold already: another law, else gravity, else the
 /// torque's sign. identifier: one that can do both; law: of the fit; gravity: its option.
-std::string AgainstPushing(std::string_view identifier, std::string_view law,
-                           FittedGravity gravity);
+std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
+                                    FittedGravity gravity);
 
 /// [A B].
-Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// What a summary adds of samples that accelerate.
 inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inertia";

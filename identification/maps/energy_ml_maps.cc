@@ -45,7 +45,7 @@ std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& 
   Fit fit = AsFit(input, *alone);
   if (fit.refusal) return std::nullopt;
   const size_t row = *fit.RowOf(Role::start);
-  const KnownParameter found = Infer(fit).parameters[row];
+  const ParameterInterval found = Infer(fit).parameters[row];
   if (!found.std) return std::nullopt;
   // whether both E(0) contradict each other
   const std::string unlike = UnlikeBefore(expected, found.value, *found.std);

@@ -3,12 +3,48 @@
 #include <warmjoint/friction.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "identification/uncertainty/draw_noise.h"
+#include "identification/uncertainty/noise_model.h"
+#include "models/foundation/random_stream.h"
 
 namespace warmjoint {
 namespace {
+
+using Eigen::Index;
+
+constexpr double kDead = 1e-3;  // of the variance; why: far below what few draws can tell
+
+/// Samples after which nothing is left of a start from 0.
+Index Settling(const NoiseModel& noise, Index most) {
+  if (noise.order() == 0) return 0;
+  const Eigen::VectorXd covariances = CovariancesOf(noise, most);
+  Index last = most;
+  while (last > 0 && std::abs(covariances[last]) <= kDead * noise.variance) --last;
+  return std::max(last, noise.order());
+}
+
+/// Courses of n samples each of stationary noise of that colour, in N.m or N, [n x courses]. What drives it is uniform:
+/// its covariances are the model's, its higher moments are not.
+Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index courses, StartStream& stream) {
+  const Index p = noise.order();
+  // half the width of a uniform distribution with the variance of the innovations
+  const double half = std::sqrt(3 * (p == 0 ? noise.variance : noise.innovation));
+  Eigen::VectorXd drawn(Settling(noise, n) + n);
+  Eigen::MatrixXd all(n, courses);
+  for (auto course : all.colwise()) {
+    // the model's recursion, begun early enough to have settled
+    for (Index i = 0; i < drawn.size(); ++i) {
+      drawn[i] = stream.Uniform(-half, half);
+      for (Index k = 0; k < std::min(p, i); ++k) {
+        drawn[i] -= noise.coefficients[k] * drawn[i - 1 - k];
+      }
+    }
+    course = drawn.tail(n);
+  }
+  return all;
+}
 
 constexpr double kNarrowest = 0.7;  // of the kernels, spacings; why: no narrower shape is tried
 // why 8: with 16 or 32 the bands of tests/studies/maps.yaml hold the truth as often

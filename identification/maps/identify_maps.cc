@@ -34,7 +34,7 @@ std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& la
   const auto d = static_cast<int>(law.parameters.size() + rigid.count());
   if (auto why = Unusable(input, d + 2)) return Refusal{Status::bad_data, *why};
   Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
-  if (rigid.count() > 0) columns = Beside(columns, rigid.columns);
+  if (rigid.count() > 0) columns = ConcatColumns(columns, rigid.columns);
   const LeastSquares fit = SolveLeastSquares(Kept(columns, input.selection),
                                              Kept(input.measurements.torque, input.selection));
   if (fit.mixed.empty()) return std::nullopt;
@@ -102,7 +102,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
   // columns of the law, and beside them those of gravity and inertia
   const Law& law = *task.law;
   Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
-  if (task.rigid.count() > 0) columns = Beside(columns, task.rigid.columns);
+  if (task.rigid.count() > 0) columns = ConcatColumns(columns, task.rigid.columns);
   MapProblem problem{{},
                      Kept(PointsOf(input.measurements, task.energy), input.selection),
                      Kept(columns, input.selection),
@@ -230,8 +230,8 @@ MapTask WithGravity(const MapTask& task, const MapWeights& fit, const Eigen::Vec
   // maps that need hold no gravity any more have weights of another size
   with.settings.strength = 0;
   Eigen::MatrixXd columns = GravityColumns(GravityKind::sincos, {}, position);
-  with.rigid.columns =
-      Beside(Beside(columns, Eigen::VectorXd::Ones(position.size())), task.rigid.columns);
+  with.rigid.columns = ConcatColumns(ConcatColumns(columns, Eigen::VectorXd::Ones(position.size())),
+                                     task.rigid.columns);
   return with;
 }
 
@@ -251,7 +251,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   const Eigen::VectorXd of_law = columns * maps.x.head(columns.cols());
   const Eigen::VectorXd of_maps =
       EvaluateMaps(maps.maps, Kept(PointsOf(m, task.energy), input.selection));
-  const LeastSquares held = SolveLeastSquares(Beside(gravity, columns), of_maps);
+  const LeastSquares held = SolveLeastSquares(ConcatColumns(gravity, columns), of_maps);
   if (!held.mixed.empty()) return false;
   const double size = (gravity.leftCols(2) * held.solution.head(2)).norm();
   if (size < kDefaultRelevance * of_law.norm()) return false;
@@ -259,7 +259,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   // and whether it is gravity that a fit with both needs
   const std::optional<MapChoice> choice = ChooseAndFit(input, with);
   if (!choice) return false;
-  const Uncertainty known = JudgeMaps(choice->problem, choice->fit);
+  const Uncertainty known = MapCovariance(choice->problem, choice->fit);
   const Eigen::Index first = task.law_count();
   return std::abs(choice->fit.x[first]) > kBeyondDoubt * known.Deviation(first) ||
          std::abs(choice->fit.x[first + 1]) > kBeyondDoubt * known.Deviation(first + 1);
@@ -327,7 +327,7 @@ Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice
   if (!choice.fit.inverse.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, choice.fit);
   fit.errors.judge = [kept = std::make_shared<const MapChoice>(std::move(choice))] {
-    return OfTable(JudgeMaps(kept->problem, kept->fit), kept->fit);
+    return OfTable(MapCovariance(kept->problem, kept->fit), kept->fit);
   };
   return fit;
 }
@@ -336,7 +336,7 @@ Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
   auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(task.identifier, Unsolvable());
   if (task.settings.bands == MapBands::none) return AsSketch(input, task, std::move(*choice));
-  return AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
+  return AsFit(input, task, choice->fit, MapCovariance(choice->problem, choice->fit));
 }
 
 }  // namespace warmjoint

@@ -78,7 +78,7 @@ Refusal Unsolvable();
 
 /// Law and maps as a fit without warming; where they make a friction, with bands. The table has the
 /// law's parameters; those that the kernels can imitate get no interval and a warning, for only the
-/// prior's taste tells them from a map. known: of law and weights first (JudgeMaps), and maybe more.
+/// prior's taste tells them from a map. known: of law and weights first (MapCovariance), and maybe more.
 Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
           const Uncertainty& known);
 

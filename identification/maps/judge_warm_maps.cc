@@ -34,14 +34,15 @@ JointDerivatives DerivativesOf(const IdentifierInput& input, const WarmMaps& war
   const Eigen::MatrixXd law = LawColumns(nominal, m.velocity);
   const Eigen::MatrixXd of_loss = LossColumns(nominal, m);
   const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
-  const ClosedLoop loop = ClosedLoop::Along(m, Beside(law, kernels),
-                                            of_loss.size() > 0 ? Beside(of_loss, kernels) : of_loss)
-                              .WithJumps(Behind(warm.gaps));
+  const ClosedLoop loop =
+      ClosedLoop::Along(m, ConcatColumns(law, kernels),
+                        of_loss.size() > 0 ? ConcatColumns(of_loss, kernels) : of_loss)
+          .WithJumps(Behind(warm.gaps));
   const Eigen::Index d = law.cols(), q = kernels.cols();
   Eigen::VectorXd level(d + q);
   level << warm.fit.x.head(d), warm.fit.x.tail(q);
   // derivatives at the fitted warming, with its start and its jumps
-  const WarmFit& warming = warm.warming;
+  const ThermalFit& warming = warm.warming;
   const Thermal thermal = warming.thermal();
   Eigen::MatrixXd all =
       loop.Jacobian(level, thermal, warming.initial_energy(), warming.jump_values());
@@ -61,7 +62,7 @@ JointDerivatives DerivativesOf(const IdentifierInput& input, const WarmMaps& war
 }
 
 /// What was known beforehand of what is told of the heat: k, log tau, E(0), jumps. [2 or 3, + J]
-Eigen::VectorXd PriorOfHeat(const WarmFit& warming) {
+Eigen::VectorXd PriorOfHeat(const ThermalFit& warming) {
   const Eigen::VectorXd all = warming.prior();
   const Eigen::Index d = warming.law_parameters;
   return all.segment(d, all.size() - d - warming.offsets);
@@ -95,7 +96,7 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
     return jacobian.middleRows(first, last - first);
   };
   // independent weights: with those that go together gain and time constant are off by half of what is said
-  return JudgePenalised(
+  return PenalisedCovariance(
       {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, warm.fit.unseen, prior},
       rows, residual, input.selection);
 }

@@ -1,13 +1,68 @@
 #include "identification/maps/map_fit.h"
 
+#include <warmjoint/friction.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "identification/maps/holes.h"
-#include "identification/maps/weights_in_line.h"
+#include "identification/maps/kernel_lines.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+
+/// Of the weights of one line. [n x n]
+Eigen::MatrixXd CorrelationOf(const KernelLines& lines, double length) {
+  const auto n = static_cast<Index>(lines.length);
+  Eigen::MatrixXd smear(n, n);
+  // smeared with the distance in kernels, around the circle where there is one
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      const Index apart = std::abs(i - j);
+      const auto away = static_cast<double>(lines.circular ? std::min(apart, n - apart) : apart);
+      smear(i, j) = std::exp(-away * away / (length * length));
+    }
+  }
+  // rows of norm 1 give a correlation of 1 with itself
+  smear.rowwise().normalize();
+  return smear * smear.transpose();
+}
+
+/// Correlation of the weights of maps, one map's after the other's, those `unseen` left out, as if independent ones
+/// had been smeared along each line of the first axis by a Gaussian of `length` / sqrt(2) spacings: far from the ends
+/// exp(-d^2 / (2 length^2)) at d kernels' distance; 0 between lines. length > 0; returns [s x s] of the s seen ones.
+Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
+                                   const std::vector<bool>& unseen, double length) {
+  const auto q = static_cast<Index>(unseen.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(q, q);
+  Index first = 0;
+  for (const FrictionMap& map : maps) {
+    const KernelLines lines(map);
+    const auto stride = static_cast<Index>(lines.stride), size = static_cast<Index>(map.size());
+    const Eigen::MatrixXd line = CorrelationOf(lines, length);
+    // kernels of one line lie a stride apart
+    for (Index k = 0; k < stride; ++k) {
+      const auto of_line = Eigen::seq(first + k, first + size - stride + k, stride);
+      all(of_line, of_line) = line;
+    }
+    first += size;
+  }
+  // weights with data alone
+  std::vector<Index> seen;
+  for (Index k = 0; k < q; ++k) {
+    if (!unseen[static_cast<size_t>(k)]) seen.push_back(k);
+  }
+  return all(seen, seen);
+}
+
+}  // namespace
 NormalEquations NormalOf(const MapProblem& problem) {
   if (problem.rows) return problem.rows->Normal(problem.free, problem.torque);
   return LocalNormal(problem.maps, problem.points, problem.free, problem.torque, 0,
@@ -87,7 +142,7 @@ std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps,
   return maps;
 }
 
-Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
+Uncertainty MapCovariance(const MapProblem& problem, const MapFit& fit) {
   const Eigen::Index d = fit.x.size();
   // rows of law and kernels for a range of samples
   const auto rows = [&](Eigen::Index first, Eigen::Index last) {
@@ -99,15 +154,15 @@ Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
   const auto correlation = [&](double length) {
     return CorrelationInLines(fit.maps, fit.unseen, length);
   };
-  return JudgePenalised({fit.gram,
-                         fit.inverse,
-                         fit.free,
-                         fit.x.tail(d - fit.free),
-                         fit.strength,
-                         fit.unseen,
-                         {},
-                         correlation},
-                        rows, problem.torque - fit.fitted, problem.selection);
+  return PenalisedCovariance({fit.gram,
+                              fit.inverse,
+                              fit.free,
+                              fit.x.tail(d - fit.free),
+                              fit.strength,
+                              fit.unseen,
+                              {},
+                              correlation},
+                             rows, problem.torque - fit.fitted, problem.selection);
 }
 
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {

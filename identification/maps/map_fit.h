@@ -84,7 +84,7 @@ class RepeatedFit {
 std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen::VectorXd& weights);
 
 /// How sure its parameters and weights are (penalised_uncertainty.h).
-Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit);
+Uncertainty MapCovariance(const MapProblem& problem, const MapFit& fit);
 
 /// Sum of maps at some points, [n] N.m or N.
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points);

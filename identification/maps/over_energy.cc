@@ -91,7 +91,7 @@ Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* wa
   }
   if (!choice) return Refused(task.identifier, Unsolvable());
   // the fit with its errors, given that course of the energy
-  Fit fit = AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
+  Fit fit = AsFit(input, task, choice->fit, MapCovariance(choice->problem, choice->fit));
   return warm ? Complete(*warm, rounds, m, std::move(fit)) : fit;
 }
 

@@ -2,31 +2,72 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
+#include <Eigen/QR>
 #include <cmath>
+#include <deque>
 #include <numeric>
 #include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/maps/anderson_mixing.h"
 #include "identification/maps/judge_warm_maps.h"
 #include "identification/maps/map_block.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/maps/warming_block.h"
 #include "identification/physical_bounds.h"
-#include "identification/warming/warm_answer.h"
+#include "identification/warming/conclude_thermal_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
 
 namespace warmjoint {
 namespace {
 
+/// A fixed point x = g(x), by Anderson's method (J. ACM 12, 1965): the step is the combination of the
+/// latest four rounds whose residual g(x) - x is the smallest in squares.
+class AndersonMixing {
+ public:
+  /// Where to go on. x, g: [N] the point of this round, and g(x).
+  Eigen::VectorXd Next(const Eigen::VectorXd& x, const Eigen::VectorXd& g);
+
+ private:
+  struct Round {
+    Eigen::VectorXd residual;  // [N] g(x) - x
+    Eigen::VectorXd image;     // [N] g(x)
+  };
+  std::deque<Round> rounds_;
+};
+
+// rounds; why four: three differences, one for each way in which a warming is mistaken for a map (how far, how soon, from
+// where), span what converges slowly. The fixed point does not depend on it
+constexpr size_t kRemembered = 4;
+
+Eigen::VectorXd AndersonMixing::Next(const Eigen::VectorXd& x, const Eigen::VectorXd& g) {
+  rounds_.push_back({g - x, g});
+  if (rounds_.size() > kRemembered) rounds_.pop_front();
+  const auto differences = static_cast<Eigen::Index>(rounds_.size()) - 1;
+  if (differences == 0) return g;
+
+  // each round against the one before it
+  Eigen::MatrixXd of_residual(g.size(), differences), of_image(g.size(), differences);
+  for (Eigen::Index i = 0; i < differences; ++i) {
+    const Round& before = rounds_[static_cast<size_t>(i)];
+    const Round& after = rounds_[static_cast<size_t>(i) + 1];
+    of_residual.col(i) = after.residual - before.residual;
+    of_image.col(i) = after.image - before.image;
+  }
+  // the combination of the differences that comes nearest to the latest residual
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(of_residual);
+  Eigen::VectorXd next = g - of_image * solver.solve(rounds_.back().residual);
+  return next.allFinite() ? next : g;
+}
+
 constexpr int kMostRounds = 50;
 constexpr double kAtRest = 1e-6;  // of gain and time constant between rounds, relative
 constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
 
-bool AtRest(const Thermal& a, const Thermal& b) {
+bool HasConverged(const Thermal& a, const Thermal& b) {
   return std::abs(a.gain - b.gain) <= kAtRest * std::abs(b.gain) &&
          std::abs(a.time_constant - b.time_constant) <= kAtRest * b.time_constant;
 }
@@ -75,7 +116,7 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
 /// Adds the warming to a fit of law and maps. known: JudgeWarmMaps
 void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements& measurements,
              Fit& fit) {
-  const WarmFit& warming = warm.warming;
+  const ThermalFit& warming = warm.warming;
   fit.friction.thermal = warming.thermal();
   fit.initial_energy = warming.initial_energy();
   fit.jump_samples = Behind(warm.gaps);
@@ -118,7 +159,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
     if (!warming.FitBeside(block)) break;
     // at rest: the warming of this round is that of the last
     const Thermal thermal = warming.fit().thermal();
-    warm.converged = before && AtRest(*before, thermal);
+    warm.converged = before && HasConverged(*before, thermal);
     if (warm.converged) break;
     before = thermal;
 
@@ -175,9 +216,9 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // a friction that drives itself by its own heat is no model
   const auto* asked = input.options.Find<GravityOption>();
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
-    return Refused(
-        name, Status::inadequate_model,
-        WouldFeedItself(m.time[at], AgainstPushing("energy-ml", fit.friction.law,
+    return Refused(name, Status::inadequate_model,
+                   WouldFeedItself(m.time[at], RemedyForNonDissipative(
+                                                   "energy-ml", fit.friction.law,
                                                    asked ? asked->gravity : FittedGravity::none)));
   }
   return fit;

@@ -3,7 +3,7 @@
 
 #include "identification/maps/identify_maps.h"
 #include "identification/warming/gaps.h"
-#include "identification/warming/warm_fit.h"
+#include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
 
@@ -11,7 +11,7 @@ namespace warmjoint {
 struct WarmMaps {
   MapTask task;              // with the choice made, and E
   MapFit fit;                // law and maps beside E
-  WarmFit warming;           // of law, one factor on the maps, and all that is told of the heat
+  ThermalFit warming;        // of law, one factor on the maps, and all that is told of the heat
   std::vector<LogGap> gaps;  // where E jumps
   /// Drop of |e|^2 that warming brings, over the noise's variance. Where it stays far below what can be seen,
   /// task and fit are not set.
@@ -22,9 +22,9 @@ struct WarmMaps {
 
 /// Two blocks in turn, each exact for the other: maps and their strength by ridge on what E leaves
 /// of the torque; the warming, the law and one factor on the maps by maximum likelihood over the
-/// closed loop (warm_fit.h), until gain and time constant rest to 1e-6. The blocks hardly overlap:
+/// closed loop (thermal_fit.h), until gain and time constant rest to 1e-6. The blocks hardly overlap:
 /// a map repeats itself with every pass, warming does not; where they do, as in short logs or around a gap,
-/// rounds are mixed (anderson_mixing.h). At gaps E jumps, as energy-ml has it.
+/// rounds are mixed by the method of Anderson. At gaps E jumps, as energy-ml has it.
 /// task.energy is not read; initial: what is known of E(0). Nothing where no fit can be solved.
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
                                     const InitialEnergy& initial = InitialEnergy::zero);

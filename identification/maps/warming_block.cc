@@ -20,8 +20,8 @@ ClosedLoop LoopOf(const Measurements& m, const Law& law, const MapBlock& maps) {
   if (!(values.norm() > 1e-9 * (columns * maps.fit().x.head(columns.cols())).norm())) {
     return ClosedLoop::Along(m, columns, of_loss);
   }
-  return ClosedLoop::Along(m, Beside(columns, values),
-                           of_loss.size() > 0 ? Beside(of_loss, values) : of_loss);
+  return ClosedLoop::Along(m, ConcatColumns(columns, values),
+                           of_loss.size() > 0 ? ConcatColumns(of_loss, values) : of_loss);
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ bool WarmingBlock::FitBeside(const MapBlock& maps) {
     loop = loop.WithJumps(Behind(gaps_));
   }
   // the fit of warming and rigid part; where it is the first, jumps follow it
-  fit_ = FitWarmFriction(loop, level, offsets, kept_, from, initial_, scale, jump_weights);
+  fit_ = FitThermalFriction(loop, level, offsets, kept_, from, initial_, scale, jump_weights);
   if (jumps && first) {
     FitJumps(loop, level, offsets, kept_, gaps_, from, *fit_);
   }

@@ -6,7 +6,7 @@
 
 #include "identification/maps/map_block.h"
 #include "identification/warming/gaps.h"
-#include "identification/warming/warm_fit.h"
+#include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
 
@@ -22,7 +22,7 @@ class WarmingBlock {
   /// it does not converge.
   bool FitBeside(const MapBlock& maps);
 
-  const WarmFit& fit() const { return *fit_; }
+  const ThermalFit& fit() const { return *fit_; }
   const Eigen::VectorXd& energy() const { return energy_; }  // [N] E, N.m or N
   const std::vector<LogGap>& gaps() const { return gaps_; }  // where E jumps
 
@@ -32,7 +32,7 @@ class WarmingBlock {
   const InitialEnergy initial_;
   const std::vector<LogGap> gaps_;
   const Eigen::VectorXd kept_;  // [N] 1 where a sample counts
-  std::optional<WarmFit> fit_;
+  std::optional<ThermalFit> fit_;
   Eigen::VectorXd energy_;
 };
 

@@ -106,8 +106,8 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
     answer.rows.push_back(problem.IsConstant(i) ? -1 : row++);
   }
   const Eigen::MatrixXd jacobian = FreeColumns(problem, fit.jacobian);
-  answer.known = JudgeUncertainty(jacobian, Cofactor(jacobian.transpose() * jacobian), fit.residual,
-                                  problem.used);
+  answer.known = EstimateCovariance(jacobian, Cofactor(jacobian.transpose() * jacobian),
+                                    fit.residual, problem.used);
   // the sampling's error beside that of the noise
   const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
 

@@ -15,7 +15,7 @@
 namespace warmjoint {
 
 /// tau = F + M a over the samples of `used`. The bristle runs over all samples; how it is bent as
-/// each recording begins is estimated beside x (lugre_course.h).
+/// each recording begins is estimated beside x.
 struct LugreProblem {
   MotionPieces motion;                                   // of the N samples
   Eigen::VectorXd acceleration;                          // [N] rad/s^2 or m/s^2

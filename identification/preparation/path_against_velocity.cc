@@ -68,7 +68,7 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
   const auto middle = [](const Segment& segment) { return (segment.begin + segment.end - 1) / 2; };
 
   // ways from the middle of a segment to that of the next, without gaps between
-  std::vector<Way> ways;
+  std::vector<Transition> ways;
   double path = 0, sum = 0;
   for (size_t i = 0; i + 1 < segments.size(); ++i) {
     const Index first = middle(segments[i]), last = middle(segments[i + 1]);
@@ -85,7 +85,7 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
 
   // standard error of the mean difference, from its spread over the ways
   double squares = 0;
-  for (const Way& way : ways) squares += std::pow(way.difference - sum / n, 2);
+  for (const Transition& way : ways) squares += std::pow(way.difference - sum / n, 2);
   return PathComparison{sum / path, std::sqrt(squares / (n - 1) * n) / path, std::move(ways)};
 }
 
@@ -95,7 +95,7 @@ bool Contradicts(const PathComparison& paths) {
 
 bool PositionsTellMore(const PathComparison& paths, double deviation) {
   double squares = 0, length = 0;
-  for (const Way& way : paths.ways) {
+  for (const Transition& way : paths.ways) {
     squares += way.difference * way.difference;
     length += way.length;
   }

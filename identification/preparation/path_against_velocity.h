@@ -12,7 +12,7 @@ namespace warmjoint {
 inline constexpr double kSameSpeed = 0.02;
 
 /// From the middle of a segment to the middle of the next.
-struct Way {
+struct Transition {
   Eigen::Index first = 0, last = 0;  // samples
   double length = 0;                 // path of the positions, rad or m
   double difference = 0;             // path of the velocities less that, rad or m
@@ -22,7 +22,7 @@ struct Way {
 struct PathComparison {
   double excess = 0;  // path of the velocities / path of the positions - 1
   double error = 0;   // its standard error, from the scatter over the ways
-  std::vector<Way> ways;
+  std::vector<Transition> ways;
 };
 
 /// Compares two versions of one log, each with the velocity held until the next sample:

@@ -8,10 +8,10 @@
 #include "identification/preparation/motion_from_positions.h"
 #include "identification/preparation/path_against_velocity.h"
 #include "identification/preparation/position_noise.h"
+#include "identification/preparation/replace_transitions.h"
 #include "identification/preparation/segment_velocity.h"
 #include "identification/preparation/select.h"
 #include "identification/preparation/split_at_switches.h"
-#include "identification/preparation/take_ways.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/measurements.h"
 
@@ -235,8 +235,8 @@ struct PreparedLog::Maker {
     const LogView& steady = log.steady ? *log.steady : log.taken;
     const double noise = MeasurePositionNoise(log.taken.measurements.position).deviation;
     if (!PositionsTellMore(*other.paths, noise)) return;
-    log.steady =
-        TakeWays(log.taken, steady.measurements, other.motion.measurements, other.paths->ways);
+    log.steady = ReplaceTransitions(log.taken, steady.measurements, other.motion.measurements,
+                                    other.paths->ways);
     log.unseen = other.motion.unseen;
   }
 };

@@ -72,7 +72,7 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
   // rows of the kept samples, what else is fitted beside them, in white noise
   const auto rows_of = [&](const Eigen::MatrixXd& jacobian) {
     const Eigen::MatrixXd all =
-        nuisance.size() > 0 ? Beside(jacobian, nuisance) : Eigen::MatrixXd(jacobian);
+        nuisance.size() > 0 ? ConcatColumns(jacobian, nuisance) : Eigen::MatrixXd(jacobian);
     return Whitened(Kept(all, selection), measurements, selection, truth);
   };
 

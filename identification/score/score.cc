@@ -56,7 +56,7 @@ Eigen::MatrixXd Nuisance(const Estimate& estimate, const Measurements& m) {
   if (!m.acceleration) return {};
   if (!estimate.gravity) return *m.acceleration;
   const GravityModel& gravity = *estimate.gravity;
-  return Beside(GravityColumns(gravity.kind, gravity.knots, m.position), *m.acceleration);
+  return ConcatColumns(GravityColumns(gravity.kind, gravity.knots, m.position), *m.acceleration);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ Eigen::MatrixXd BeforeData(const PenalisedFit& fit, const std::vector<Index>& dr
 
 }  // namespace
 
-Uncertainty JudgePenalised(
+Uncertainty PenalisedCovariance(
     const PenalisedFit& fit,
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
     const Eigen::VectorXd& residual, const Selection& selection) {

@@ -30,7 +30,7 @@ struct PenalisedFit {
 /// noise and S = s_e^2 / s this is the posterior s_e^2 C. Of the weights L = (C G)_ww is found, their pull takes
 /// B = s^2 C_w^T G C_w from the fitted values, and V = (C J^T R J C)_ww is their noise.
 /// rows(first, last): of J at the kept samples first <= i < last; residual: [n] y - f.
-Uncertainty JudgePenalised(
+Uncertainty PenalisedCovariance(
     const PenalisedFit& fit,
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
     const Eigen::VectorXd& residual, const Selection& selection);

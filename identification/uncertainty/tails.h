@@ -11,6 +11,7 @@ namespace warmjoint {
 
 /// Share of the cases in which reported intervals hold the truth.
 inline constexpr double kIntervalLevel = 0.95;
+inline constexpr double kNormal95 = 1.96;  // why: 95 % of a normal variable
 
 /// What chi-squared of one degree of freedom exceeds by chance in 1 % of the cases.
 inline constexpr double kNoChance = 6.63;  // why 6.63: by definition

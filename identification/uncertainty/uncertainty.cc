@@ -51,16 +51,16 @@ Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& k
 
 }  // namespace
 
-Uncertainty JudgeUncertainty(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
-                             const Eigen::VectorXd& residual, const Selection& selection,
-                             const Eigen::VectorXd& fitted, const Eigen::VectorXd& prior) {
-  return JudgeUncertainty([&] { return jacobian; }, cofactor, residual, selection, fitted, prior);
+Uncertainty EstimateCovariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
+                               const Eigen::VectorXd& residual, const Selection& selection,
+                               const Eigen::VectorXd& fitted, const Eigen::VectorXd& prior) {
+  return EstimateCovariance([&] { return jacobian; }, cofactor, residual, selection, fitted, prior);
 }
 
-Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
-                             const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                             const Selection& selection, const Eigen::VectorXd& fitted,
-                             const Eigen::VectorXd& prior) {
+Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
+                               const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
+                               const Selection& selection, const Eigen::VectorXd& fitted,
+                               const Eigen::VectorXd& prior) {
   Uncertainty result;
   result.noise = FitNoise(residual, selection);
   const auto n = static_cast<double>(residual.size());

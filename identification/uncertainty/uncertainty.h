@@ -36,15 +36,16 @@ struct Uncertainty {
 /// or empty where only time is asked about; prior: [d] what
 /// is known of x beforehand, P = diag(prior): the noise's variance over the variance of each
 /// parameter, or 0. With it C = (J^T J + P)^-1, and P times the noise's variance joins J^T R J.
-Uncertainty JudgeUncertainty(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
-                             const Eigen::VectorXd& residual, const Selection& selection,
-                             const Eigen::VectorXd& fitted = {}, const Eigen::VectorXd& prior = {});
+Uncertainty EstimateCovariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
+                               const Eigen::VectorXd& residual, const Selection& selection,
+                               const Eigen::VectorXd& fitted = {},
+                               const Eigen::VectorXd& prior = {});
 
 /// The same for a Jacobian that is costly to form: called for coloured noise alone.
-Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
-                             const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                             const Selection& selection, const Eigen::VectorXd& fitted = {},
-                             const Eigen::VectorXd& prior = {});
+Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
+                               const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
+                               const Selection& selection, const Eigen::VectorXd& fitted = {},
+                               const Eigen::VectorXd& prior = {});
 
 /// Variance that the rounding of doubles leaves in the residual of an exact torque: sums over n samples carry errors of
 /// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). What is below is no

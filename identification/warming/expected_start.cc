@@ -10,11 +10,12 @@ namespace {
 constexpr double kBeyondDoubt = 4;  // deviations
 
 /// Once more from where a fit ended, which it takes the place of.
-WarmFit Again(const ClosedLoop& loop, const Eigen::VectorXd& level, const Eigen::MatrixXd& offsets,
-              const Eigen::VectorXd& kept, const InitialEnergy& initial, const WarmFit& fit) {
+ThermalFit Again(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                 const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                 const InitialEnergy& initial, const ThermalFit& fit) {
   const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  WarmFit next =
-      FitWarmFriction(loop, level, offsets, kept, StartFrom(fit), initial, scale, fit.jump_weights);
+  ThermalFit next = FitThermalFriction(loop, level, offsets, kept, StartFrom(fit), initial, scale,
+                                       fit.jump_weights);
   next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
   return next;
 }
@@ -45,12 +46,12 @@ std::string UnlikeBefore(const InitialEnergy& expected, double found, double dev
 
 std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                       const std::function<double(const WarmFit&)>& deviation, WarmFit& fit) {
+                       const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit) {
   const InitialEnergy initial = fit.initial;
   if (!initial.is_expected()) return "";
 
   // the log alone, which says what its noise is, too
-  const WarmFit alone = Again(loop, level, offsets, kept, InitialEnergy::estimated, fit);
+  const ThermalFit alone = Again(loop, level, offsets, kept, InitialEnergy::estimated, fit);
   if (alone.converged) {
     const std::string unlike = UnlikeBefore(initial, alone.initial_energy(), deviation(alone));
     if (!unlike.empty()) {
@@ -59,7 +60,7 @@ std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
     }
   }
   // no contradiction: both together, from where the better fit ended
-  const WarmFit& better = alone.converged ? alone : fit;
+  const ThermalFit& better = alone.converged ? alone : fit;
   fit = Again(loop, level, offsets, kept, initial, better);
   return "";
 }

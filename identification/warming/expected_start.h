@@ -8,7 +8,7 @@
 
 #include "identification/identifier.h"
 #include "identification/options.h"
-#include "identification/warming/warm_fit.h"
+#include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
 
@@ -52,10 +52,10 @@ std::string UnlikeBefore(const InitialEnergy& expected, double found, double dev
 
 /// Fits once more where E(0) was expected, by the noise that the fit leaves: the fit before it knew no
 /// noise to weigh the expectation by. Where the log contradicts what was expected (UnlikeBefore), E(0) is estimated from the log alone. loop, level, offsets, kept: as of
-/// FitWarmFriction; fit: takes the place of the one given. deviation: of E(0) in a fit that knows
+/// FitThermalFriction; fit: takes the place of the one given. deviation: of E(0) in a fit that knows
 /// nothing of it, N.m or N. Returns the clause that tells of a contradiction, else an empty text.
 std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                       const std::function<double(const WarmFit&)>& deviation, WarmFit& fit);
+                       const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit);
 
 }  // namespace warmjoint

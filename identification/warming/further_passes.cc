@@ -12,7 +12,7 @@ namespace {
 /// FitJumps beside the E(0) that the fit has or knows. loop: with the jumps
 Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, WarmFit& fit) {
+                         const std::vector<LogGap>& gaps, ThermalFit& fit) {
   const Thermal thermal = fit.thermal();
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gaps.size()));
   // how large jumps may be, by the energy without them
@@ -22,8 +22,8 @@ Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
       JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   // how much noise there is, by the squares so far
   const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  WarmFit next = FitWarmFriction(loop, level, offsets, kept, StartFrom(fit), fit.initial, scale,
-                                 JumpWeights(scale, spread));
+  ThermalFit next = FitThermalFriction(loop, level, offsets, kept, StartFrom(fit), fit.initial,
+                                       scale, JumpWeights(scale, spread));
   next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
   fit = std::move(next);
   return spread;
@@ -34,21 +34,21 @@ Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
 Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                          const std::vector<LogGap>& gaps, const InitialGuess& scanned,
-                         WarmFit& fit) {
+                         ThermalFit& fit) {
   const ClosedLoop without = std::exchange(loop, loop.WithJumps(Behind(gaps)));
   const Eigen::VectorXd spread = AddJumps(loop, level, offsets, kept, gaps, fit);
   if (!fit.estimates_initial_energy()) return spread;
 
   // the other way: a cold start, jumps, then E(0)
   const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  WarmFit other =
-      FitWarmFriction(without, level, offsets, kept, scanned, InitialEnergy::zero, scale);
+  ThermalFit other =
+      FitThermalFriction(without, level, offsets, kept, scanned, InitialEnergy::zero, scale);
   if (!other.converged) return spread;
   // the start E(0) beside those jumps
   const Eigen::VectorXd other_spread = AddJumps(loop, level, offsets, kept, gaps, other);
-  WarmFit freed =
-      FitWarmFriction(loop, level, offsets, kept, StartFrom(other), fit.initial,
-                      std::sqrt(other.solution.squares / kept.sum()), other.jump_weights);
+  ThermalFit freed =
+      FitThermalFriction(loop, level, offsets, kept, StartFrom(other), fit.initial,
+                         std::sqrt(other.solution.squares / kept.sum()), other.jump_weights);
   // taken where it converges and leaves smaller squares
   const bool leaves_less = !(fit.converged && fit.solution.squares <= freed.solution.squares);
   if (!freed.converged || !leaves_less) return spread;
@@ -61,7 +61,7 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
                                              const ClosedLoop& loop, const Eigen::VectorXd& level,
                                              const Eigen::MatrixXd& offsets,
                                              const Eigen::VectorXd& spread,
-                                             const LoopResponse& response, WarmFit& fit) {
+                                             const LoopResponse& response, ThermalFit& fit) {
   if (!fit.converged || response.feeds_itself) return nullptr;
   // what the fit leaves, and the noise in it
   const Eigen::VectorXd left =
@@ -71,8 +71,9 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
 
   // the same fit by whitened rows
   const double scale = std::sqrt(whitening->noise().innovation);
-  WarmFit next = FitWarmFriction(loop, level, offsets, moving.keep.cast<double>(), StartFrom(fit),
-                                 fit.initial, scale, JumpWeights(scale, spread), whitening.get());
+  ThermalFit next =
+      FitThermalFriction(loop, level, offsets, moving.keep.cast<double>(), StartFrom(fit),
+                         fit.initial, scale, JumpWeights(scale, spread), whitening.get());
   if (!next.converged) return nullptr;
   next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
   fit = std::move(next);

@@ -4,7 +4,8 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/lack_of_fit/judge.h"
+#include "identification/inference/apply.h"
+#include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 
@@ -18,7 +19,7 @@ void Identify(benchmark::State& state, const char* name,
   const Identifier& identifier = FindIdentifier(name);
   const IdentifierInput input{Prepare(recording), identifier.options.Read(given), {}};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(IdentifyUnjudged(identifier, input));
+    benchmark::DoNotOptimize(IdentifyUnchecked(identifier, input));
   }
 }
 
@@ -34,9 +35,8 @@ void Judge(benchmark::State& state, const char* name) {
   const Fit fit = identifier.fit(input);
   const Inference inferred = Infer(fit);
   for (auto _ : state) {
-    Inference judged = inferred;
-    JudgeLackOfFit(identifier, input, fit, {}, judged);
-    benchmark::DoNotOptimize(judged);
+    const LackOfFit found = FindLackOfFit(identifier, input, fit, inferred, {});
+    benchmark::DoNotOptimize(Apply(inferred, found.causes));
   }
 }
 

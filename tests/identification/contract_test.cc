@@ -45,8 +45,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
         given[option.name] = "8";
       }
     }
-    return IdentifyUnjudged(GetParam(), {Prepare(measurements, selection),
-                                         GetParam().options.Read(given), StartKey{{11, 3}}});
+    return IdentifyUnchecked(GetParam(), {Prepare(measurements, selection),
+                                          GetParam().options.Read(given), StartKey{{11, 3}}});
   }
   Estimate Identify(const Measurements& measurements) const {
     return Identify(measurements, SelectMoving(measurements));
@@ -361,7 +361,7 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   log.position = 19.5 - (log.time.array() - 19.5).abs();
   const Selection selection = SelectMoving(log);
   const PreparedLog prepared = Prepare(log, selection);
-  const IdentifierInput seen = Seen(GetParam(), {prepared, GetParam().options, {}});
+  const IdentifierInput seen = SelectSamples(GetParam(), {prepared, GetParam().options, {}});
   const bool steady = GetParam().regime == Regime::steady;
   EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
   EXPECT_GT(prepared.unseen(), 0);

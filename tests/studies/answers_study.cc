@@ -55,7 +55,7 @@ void Study(const Suite& suite, int variant, int realizations) {
     const PreparedLog log = Prepare(plant->Run(static_cast<std::uint64_t>(r)).measurements);
     for (const SuiteIdentifier& one : suite.identifiers) {
       const Identifier& identifier = FindIdentifier(one.name);
-      const Estimate estimate = IdentifyAndJudge(
+      const Estimate estimate = IdentifyAndCheck(
           identifier, {log, identifier.options.Read(one.options, {one.label}), {}});
       fmt::print("{} {} {} {}", name, r, one.label, StatusName(estimate.status));
       const Selection& kept = log.steady().selection;

@@ -107,7 +107,7 @@ void Study(const Suite& suite, int variant, int realizations) {
       const Simulation recording = plant->Run(static_cast<std::uint64_t>(r));
       const PreparedLog log = Prepare(recording.measurements);
       const IdentifierInput input{log, identifier.options.Read(one.options, {one.label}), {}};
-      const Answer answer = FitAndJudge(identifier, input);
+      const Answer answer = FitAndCheck(identifier, input);
       const Verdict verdict = VerdictOf(ReportAnswer(identifier, input, answer), recording, log);
       if (!verdict.told) continue;
       ++told;

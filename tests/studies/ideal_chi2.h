@@ -62,7 +62,7 @@ class IdealChi2 {
     const Identifier& identifier = FindIdentifier(one.name);
     const PreparedLog log = Prepare(plant_->Run(realization).measurements);
     const IdentifierInput given{log, identifier.options.Read(one.options, {one.label}), {}};
-    const IdentifierInput input = Seen(identifier, given);
+    const IdentifierInput input = SelectSamples(identifier, given);
     const double squares =
         LeastSquaresOf(identifier.fit(input), input.measurements, input.selection);
     if (squares < 0) return {};

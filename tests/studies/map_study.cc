@@ -108,7 +108,7 @@ struct Outcomes {
 
 Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Texts& given) {
   const IdentifierInput input{log, identifier.options.Read(given), {}};
-  return identifier.fit(Seen(identifier, input));
+  return identifier.fit(SelectSamples(identifier, input));
 }
 
 /// rms of the friction's error along a log; nothing where the fit predicts nothing.

@@ -99,13 +99,13 @@ struct Compared {
 Compared Choose(const PreparedLog& log) {
   const Identifier& identifier = FindIdentifier("auto");
   const IdentifierInput input{log, identifier.options, {}};
-  Fit fit = identifier.fit(Seen(identifier, input));
+  Fit fit = identifier.fit(SelectSamples(identifier, input));
   return {fit.choice ? WithoutShape(fit.choice->chosen) : "nothing", std::move(fit)};
 }
 
 Fit FitRight(const Structure& right, const PreparedLog& log) {
   const IdentifierInput input{log, right.identifier.options, {}};
-  return right.identifier.fit(Seen(right.identifier, input));
+  return right.identifier.fit(SelectSamples(right.identifier, input));
 }
 
 void Study(const Suite& suite, int variant, int realizations) {

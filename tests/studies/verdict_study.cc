@@ -222,7 +222,7 @@ void Study(const Suite& suite, int variant, int realizations) {
     for (size_t i = 0; i < outcomes.size(); ++i) {
       const SuiteIdentifier& one = suite.identifiers[i];
       const Identifier& identifier = FindIdentifier(one.name);
-      const Estimate estimate = IdentifyAndJudge(
+      const Estimate estimate = IdentifyAndCheck(
           identifier, {log, identifier.options.Read(one.options, {one.label}), {}});
       outcomes[i].Count(estimate, recording, ScoredView(estimate, log),
                         ideal.Of(one, static_cast<std::uint64_t>(r)));

@@ -38,14 +38,14 @@ inline Measurements RecordHour(const Friction& friction, std::uint64_t seed, dou
 inline Estimate Answer(const std::string& name, const Measurements& measurements,
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
-  return IdentifyAndJudge(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
+  return IdentifyAndCheck(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
 }
 
 /// The same without its verdict.
 inline Estimate Fitted(const std::string& name, const PreparedLog& log,
                        const std::map<std::string, std::string>& given = {}, StartKey key = {}) {
   const Identifier& identifier = FindIdentifier(name);
-  return IdentifyUnjudged(identifier, {log, identifier.options.Read(given), key});
+  return IdentifyUnchecked(identifier, {log, identifier.options.Read(given), key});
 }
 
 inline Estimate Fitted(const std::string& name, const Measurements& measurements,

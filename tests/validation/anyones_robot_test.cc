@@ -57,7 +57,7 @@ TEST_P(AnyonesRobot, GivesBackTheFrictionOfAJointUnderGravity) {
   const Simulation recording = MakePlant(scenario)->Run(0);
 
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Estimate estimate = IdentifyUnjudged(
+  const Estimate estimate = IdentifyUnchecked(
       identifier,
       {Prepare(recording.measurements), identifier.options.Read({{"gravity", "sincos"}}), {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;

@@ -33,7 +33,7 @@ double TestRmse(const Measurements& m, const std::string& name,
                 const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options = identifier.options.Read(given);
-  const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4);
+  const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4).metrics;
   if (!held) return kInfinity;
   std::cout << name << ": " << held->rmse << " N rms on the last 40 %\n";
   return held->rmse;

@@ -81,7 +81,7 @@ TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
       ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = identifier.options.Read({{"gravity", "paired"}});
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
+  const Estimate estimate = IdentifyUnchecked(identifier, {Prepare(log), options, {}});
   ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
 
   // Janot, Gautier, Brunot 2019, from all samples: within our interval

@@ -34,7 +34,7 @@ TEST(LuGreInTheEngine, ComesBackFromSlowAndSmallTurns) {
   const Measurements m = MakePlant(scenario)->Run(0).measurements;
 
   const Identifier& identifier = FindIdentifier("lugre");
-  const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m), identifier.options, {}});
+  const Estimate estimate = IdentifyAndCheck(identifier, {Prepare(m), identifier.options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : scenario.friction.parameters) {
     const EstimatedParameter& found = *estimate.Find(name);

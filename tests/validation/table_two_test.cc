@@ -25,8 +25,8 @@ Reached Reach(const SuiteIdentifier& entry, const Simulation& recording) {
   const Identifier& identifier = FindIdentifier(entry.name);
   const IdentifierInput input{
       Prepare(recording.measurements), identifier.options.Read(entry.options), {}};
-  const Estimate estimate = IdentifyUnjudged(identifier, input);
-  const auto held = HoldOut(identifier, input, 0.3);
+  const Estimate estimate = IdentifyUnchecked(identifier, input);
+  const auto held = HoldOut(identifier, input, 0.3).metrics;
   Reached reached;
   if (estimate.metrics) reached.in_sample = estimate.metrics->rmse;
   if (held) reached.held_out = held->rmse;

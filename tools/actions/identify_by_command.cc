@@ -50,7 +50,8 @@ CheckedCommand CheckCommand(const IdentifySettings& settings, Confinement confin
   for (const auto& [name, value] : settings.options) {
     command.options.insert_or_assign(name, value);
   }
-  PreparedIdentifier ask = PrepareExternal(command, {"--set"}, JudgingOf(settings), confinement);
+  PreparedIdentifier ask =
+      PrepareExternal(command, {"--set"}, LackOfFitSettingsOf(settings), confinement);
   return {std::move(command), std::move(ask)};
 }
 

@@ -1,18 +1,201 @@
 // warmjoint list laws|identifiers|robots|suites [NAME]: what there is to choose from.
 #include <fmt/ranges.h>
+#include <warmjoint/friction.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
+#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/number_json.h"
+#include "models/robots/robot_folder.h"
+#include "models/robots/robot_list.h"
+#include "scenarios/suite.h"
+#include "tools/actions/suite_names.h"
 #include "tools/cli/command.h"
-#include "tools/cli/families.h"
 #include "tools/cli/typed_options.h"
+#include "tools/identify/catalogue.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint {
 namespace {
+
+/// A family. Each member is an object with `name`; its text is made from that object alone.
+struct Family {
+  std::string name;
+  nlohmann::ordered_json (*members)();
+  std::vector<std::string> (*names)();  // the same names, without reading more than they need
+  std::string (*line)(const nlohmann::ordered_json& member);  // in the list of all
+  std::string (*page)(const nlohmann::ordered_json& member);  // by itself
+};
+
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+std::string Words(const ordered_json& words) {
+  return fmt::format("{}", fmt::join(words.get<std::vector<std::string>>(), ", "));
+}
+
+std::string TextOf(const ordered_json& object, const char* key) {
+  return object[key].get<std::string>();
+}
+
+/// A bound, or what stands for one that does not exist.
+std::string BoundText(const ordered_json& bound, const char* none) {
+  return bound.is_null() ? std::string(none) : fmt::format("{:.6g}", bound.get<double>());
+}
+
+// --- laws ---------------------------------------------------------------------------------------
+
+std::string LawText(const ordered_json& law) {
+  // the formula, then the table of its parameters
+  std::string text = fmt::format("{}  {}\n", TextOf(law, "name"), TextOf(law, "equation"));
+  Table table{{"  parameter", "symbol", "unit", "(linear)", "from", "to", "meaning"}, {}};
+  for (const ordered_json& info : law["parameters"]) {
+    table.rows.push_back({"  " + TextOf(info, "name"), info["symbol"], info["unit"]["rotary"],
+                          info["unit"]["linear"], BoundText(info["lower"], "-inf"),
+                          BoundText(info["upper"], "inf"), info["meaning"]});
+  }
+  if (!table.rows.empty()) text += TableToText(table, table.header.size());
+  // maps have words in the place of numbers
+  for (const char* key : {"quantities", "kernels", "factors"}) {
+    if (law.contains(key)) text += fmt::format("  {}: {}\n", key, Words(law[key]));
+  }
+  return text;
+}
+
+// --- identifiers --------------------------------------------------------------------------------
+
+std::vector<std::string> IdentifierNames() {
+  std::vector<std::string> names;
+  for (const Identifier& identifier : Identifiers()) names.push_back(identifier.name);
+  return names;
+}
+
+std::string IdentifierHead(const ordered_json& identifier) {
+  const std::string earlier = identifier.value("earlier_name", "");
+  return fmt::format("{}\n    {}{}\n", TextOf(identifier, "name"), TextOf(identifier, "summary"),
+                     earlier.empty() ? "" : "; its earlier name is " + earlier);
+}
+
+std::string IdentifierLine(const ordered_json& identifier) {
+  // what it does, and the names of its options
+  std::vector<std::string> options;
+  for (const ordered_json& option : identifier["options"]) options.push_back(option["name"]);
+  const std::string head = IdentifierHead(identifier);
+  return options.empty() ? head : head + fmt::format("    --set {}\n", fmt::join(options, ", "));
+}
+
+std::string IdentifierText(const ordered_json& identifier) {
+  // what it does, then each option with all that is known of it
+  std::string text = IdentifierHead(identifier);
+  if (identifier["options"].empty()) return text + "    It has no options.\n";
+  text += "\nOptions, each given as --set NAME=VALUE:\n";
+  for (const ordered_json& option : identifier["options"]) {
+    const std::string initial = TextOf(option, "default");
+    text += fmt::format("  {}\n      {}\n      {}\n      default: {}\n", TextOf(option, "name"),
+                        TextOf(option, "meaning"), TextOf(option, "allowed"),
+                        initial.empty() ? "none" : initial);
+  }
+  return text;
+}
+
+// --- robots -------------------------------------------------------------------------------------
+
+ordered_json RobotsJson() {
+  ordered_json all = ordered_json::array();
+  for (const RobotInfo& robot : Robots()) {
+    // its joints, and which of them the friction file is for
+    ordered_json joints = ordered_json::array();
+    for (const RobotJoint& joint : robot.joints) {
+      joints.push_back({{"name", joint.name},
+                        {"kind", NameOf(joint.kind)},
+                        {"lower", NumberOrNull(joint.limits.first)},
+                        {"upper", NumberOrNull(joint.limits.second)},
+                        {"effort", joint.effort},
+                        {"speed", joint.speed}});
+    }
+    all.push_back({{"name", robot.name},
+                   {"description", robot.description},
+                   {"mjcf", robot.mjcf.string()},
+                   {"urdf", robot.urdf.string()},
+                   {"joints", joints},
+                   {"friction", {{"joint", robot.friction_joint}, {"gear", robot.friction.gear}}}});
+  }
+  return all;
+}
+
+std::string RobotText(const ordered_json& robot) {
+  // what it is, then a line for each joint; one that turns for ever has no limits
+  const std::string head =
+      fmt::format("{}  {}\n", TextOf(robot, "name"), TextOf(robot, "description"));
+  Table table{{"  joint", "unit", "from", "to", "speed", "effort", "friction file"}, {}};
+  const ordered_json& friction = robot["friction"];
+  for (const ordered_json& joint : robot["joints"]) {
+    const JointKind kind = joint["kind"] == "linear" ? JointKind::linear : JointKind::rotary;
+    const std::string unit(kPositionUnit.For(kind));
+    table.rows.push_back(
+        {"  " + TextOf(joint, "name"), unit, BoundText(joint["lower"], "-inf"),
+         BoundText(joint["upper"], "inf"),
+         fmt::format("{:.4g} {}/s", joint["speed"].get<double>(), unit),
+         fmt::format("{:g} {}", joint["effort"].get<double>(), kTorqueUnit.For(kind)),
+         joint["name"] == friction["joint"]
+             ? fmt::format("gear {:g}", friction["gear"].get<double>())
+             : ""});
+  }
+  return head + TableToText(table, 2);
+}
+
+// --- suites -------------------------------------------------------------------------------------
+
+ordered_json SuitesJson() {
+  ordered_json suites = ordered_json::array();
+  for (const std::string& name : SuiteNames()) {
+    // read in full: its variants and labels come of reading it
+    const std::string file = SuiteFile(name);
+    const Suite suite = ReadSuite(file);
+    ordered_json identifiers = ordered_json::array();
+    for (const SuiteIdentifier& one : suite.identifiers) identifiers.push_back(one.label);
+    suites.push_back({{"name", suite.name},
+                      {"question", suite.question},
+                      {"realizations", suite.realizations},
+                      {"variants", suite.variants()},
+                      {"identifiers", identifiers},
+                      {"file", file}});
+  }
+  return suites;
+}
+
+std::string SuiteLine(const ordered_json& suite) {
+  return fmt::format("{}\n    {}\n", TextOf(suite, "name"), TextOf(suite, "question"));
+}
+
+std::string SuiteText(const ordered_json& suite) {
+  const int variants = suite["variants"].get<int>();
+  return SuiteLine(suite) +
+         fmt::format("    {} realizations of {}\n    identifiers: {}\n    {}\n",
+                     suite["realizations"].get<int>(),
+                     variants == 1 ? std::string("one scenario")
+                                   : fmt::format("each of {} scenarios", variants),
+                     Words(suite["identifiers"]), fs::proximate(TextOf(suite, "file")).string());
+}
+
+/// laws, identifiers, robots, suites.
+const std::vector<Family>& Families() {
+  static const std::vector<Family> families{
+      {"laws", LawsJson, LawNames, LawText, LawText},
+      {"identifiers", IdentifiersJson, IdentifierNames, IdentifierLine, IdentifierText},
+      {"robots", RobotsJson, RobotNames, RobotText, RobotText},
+      {"suites", SuitesJson, SuiteNames, SuiteLine, SuiteText},
+  };
+  return families;
+}
 
 struct ListArguments {
   std::string family;

@@ -37,7 +37,7 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
   const IdentifierInput input{log, options, {}};
 
   // one that chooses a structure has chosen it on all samples
-  const Fit all_data = estimate.choice ? identifier->fit(Seen(*identifier, input)) : Fit{};
+  const Fit all_data = estimate.choice ? identifier->fit(SelectSamples(*identifier, input)) : Fit{};
   const auto first = FitFirstPart(*identifier, input, HoldOutSource{}.fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
@@ -69,7 +69,7 @@ Estimate WithFitAgain(Estimate estimate, const PreparedLog& log) {
   const Identifier* identifier = LookUpIdentifier(estimate.identifier);
   if (estimate.friction || !identifier) return estimate;
   const Options options = OptionsOf(*identifier, estimate);
-  Estimate fit = IdentifyUnjudged(*identifier, {log, options, {}});
+  Estimate fit = IdentifyUnchecked(*identifier, {log, options, {}});
   estimate.parameters = std::move(fit.parameters);
   estimate.friction = std::move(fit.friction);
   estimate.gravity = std::move(fit.gravity);

@@ -58,10 +58,16 @@ std::string Finding(const FitView& view) {
 /// What the residual is looked at against to see what a test for lack of fit found.
 Against AgainstOf(const std::string& test, const FitView& view) {
   static const std::map<std::string, Against> kByTest{
-      {"direction", Against::velocity},     {"speed", Against::velocity},
-      {"energy", Against::energy},          {"initial_energy", Against::energy},
-      {"speed_by_energy", Against::energy}, {"position_by_energy", Against::position},
-      {"position", Against::position},      {"motor_angle", Against::motor_angle}};
+      {"direction", Against::velocity},
+      {"speed", Against::velocity},
+      {"energy", Against::energy},
+      {"initial_energy", Against::energy},
+      {"speed_by_energy", Against::energy},
+      {"position_by_energy", Against::position},
+      {"position", Against::position},
+      {"motor_angle", Against::motor_angle},
+      {"position_by_speed", Against::position},
+      {"motor_angle_by_speed", Against::motor_angle}};
   const auto found = kByTest.find(test);
   const Against against = found == kByTest.end() ? Against::time : found->second;
   if (against == Against::energy && !view.warms()) return Against::time;

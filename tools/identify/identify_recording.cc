@@ -98,24 +98,18 @@ void AddHoldOut(const Identifier& identifier, const IdentifierInput& input, cons
   if (answer.inferred.status != Status::ok) {
     estimate.without_holdout =
         fmt::format("the fit to all data is {}", StatusName(answer.inferred.status));
-  } else if (source.other) {
-    // the fit as it is, on another recording
-    estimate.holdout = HoldOut(identifier, answer.fit, *source.other);
-    if (!estimate.holdout) {
-      estimate.without_holdout = WhyNoHoldOut(identifier, answer.fit, *source.other);
-    }
-  } else {
-    // a second fit to the first part, on the rest
-    estimate.holdout = HoldOut(identifier, input, source.fraction, answer.fit);
-    if (!estimate.holdout) {
-      estimate.without_holdout = WhyNoHoldOut(identifier, input, source.fraction, answer.fit);
-    }
+    return;
   }
+  // the fit as it is, on another recording, or a second fit to the first part, on the rest
+  HeldOut held = source.other ? HoldOut(identifier, answer.fit, *source.other)
+                              : HoldOut(identifier, input, source.fraction, answer.fit);
+  estimate.holdout = held.metrics;
+  estimate.without_holdout = std::move(held.why_none);
 }
 
 }  // namespace
 
-Judging JudgingOf(const IdentifySettings& settings) {
+LackOfFitSettings LackOfFitSettingsOf(const IdentifySettings& settings) {
   if (!(settings.relevance > 0 && settings.relevance <= 1)) {
     Refuse({"--relevance"}, "is {}; it must be a share of the friction above 0 and at most 1",
            settings.relevance);
@@ -128,7 +122,7 @@ IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   const auto given = GivenOptions(settings, identifier, joint);
   RefuseOptionsOfOthers(given, identifier);
   Options options = identifier.options.Read(given, {"--set"});
-  return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
+  return {identifier, std::move(options), LackOfFitSettingsOf(settings), settings.void_numbers};
 }
 
 void BeginWith(const CarriedHeat& heat, IdentifyTask& task) {
@@ -153,9 +147,9 @@ HoldOutSource HoldOutShare(double fraction) {
 Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
                        const HoldOutSource& holdout, const Narrator& narrator) {
   const IdentifierInput input{log, task.options, {}, narrator};
-  const Answer answer = FitAndJudge(task.identifier, input, task.judging);
-  Identified identified{ReportAnswer(task.identifier, input, answer),
-                        WithVoidNumbers(task.identifier, input, answer)};
+  const Answer answer = FitAndCheck(task.identifier, input, task.judging);
+  Estimate reported = ReportAnswer(task.identifier, input, answer);
+  Identified identified{reported, WithVoidNumbers(task.identifier, input, answer, reported)};
   // numbers of a refused fit are shown where that was asked for
   auto& [estimate, shown] = identified;
   if (task.void_numbers == VoidNumbers::show) {

@@ -18,12 +18,12 @@ namespace warmjoint {
 struct IdentifyTask {
   const Identifier& identifier;
   Options options;
-  Judging judging;
+  LackOfFitSettings judging;
   VoidNumbers void_numbers;
 };
 
 /// What the verdict is told of them. Throws BadInput for a relevance that is no share.
-Judging JudgingOf(const IdentifySettings& settings);
+LackOfFitSettings LackOfFitSettingsOf(const IdentifySettings& settings);
 
 /// Throws BadInput for names, words and numbers that cannot be used, and for what the identifier or
 /// the kind of joint does not allow.

@@ -9,7 +9,7 @@
 #include <span>
 #include <sstream>
 
-#include "identification/answer/judge_estimate.h"
+#include "identification/answer/check_estimate.h"
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
@@ -106,7 +106,7 @@ struct Command {
   std::string label;
   std::string text;
   CommandTask task;  // without the log
-  Judging judging;
+  LackOfFitSettings judging;
 };
 
 /// The command for a log: its placeholders filled in, and the files that they stand for.
@@ -200,7 +200,7 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
 
 /// The estimate in an answer, with what our own identifiers tell, too, and judged as they are.
 Estimate JudgeAnswer(const std::string& answer, const std::string& label, const PreparedLog& log,
-                     const Judging& judging) {
+                     const LackOfFitSettings& judging) {
   const auto& [measurements, selection] = log.taken();
   Estimate estimate = ReadAnswer(answer, label);
   AddDiscretePair(estimate, measurements);
@@ -208,7 +208,7 @@ Estimate JudgeAnswer(const std::string& answer, const std::string& label, const 
     estimate.metrics =
         FrictionMetrics(estimate, measurements, selection, StartOf(estimate, measurements));
   }
-  JudgeEstimate(log, judging, estimate);
+  CheckEstimate(log, judging, estimate);
   return estimate;
 }
 
@@ -312,7 +312,7 @@ std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measureme
 }
 
 PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,
-                                   const Judging& judging) {
+                                   const LackOfFitSettings& judging) {
   return [=](const PreparedLog& log, StartKey) {
     std::string answer;
     try {
@@ -325,7 +325,7 @@ PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunctio
 }
 
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
-                                   const Judging& judging, Confinement confinement) {
+                                   const LackOfFitSettings& judging, Confinement confinement) {
   const auto options = ReadAs<ExternalOptions>(NodeOf(identifier.options, place));
   Command command{identifier.label, options.command, {}, judging};
   // a command that is not told where to write cannot answer

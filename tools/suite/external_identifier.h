@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/lack_of_fit/judging.h"
+#include "identification/lack_of_fit/lack_of_fit_settings.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite_identifier.h"
 #include "tools/suite/prepared_identifier.h"
@@ -44,16 +44,16 @@ std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measureme
 
 /// A function of the caller's in place of a command: the same judging of the same answer.
 PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,
-                                   const Judging& judging = {});
+                                   const LackOfFitSettings& judging = {});
 
 /// Runs the command for each log in a fresh directory that holds the measurements alone, in a sandbox, under limits
 /// (run_command.h): {recording} stands for recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to
 /// write. Its options: command, time_limit (s), memory (MiB of each process), reads (files and folders), beside
 /// (whether it reads the folder of the first file that it names). A command that fails, takes too long or writes
 /// something else throws NoAnswer: crashed, timeout, bad_answer. The answer is judged like those of our own identifiers
-/// (judge_estimate.h). Throws BadInput from `place` for wrong options, and where the kernel has no sandbox.
+/// (check_estimate.h). Throws BadInput from `place` for wrong options, and where the kernel has no sandbox.
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
-                                   const Judging& judging = {},
+                                   const LackOfFitSettings& judging = {},
                                    Confinement confinement = Confinement::sandbox);
 
 }  // namespace warmjoint

@@ -71,7 +71,7 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(
     const Identifier& identifier = FindIdentifier(one.name);
     const Options options = identifier.options.Read(one.options, place);
     prepared.emplace_back([identifier, options](const PreparedLog& log, StartKey start) {
-      return IdentifyAndJudge(identifier, {log, options, start});
+      return IdentifyAndCheck(identifier, {log, options, start});
     });
   }
   return prepared;

@@ -49,7 +49,7 @@ class MadeOnce {
 /// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
 /// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
 /// that happens between two samples (split_at_switches.h), the speed between segments from the
-/// positions where they tell more of it (take_ways.h), and the faults of the log. Where the log
+/// positions where they tell more of it (replace_transitions.h), and the faults of the log. Where the log
 /// has no velocity, its positions tell it (motion_from_positions.h). Only Prepare
 /// makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
 /// copies share the samples.

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
-#include "identification/answer/judge_estimate.h"
+#include "identification/answer/check_estimate.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -25,30 +25,30 @@ Estimate From(const Friction& friction, double half_width) {
   return estimate;
 }
 
-TEST(JudgeEstimate, FindsWhatAnotherProgramLeftOut) {
+TEST(CheckEstimate, FindsWhatAnotherProgramLeftOut) {
   // no warming on a log that warms
   Estimate estimate = From(test::Cold(), 0.1);
-  JudgeEstimate(Prepare(test::RecordHour(test::TableOne(), 1)), {}, estimate);
+  CheckEstimate(Prepare(test::RecordHour(test::TableOne(), 1)), {}, estimate);
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_FALSE(estimate.friction);
   EXPECT_FALSE(estimate.Find("coulomb")->interval95);
   EXPECT_EQ(estimate.Find("coulomb")->value, 15);
 }
 
-TEST(JudgeEstimate, LetsTheTruthPass) {
+TEST(CheckEstimate, LetsTheTruthPass) {
   Estimate estimate = From(test::Cold(), 0.1);
-  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  CheckEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
   EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_TRUE(estimate.friction);
   EXPECT_TRUE(test::Asked(estimate, "direction").made);
 }
 
-TEST(JudgeEstimate, FindsNumbersThatTheSameLawWouldBetter) {
+TEST(CheckEstimate, FindsNumbersThatTheSameLawWouldBetter) {
   // 12 for 15 N.m: the residual is 3 sign v, which the law itself can follow
   Friction low = test::Cold();
   low.parameters["coulomb"] = 12;
   Estimate estimate = From(low, 0.1);
-  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  CheckEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_FALSE(estimate.friction);
 
@@ -56,14 +56,14 @@ TEST(JudgeEstimate, FindsNumbersThatTheSameLawWouldBetter) {
   Friction close = test::Cold();
   close.parameters["coulomb"] = 15.1;
   Estimate passes = From(close, 0.1);
-  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, passes);
+  CheckEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, passes);
   EXPECT_EQ(passes.status, Status::ok) << passes.message;
 }
 
-TEST(JudgeEstimate, SaysWhyNothingWasExamined) {
+TEST(CheckEstimate, SaysWhyNothingWasExamined) {
   Estimate estimate = From(test::Cold(), 0.1);
   estimate.friction.reset();
-  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  CheckEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
   EXPECT_EQ(estimate.status, Status::ok);
   ASSERT_FALSE(estimate.diagnostics.empty());
   for (const Diagnostic& one : estimate.diagnostics) {
@@ -130,7 +130,7 @@ TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options = identifier.options.Read({});
   const Selection selection = SelectMoving(m);
-  const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3);
+  const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3).metrics;
   ASSERT_TRUE(held);
   EXPECT_NEAR(held->n, 1800, 1);
   // noise of 0.5 N.m, known from 1800 samples to 0.5 / sqrt(3600), three times, and the parameters

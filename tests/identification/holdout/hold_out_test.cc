@@ -48,7 +48,7 @@ Measurements Recording(std::uint64_t seed, double noise) {
 
 TEST(HoldOut, FitsOnTheFirstPartAndEvaluatesOnTheRest) {
   const Trial fit{kKnowing, Recording(1, 0)};
-  const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25);
+  const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25).metrics;
   ASSERT_TRUE(metrics);
   // three quarters of the samples that move, whatever rests lie between
   const Eigen::Index kept = fit.selection.count(),
@@ -61,7 +61,7 @@ TEST(HoldOut, FitsOnTheFirstPartAndEvaluatesOnTheRest) {
 TEST(HoldOut, ComesToTheTestPartWarm) {
   // exact friction leaves no residual only if E is carried through the training part
   const Trial fit{kKnowing, Recording(2, 0)};
-  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
+  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25).metrics->rmse, 1e-12);
 }
 
 TEST(HoldOut, StartsAsWarmAsTheFitSays) {
@@ -72,7 +72,7 @@ TEST(HoldOut, StartsAsWarmAsTheFitSays) {
   };
   Trial fit{{"started", "", {}, identify}, Recording(2, 0)};
   fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, {-6}).force;
-  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
+  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25).metrics->rmse, 1e-12);
 }
 
 TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
@@ -88,14 +88,15 @@ TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
   // ten minutes without samples while the joint moves
   m.time.tail(900).array() += 600;
   m.torque = PredictFriction(test::TableOne(), m, {0, 0, {{100, -2}}}).force;
-  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
+  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25).metrics->rmse, 1e-12);
 }
 
 TEST(HoldOut, EvaluatesOnAnotherRecordingFromCold) {
   const Trial fit{kKnowing, Recording(3, 0.5)};
   const Measurements other = Recording(4, 0.5);
   const auto metrics =
-      HoldOut(fit.identifier, fit.identifier.fit(fit.input()), Prepare(other, SelectMoving(other)));
+      HoldOut(fit.identifier, fit.identifier.fit(fit.input()), Prepare(other, SelectMoving(other)))
+          .metrics;
   ASSERT_TRUE(metrics);
   EXPECT_EQ(shown, 1000);
   // noise of 0.5 N.m over 700 samples: its standard deviation is known to 0.5 / sqrt(1400)
@@ -104,13 +105,13 @@ TEST(HoldOut, EvaluatesOnAnotherRecordingFromCold) {
 
 TEST(HoldOut, IsAbsentWhereThereIsNoFrictionToTest) {
   const Trial fit{{"nothing", "", {}, &KnowNothing}, Recording(5, 0)};
-  EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
+  EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25).metrics);
 }
 
 TEST(HoldOut, TakesItsShareOfALogThatEndsWithARest) {
   Trial fit{kKnowing, Recording(6, 0)};
   fit.selection.keep.tail(400) = false;
-  const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25);
+  const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25).metrics;
   ASSERT_TRUE(metrics);
   EXPECT_NEAR(metrics->n, 0.25 * static_cast<double>(fit.selection.count()), 1);
 }
@@ -118,7 +119,7 @@ TEST(HoldOut, TakesItsShareOfALogThatEndsWithARest) {
 TEST(HoldOut, IsAbsentWhereNothingIsKept) {
   Trial fit{kKnowing, Recording(6, 0)};
   fit.selection.keep = false;
-  EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
+  EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25).metrics);
 }
 
 TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {

@@ -76,7 +76,7 @@ TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = identifier.options.Read({{"gravity", "sincos"}});
   const auto held =
-      HoldOut(identifier, {Prepare(Excited(test::Cold(), 6000, 5)), options, {}}, 0.3);
+      HoldOut(identifier, {Prepare(Excited(test::Cold(), 6000, 5)), options, {}}, 0.3).metrics;
   ASSERT_TRUE(held);
   // noise alone: 0.5 with a standard error of 0.5/sqrt(2 * 1500)
   EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);

@@ -25,7 +25,7 @@ Estimate Identify(const std::string& name, const Measurements& m,
   const Identifier& identifier = FindIdentifier(name);
   const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
   EXPECT_GT(input.selection.count(), m.size() / 2);
-  return IdentifyUnjudged(identifier, input);
+  return IdentifyUnchecked(identifier, input);
 }
 
 /// Largest relative error of the law's parameters, k and tau.

@@ -31,8 +31,8 @@ Estimate AnswerTo(const Measurements& m, const Selection& selection,
                   Verdict verdict = Verdict::judged) {
   const Identifier identifier = LuGreIdentifier();
   const IdentifierInput input{Prepare(m, selection), identifier.options.Read(given), {}};
-  return verdict == Verdict::judged ? IdentifyAndJudge(identifier, input)
-                                    : IdentifyUnjudged(identifier, input);
+  return verdict == Verdict::judged ? IdentifyAndCheck(identifier, input)
+                                    : IdentifyUnchecked(identifier, input);
 }
 
 const std::map<std::string, double> kTruth{{"viscous", 5},
@@ -148,7 +148,7 @@ TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   const Selection moving = SelectMoving(m);
   const Selection steady =
       SteadySamples(IdentifierInput(Prepare(m, moving), options, {}).AsTaken(), 0.01);
-  const Estimate other = IdentifyUnjudged(stribeck, {Prepare(m, steady), options, {}});
+  const Estimate other = IdentifyUnchecked(stribeck, {Prepare(m, steady), options, {}});
   ASSERT_EQ(other.status, Status::ok) << other.message;
   for (const char* name : {"viscous", "coulomb", "static", "stribeck_velocity"}) {
     const EstimatedParameter &one = *estimate.Find(name), &two = *other.Find(name);

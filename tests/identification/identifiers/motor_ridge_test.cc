@@ -49,6 +49,23 @@ TEST(MotorRidge, DoesNotTakeATorqueThatIsPeriodicInTimeForRipple) {
   EXPECT_THAT(estimate.message, HasSubstr("v < 0: none above the noise"));
 }
 
+TEST(MotorRidge, SaysThatItsMapLacksKernelsOverSpeed) {
+  const auto answer = [](double change, std::uint64_t seed) {
+    Measurements m = Geared({test::MotorRipple(2, 0.2)}, 0.1);
+    test::AddNoise(m, 0.1, 0, seed);
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      const double faster = std::abs(m.velocity[i]) / 0.57 - 1;
+      m.torque[i] += change * faster * std::sin(200 * m.position[i]);
+    }
+    return test::Answer("motor-ridge", m,
+                        {{"width", "1"}, {"arm_kernels", "10"}, {"velocity_kernels", "1"}});
+  };
+  EXPECT_TRUE(test::Asked(answer(0.3, 1), "motor_angle_by_speed").rejected);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    EXPECT_FALSE(test::Asked(answer(0, seed), "motor_angle_by_speed").rejected) << seed;
+  }
+}
+
 TEST(MotorRidge, FindsNothingWhereThereIsNone) {
   const Estimate estimate = Identify(Geared({test::PositionLevel(1, 0.3)}, 0.1));
   EXPECT_THAT(estimate.message, HasSubstr("v > 0: none above the noise"));

@@ -6,6 +6,7 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/inference/apply.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
@@ -31,30 +32,32 @@ struct Judged {
   }
 
   const Inference& Judge() {
-    JudgeBounds(fit, inference);
+    const auto cause = BeyondBounds(fit, inference);
+    inference.gives_friction = true;
+    if (cause) inference = Apply(inference, {*cause});
     return inference;
   }
 };
 
-TEST(JudgeBounds, GivesTheFrictionOfValuesWithinTheirBounds) {
+TEST(BeyondBounds, GivesTheFrictionOfValuesWithinTheirBounds) {
   Judged judged("viscous_coulomb", {0, 2});
   EXPECT_TRUE(judged.Judge().gives_friction);
   EXPECT_EQ(judged.inference.message, "fitted");
   EXPECT_TRUE(judged.inference.warnings.empty());
 }
 
-TEST(JudgeBounds, VoidsWhatWasNotHeldAtItsBound) {
+TEST(BeyondBounds, VoidsWhatWasNotHeldAtItsBound) {
   // with a part of the interval within, and without an interval
   Judged judged("viscous_coulomb", {-0.05, 2});
   EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
   EXPECT_THAT(judged.inference.message, HasSubstr("viscous is -0.05 N.m.s/rad, below its bound 0"));
   Judged unknown("viscous_coulomb", {-3, -2});
-  for (KnownParameter& one : unknown.inference.parameters) one.interval95.reset();
+  for (ParameterInterval& one : unknown.inference.parameters) one.interval95.reset();
   EXPECT_EQ(unknown.Judge().status, Status::inadequate_model);
   EXPECT_FALSE(unknown.inference.gives_friction);
 }
 
-TEST(JudgeBounds, VoidsTheFitWhoseIntervalIsWhollyOutside) {
+TEST(BeyondBounds, VoidsTheFitWhoseIntervalIsWhollyOutside) {
   Judged judged("viscous_coulomb", {0.5, -2});
   EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
   EXPECT_FALSE(judged.inference.parameters[1].interval95);
@@ -63,7 +66,7 @@ TEST(JudgeBounds, VoidsTheFitWhoseIntervalIsWhollyOutside) {
   EXPECT_FALSE(judged.inference.gives_friction);
 }
 
-TEST(JudgeBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
+TEST(BeyondBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
   // viscous, forwards, backwards, static_rise, stribeck_velocity, exponent; beyond doubt or by chance
   for (const double rise : {-1.0, -0.05}) {
     Judged judged("asymmetric_stribeck", {1, 2, 3, rise, 0.1, 2});
@@ -86,7 +89,7 @@ TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
         test::RecordFriction(friction, 1, test::AlternatingSpeeds(400, seed), 0.5, seed);
     const Selection selection = SelectMoving(m);
     const PreparedLog log = Prepare(m, selection);
-    const Estimate estimate = IdentifyUnjudged(identifier, {log, identifier.options, {}});
+    const Estimate estimate = IdentifyUnchecked(identifier, {log, identifier.options, {}});
     voided += estimate.status == Status::inadequate_model;
     if (estimate.status != Status::ok) continue;
     ASSERT_TRUE(estimate.friction);
@@ -100,7 +103,7 @@ TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
     // the other is that of the law without the parameter, but for what colour and unevenness of the noise seem to tell;
     // the fitted torque, too
     const Estimate other =
-        IdentifyUnjudged(identifier, {log, identifier.options.Read({{"law", "coulomb"}}), {}});
+        IdentifyUnchecked(identifier, {log, identifier.options.Read({{"law", "coulomb"}}), {}});
     EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 0.2 * *coulomb.std);
     EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-4 * other.metrics->rmse);
   }

@@ -10,10 +10,10 @@
 
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/held_loss.h"
-#include "identification/lack_of_fit/left_open.h"
 #include "identification/lack_of_fit/one_speed.h"
 #include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/rounding.h"
+#include "identification/lack_of_fit/undetected_bias.h"
 #include "models/foundation/random_stream.h"
 #include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"

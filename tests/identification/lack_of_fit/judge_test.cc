@@ -179,15 +179,16 @@ TEST(Judge, TakesBackEverythingButTheValues) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Selection selection = SelectMoving(warm);
   const IdentifierInput input{Prepare(warm, selection), identifier.options, {}};
-  const Estimate before = IdentifyUnjudged(identifier, input);
-  const Estimate judged = IdentifyAndJudge(identifier, input);
+  const Estimate before = IdentifyUnchecked(identifier, input);
+  const Estimate judged = IdentifyAndCheck(identifier, input);
   EXPECT_FALSE(judged.friction);
   EXPECT_EQ(judged.Find("coulomb")->value, before.Find("coulomb")->value);
   EXPECT_FALSE(judged.Find("coulomb")->std || judged.Find("coulomb")->interval95);
   EXPECT_TRUE(judged.metrics);
 
   // who insists sees the numbers, beside the verdict
-  const Estimate forced = WithVoidNumbers(identifier, input, FitAndJudge(identifier, input));
+  const Estimate forced =
+      WithVoidNumbers(identifier, input, FitAndCheck(identifier, input), judged);
   EXPECT_EQ(forced.status, kInadequate);
   EXPECT_THAT(forced.FullMessage(), HasSubstr("void"));
   EXPECT_EQ(forced.Find("coulomb")->interval95, before.Find("coulomb")->interval95);
@@ -204,8 +205,8 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Selection selection = SelectMoving(m);
   const IdentifierInput input{Prepare(m, selection), identifier.options, {}};
-  const Estimate before = IdentifyUnjudged(identifier, input);
-  const Estimate judged = IdentifyAndJudge(identifier, input);
+  const Estimate before = IdentifyUnchecked(identifier, input);
+  const Estimate judged = IdentifyAndCheck(identifier, input);
   ASSERT_EQ(judged.status, Status::ok) << judged.message;
   ASSERT_EQ(judged.warnings.size(), 1u);
   EXPECT_THAT(judged.warnings[0], HasSubstr("the residual depends on speed"));
@@ -229,7 +230,7 @@ TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
   for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
     const Identifier& identifier = FindIdentifier(name);
     const Options options = identifier.options.Read({});
-    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
+    const Estimate estimate = IdentifyAndCheck(identifier, {Prepare(m, selection), options, {}});
     EXPECT_EQ(estimate.status, Status::bad_data) << name;
     EXPECT_THAT(estimate.message, HasSubstr("--unit velocity=rpm")) << name;
     EXPECT_FALSE(estimate.friction) << name;
@@ -243,9 +244,10 @@ TEST(FaultyLog, ShowsItsNumbersByForce) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = identifier.options.Read({});
   const IdentifierInput input{Prepare(m, selection), options, {}};
-  const auto answer = FitAndJudge(identifier, input);
+  const auto answer = FitAndCheck(identifier, input);
   ASSERT_EQ(answer.inferred.status, Status::ok);
-  const Estimate shown = WithVoidNumbers(identifier, input, answer);
+  const Estimate shown =
+      WithVoidNumbers(identifier, input, answer, ReportAnswer(identifier, input, answer));
   EXPECT_EQ(shown.status, Status::bad_data);
   EXPECT_TRUE(shown.Find("viscous")->interval95);
   EXPECT_THAT(shown.message, HasSubstr("all numbers are void"));

@@ -34,13 +34,13 @@ struct Step {
 };
 
 /// Refuses what changes the friction by a fiftieth, so that there is advice to follow.
-constexpr Judging kStrict{.relevance = 0.02};
+constexpr LackOfFitSettings kStrict{.relevance = 0.02};
 
 Step Take(const std::string& name, const Options_& given, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
   const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
-  Step step{name, given, IdentifyAndJudge(identifier, input, kStrict), 0};
-  const auto held = HoldOut(identifier, input, 0.3);
+  Step step{name, given, IdentifyAndCheck(identifier, input, kStrict), 0};
+  const auto held = HoldOut(identifier, input, 0.3).metrics;
   step.held_out = held ? held->rmse : kInfinity;
   return step;
 }
@@ -106,7 +106,7 @@ Measurements Travelling(const Friction& friction, std::uint64_t seed) {
                               seed);
 }
 
-TEST(Remedies, AgainstWarming) {
+TEST(Remedies, RemedyForWarming) {
   ExpectLeadsSomewhere("nominal-ls", test::RecordHour(test::TableOne(), 1));
 }
 
@@ -137,7 +137,7 @@ TEST(Remedies, AgainstFrictionThatFollowsLate) {
   // eight time constants a hold, three of which are left out at each end
   const Identifier& identifier = FindIdentifier("energy-ml");
   const PreparedLog log = Prepare(FollowingLate(10800, 480, 1), PrepareSettings{.trim = 180});
-  const Estimate patient = IdentifyAndJudge(identifier, {log, identifier.options, {}});
+  const Estimate patient = IdentifyAndCheck(identifier, {log, identifier.options, {}});
   ASSERT_EQ(patient.status, Status::ok) << patient.message;
   for (const auto& [name, truth] : {std::pair{"viscous", 5.0}, {"coulomb", 15.0}}) {
     const EstimatedParameter* found = patient.Find(name);
@@ -147,7 +147,7 @@ TEST(Remedies, AgainstFrictionThatFollowsLate) {
   }
 }
 
-TEST(Remedies, AgainstDirection) {
+TEST(Remedies, RemedyForDirection) {
   Measurements m = test::RecordHour(test::Cold(), 1);
   m.torque.array() += 1.5;
   ExpectLeadsSomewhere("nominal-ls", m);
@@ -159,7 +159,7 @@ TEST(Remedies, AgainstDirectionOfAJointThatWarms) {
   ExpectLeadsSomewhere("energy-ml", m);
 }
 
-TEST(Remedies, AgainstSpeed) {
+TEST(Remedies, RemedyForSpeed) {
   ExpectLeadsSomewhere("nominal-ls", test::RecordFriction(test::StribeckJoint(), 1,
                                                           test::SlowAndFast(3600, 1), 0.3, 1));
 }
@@ -171,7 +171,7 @@ TEST(Remedies, AgainstSpeedOfAJointThatWarms) {
                        test::RecordFriction(warm, 1, test::SlowAndFast(3600, 1), 0.3, 1));
 }
 
-TEST(Remedies, AgainstDirectionOfACurve) {
+TEST(Remedies, RemedyForDirectionOfACurve) {
   const Friction joint = test::TwoLevelStribeckJoint();
   const Measurements m = test::RecordFriction(joint, 1, test::SlowAndFast(3600, 1), 0.3, 1);
   ExpectLeadsTo(joint, "stribeck", m);

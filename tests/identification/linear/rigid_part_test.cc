@@ -32,8 +32,8 @@ Estimate Identify(const Identifier& identifier, const Measurements& m, const std
     if (option.name == "iterations") given["iterations"] = "500";
   }
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier,
-                          {Prepare(m, selection), identifier.options.Read(given), {11, 3}});
+  return IdentifyUnchecked(identifier,
+                           {Prepare(m, selection), identifier.options.Read(given), {11, 3}});
 }
 
 /// How far the friction of two estimates of the same noise is apart.
@@ -141,21 +141,22 @@ TEST(FitGravity, IsHeldOutTogetherWithFriction) {
   for (const char* gravity : {"sincos", "paired"}) {
     const auto held =
         HoldOut(energy_ml,
-                {Prepare(m, selection), energy_ml.options.Read({{"gravity", gravity}}), {}}, 0.3);
+                {Prepare(m, selection), energy_ml.options.Read({{"gravity", gravity}}), {}}, 0.3)
+            .metrics;
     ASSERT_TRUE(held);
     // noise of 0.5 N.m; parameters of the first part cost less than a tenth of it
     EXPECT_NEAR(held->rmse, 0.5, 0.05) << gravity;
   }
 }
 
-TEST(AgainstPushing, NamesWhatTheFitDoesNotHold) {
-  EXPECT_EQ(AgainstPushing("energy-ml", "viscous_coulomb", FittedGravity::none),
+TEST(RemedyForNonDissipative, NamesWhatTheFitDoesNotHold) {
+  EXPECT_EQ(RemedyForNonDissipative("energy-ml", "viscous_coulomb", FittedGravity::none),
             "try --identifier energy-ml --set law=asymmetric");
-  EXPECT_THAT(AgainstPushing("energy-ml", "viscous_coulomb", FittedGravity::sincos),
+  EXPECT_THAT(RemedyForNonDissipative("energy-ml", "viscous_coulomb", FittedGravity::sincos),
               HasSubstr("law=asymmetric --gravity sincos"));
-  EXPECT_THAT(AgainstPushing("energy-ml", "asymmetric", FittedGravity::none),
+  EXPECT_THAT(RemedyForNonDissipative("energy-ml", "asymmetric", FittedGravity::none),
               HasSubstr("--gravity paired"));
-  EXPECT_THAT(AgainstPushing("energy-ml", "asymmetric", FittedGravity::paired),
+  EXPECT_THAT(RemedyForNonDissipative("energy-ml", "asymmetric", FittedGravity::paired),
               ::testing::Not(HasSubstr("try")));
 }
 

@@ -36,8 +36,8 @@ Estimate Identify(const Measurements& m, const char* name,
   const Identifier& identifier = FindIdentifier(name);
   const Selection selection = SelectMoving(m);
   const IdentifierInput input{Prepare(m, selection), identifier.options.Read(given), {}};
-  Estimate estimate = IdentifyUnjudged(identifier, input);
-  estimate.holdout = HoldOut(identifier, input, 0.3);
+  Estimate estimate = IdentifyUnchecked(identifier, input);
+  estimate.holdout = HoldOut(identifier, input, 0.3).metrics;
   return estimate;
 }
 

@@ -9,7 +9,7 @@
 
 #include "identification/preparation/monotone_path.h"
 #include "identification/preparation/path_against_velocity.h"
-#include "identification/preparation/take_ways.h"
+#include "identification/preparation/replace_transitions.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/judging.h"
 
@@ -73,7 +73,7 @@ double HeldPath(const Measurements& m, double from, double to) {
   return path;
 }
 
-TEST(TakeWays, LossesOfRampsAreThoseOfThePositions) {
+TEST(ReplaceTransitions, LossesOfRampsAreThoseOfThePositions) {
   const auto [log, path] = Drive();
   const PreparedLog prepared = Prepare(log);
   EXPECT_TRUE(prepared.warnings().empty());
@@ -94,7 +94,7 @@ TEST(TakeWays, LossesOfRampsAreThoseOfThePositions) {
   EXPECT_LT(std::abs(excess(prepared.steady().measurements)), most);
 }
 
-TEST(TakeWays, SegmentsKeepTheVelocityColumn) {
+TEST(ReplaceTransitions, SegmentsKeepTheVelocityColumn) {
   const Measurements log = Drive().log;
   const PreparedLog prepared = Prepare(log);
   const auto& [m, selection] = prepared.steady();
@@ -255,7 +255,7 @@ TEST(MonotonePath, KeepsARestWithDitherStill) {
   EXPECT_LE(PathOf(Monotone(rest, 3)), 1);
 }
 
-TEST(TakeWays, AWayThatSamplesCannotHideStaysAsItIs) {
+TEST(ReplaceTransitions, AWayThatSamplesCannotHideStaysAsItIs) {
   Measurements log = Drive().log;
   const PreparedLog prepared = Prepare(log);
   const LogView& taken = prepared.taken();
@@ -265,12 +265,12 @@ TEST(TakeWays, AWayThatSamplesCannotHideStaysAsItIs) {
   other.velocity *= 0.5;
 
   // one step at the change of speed is the most that a sample hides
-  const Way way{middle(3), middle(4), 4, 0};
+  const Transition way{middle(3), middle(4), 4, 0};
   const double most = kStep * std::abs(log.velocity[way.last] - log.velocity[way.first]);
   for (const bool is_hidden : {true, false}) {
-    Way one = way;
+    Transition one = way;
     one.difference = (is_hidden ? 0.9 : 1.1) * most;
-    const Measurements made = TakeWays(taken, log, other, {one}).measurements;
+    const Measurements made = ReplaceTransitions(taken, log, other, {one}).measurements;
     Index j = way.first;
     for (Index i = way.first; i < way.last; ++i, ++j) {
       // one is put in right behind the last of the segment

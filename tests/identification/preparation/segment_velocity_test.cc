@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/report/tell_preparation.h"
 #include "identification/seen_samples.h"
 #include "tests/support/judging.h"
 
@@ -120,7 +119,7 @@ TEST(SegmentVelocity, LetsIntervalsHold) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Measurements m = Noisy{.seed = seed}.Log();
     const Selection selection = SelectConstantSpeed(m);
-    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
+    const Estimate estimate = IdentifyAndCheck(identifier, {Prepare(m, selection), options, {}});
     if (estimate.status != Status::ok) continue;
     ++ok;
     const auto interval = *estimate.Find("viscous")->interval95;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "identification/inference/covariance.h"
-#include "identification/inference/hold_structure.h"
+#include "identification/inference/hausman_test.h"
 #include "identification/uncertainty/between_ends.h"
 #include "identification/uncertainty/turns_with_direction.h"
 #include "models/foundation/random_stream.h"
@@ -115,21 +115,21 @@ Disagreement MovedBy(double difference) {
   return {0, difference, 9, Eigen::VectorXd::Constant(1, difference)};
 }
 
-TEST(HoldStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
+TEST(ApplyHausmanTest, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
   Fit fit = LevelFit();
   const double before = CovarianceOf(fit).covariance(0, 0);
-  fit.held_structure = {MovedBy(0.2), fit.fitted};
+  fit.unmodelled_residual = {MovedBy(0.2), fit.fitted};
   const Inference inference = Infer(fit);
   EXPECT_TRUE(inference.without_intervals.empty());
   EXPECT_EQ(inference.warnings.size(), 1u);
   EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before + 0.04);
 }
 
-TEST(HoldStructure, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
+TEST(ApplyHausmanTest, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
   // J d is 1.55 N.m of 15 everywhere, 10.3 %
   Fit fit = LevelFit();
   const double before = CovarianceOf(fit).covariance(0, 0);
-  fit.held_structure = {MovedBy(1.55), fit.fitted};
+  fit.unmodelled_residual = {MovedBy(1.55), fit.fitted};
   const Inference inference = Infer(fit);
   EXPECT_FALSE(inference.without_intervals.empty());
   EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before);

@@ -35,7 +35,7 @@ TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
   };
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(1, 0.5);
   const Uncertainty known =
-      JudgePenalised({gram, inverse, 0, weight, 1, {false}, prior}, rows, residual, all);
+      PenalisedCovariance({gram, inverse, 0, weight, 1, {false}, prior}, rows, residual, all);
 
   // to the scatter of the noise's variance, sqrt(2 / n) = 1 %, four times
   const double closed_form = 1.0 / (2.0 * double(n));
@@ -66,7 +66,7 @@ TEST(PenalisedUncertainty, TakesTheWeightsVarianceFromThoseThatThePriorHoldsBack
     return jacobian.middleRows(first, last - first);
   };
   const Uncertainty known =
-      JudgePenalised({gram, inverse, 0, weight, s, {false, false, true}}, rows, residual, all);
+      PenalisedCovariance({gram, inverse, 0, weight, s, {false, false, true}}, rows, residual, all);
 
   double above = 0, below = 0;
   for (const int k : {0, 1}) {

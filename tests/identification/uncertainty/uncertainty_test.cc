@@ -76,7 +76,7 @@ Eigen::Vector2d CoverageUneven(double pole) {
       y[i] = (0.2 + 2 * std::pow(A(i, 1), 2)) * noise;
     }
     const Eigen::VectorXd x = cofactor * (A.transpose() * y);
-    const Uncertainty known = JudgeUncertainty(A, cofactor, y - A * x, all, 20 * A.col(1));
+    const Uncertainty known = EstimateCovariance(A, cofactor, y - A * x, all, 20 * A.col(1));
     EXPECT_GT(known.uneven, 0);
     const double reach = StudentQuantile(known.freedom, kIntervalLevel);
     for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
@@ -101,7 +101,7 @@ TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {
   }
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(400, true), {}};
   const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
-  const Uncertainty known = JudgeUncertainty(A, cofactor, residual, all);
+  const Uncertainty known = EstimateCovariance(A, cofactor, residual, all);
   EXPECT_EQ(known.noise.order(), 0);
   EXPECT_EQ(known.freedom, 398);
   EXPECT_EQ(known.covariance, residual.squaredNorm() / 398 * cofactor);
@@ -141,7 +141,7 @@ Eigen::Array2d CoverageOfSegments(int count, double in_common) {
     }
     const Eigen::Vector2d x = cofactor * A.transpose() * noise;
     const Eigen::VectorXd residual = noise - A * x;
-    Uncertainty known = JudgeUncertainty(A, cofactor, residual, selection);
+    Uncertainty known = EstimateCovariance(A, cofactor, residual, selection);
     CountSegments(A, cofactor, residual, selection, known);
     for (int j = 0; j < 2; ++j) {
       const double reach = StudentQuantile(known.Freedom(j), kIntervalLevel) * known.Deviation(j);

@@ -88,7 +88,7 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
 /// An answer that knows no warming about a joint that warms, as its file holds it after a verdict.
 Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> options) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  Estimate estimate = IdentifyAndJudge(identifier, {log, identifier.options.Read(options), {}});
+  Estimate estimate = IdentifyAndCheck(identifier, {log, identifier.options.Read(options), {}});
   EXPECT_NE(estimate.status, Status::ok);
   return EstimateFrom({EstimateToTree(estimate), "estimate.json"});
 }
@@ -109,8 +109,8 @@ TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options = identifier.options.Read({});
   const IdentifierInput input{log, options, {}};
-  Estimate estimate = IdentifyAndJudge(identifier, input);
-  estimate.holdout = HoldOut(identifier, input, 0.3);
+  Estimate estimate = IdentifyAndCheck(identifier, input);
+  estimate.holdout = HoldOut(identifier, input, 0.3).metrics;
   const EstimateView view = ViewOwnRecording(estimate, log);
   ASSERT_TRUE(view.held_out.has_value());
   EXPECT_EQ(view.held_out->selection.count(), estimate.holdout->n);

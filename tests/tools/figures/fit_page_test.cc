@@ -152,7 +152,7 @@ Identified Identify(const Measurements& m, const std::map<std::string, std::stri
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options = identifier.options.Read(given);
   PreparedLog log = Prepare(m);
-  Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+  Estimate estimate = IdentifyAndCheck(identifier, {log, options, {}});
   return {std::move(log), std::move(estimate)};
 }
 

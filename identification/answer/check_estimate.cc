@@ -1,0 +1,160 @@
+#include "identification/answer/check_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "identification/find_parameter.h"
+#include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/inference/apply.h"
+#include "identification/lack_of_fit/error_level.h"
+#include "identification/lack_of_fit/explain.h"
+#include "identification/lack_of_fit/find_lack_of_fit.h"
+#include "identification/lack_of_fit/fitted_model.h"
+#include "identification/linear/least_squares.h"
+#include "identification/uncertainty/tails.h"
+
+namespace warmjoint {
+namespace {
+
+/// The fit that the estimate's friction stands for: a table of its law, heat and start.
+Fit FitOf(const Estimate& estimate, const Measurements& m) {
+  Fit fit;
+  fit.identifier = estimate.identifier;
+  fit.friction = *estimate.friction;
+  fit.gravity = estimate.gravity;
+
+  // the rows that a fit of that law would have
+  const std::vector<double> values = LawValues(fit.friction);
+  const Eigen::Map<const Eigen::VectorXd> law(values.data(),
+                                              static_cast<Eigen::Index>(values.size()));
+  fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
+
+  // heat and start, where the estimate tells them
+  if (fit.friction.thermal && Find(Role::heat, estimate)) {
+    for (FitParameter& row : HeatParameters(*fit.friction.thermal, m)) {
+      fit.parameters.push_back(std::move(row));
+    }
+  }
+  if (const EstimatedParameter* start = Find(Role::start, estimate)) {
+    fit.initial_energy = start->value;
+    fit.parameters.push_back(StartParameter(start->value, m));
+  }
+  return fit;
+}
+
+/// What the estimate claims of each row.
+Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
+  Inference inference;
+  inference.status = estimate.status;
+  inference.message = estimate.message;
+  inference.warnings = estimate.warnings;
+  inference.gives_friction = true;
+
+  // a row that the estimate does not tell keeps its value, without errors
+  for (const FitParameter& row : fit.parameters) {
+    const EstimatedParameter* one = estimate.Find(row.name);
+    inference.parameters.push_back(one ? ParameterInterval{one->value, one->std, one->interval95, 0}
+                                       : ParameterInterval{row.value, {}, {}, 0});
+  }
+  return inference;
+}
+
+/// Takes over what the verdict left.
+void TakeOver(const Fit& fit, Inference inference, Estimate& estimate) {
+  estimate.status = inference.status;
+  estimate.message = std::move(inference.message);
+  estimate.warnings = std::move(inference.warnings);
+  estimate.diagnostics = std::move(inference.diagnostics);
+  estimate.assumptions = std::move(inference.assumptions);
+  if (!inference.gives_friction) estimate.friction.reset();
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const auto one =
+        std::ranges::find(estimate.parameters, fit.parameters[i].name, &EstimatedParameter::name);
+    if (one == estimate.parameters.end()) continue;
+    one->value = inference.parameters[i].value;
+    one->std = inference.parameters[i].std;
+    one->interval95 = inference.parameters[i].interval95;
+  }
+}
+
+/// The tests for lack of fit ask for what a law cannot follow; a least-squares fit leaves nothing that
+/// its law could. Another program's may: one Gauss-Newton step d of its parameters, over its residual,
+/// says what the same law would take up. Returns a row that refuses the estimate where J d is relevant (judging) and a part
+/// of d is beyond noise: of p parameters, at an error level of 1 % for all (Bonferroni). inference: of
+/// the fit; selection: samples at constant speed.
+std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
+                                 const Measurements& measurements, const Selection& selection,
+                                 const LackOfFitSettings& judging) {
+  const std::optional<FittedModel> model = EvaluateModel(fit, inference, measurements, selection);
+  if (!model || !model->residual.allFinite() || !model->derivatives.allFinite())
+    return std::nullopt;
+
+  // one step from the estimate
+  const auto p = static_cast<Eigen::Index>(model->rows.size());
+  const Eigen::MatrixXd rows = Kept(model->derivatives.leftCols(p), model->selection);
+  const Eigen::VectorXd residual = Kept(model->residual, model->selection);
+  if (p == 0 || rows.rows() <= p) return std::nullopt;
+  const LeastSquares step = SolveLeastSquares(rows, residual, 0);
+  if (step.rank < p) return std::nullopt;
+
+  // whether that matters
+  const Eigen::VectorXd taken = rows * step.solution;
+  if (taken.norm() < judging.relevance * Kept(model->torque, model->selection).norm()) {
+    return std::nullopt;
+  }
+
+  // and whether noise may do it
+  const Uncertainty known =
+      EstimateCovariance(rows, step.cofactor, residual - taken, model->selection);
+  // the parameter that is farthest off, in its standard errors
+  Eigen::Index most = 0;
+  for (Eigen::Index j = 1; j < p; ++j) {
+    const auto score = [&](Eigen::Index i) {
+      return std::abs(step.solution[i]) / known.Deviation(i);
+    };
+    if (score(j) > score(most)) most = j;
+  }
+  const double z = std::abs(step.solution[most]) / known.Deviation(most);
+  if (static_cast<double>(p) * PValueOfStudent(z, known.freedom) >= kErrorLevel) {
+    return std::nullopt;
+  }
+
+  const FitParameter& parameter = fit.parameters[model->rows[static_cast<std::size_t>(most)]];
+  return Cause{.source = Source::own_law,
+               .action = Action::refuse,
+               .status = Status::inadequate_model,
+               .sentence = ExplainOwnLaw(parameter, step.solution[most])};
+}
+
+}  // namespace
+
+void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Estimate& estimate) {
+  // an identifier without options stands for whoever made the estimate
+  const Identifier identifier{estimate.identifier, "", {}, nullptr};
+  const IdentifierInput input{log, {}, {}};
+  if (!estimate.friction) {
+    // nothing to follow along the log
+    Fit none;
+    none.refusal = Refusal{estimate.status, "the estimate holds no friction"};
+    Inference told;
+    told.status = estimate.status;
+    estimate.diagnostics = FindLackOfFit(identifier, input, none, told, judging).diagnostics;
+    return;
+  }
+  const Fit fit = FitOf(estimate, input.measurements);
+  const Inference claimed = InferenceOf(estimate, fit);
+  // what the law lacks, and whether it could follow the log better by itself
+  auto [diagnostics, causes] = FindLackOfFit(identifier, input, fit, claimed, judging);
+  if (claimed.status == Status::ok && !IsRefused(causes)) {
+    auto misfit = OwnLawCause(fit, claimed, input.measurements, input.selection, judging);
+    if (misfit) causes.push_back(std::move(*misfit));
+  }
+  Inference judged = Apply(claimed, causes);
+  judged.diagnostics = std::move(diagnostics);
+  judged.assumptions = AssumptionsOf(causes, fit, input.measurements.torque_unit);
+  TakeOver(fit, std::move(judged), estimate);
+}
+
+}  // namespace warmjoint

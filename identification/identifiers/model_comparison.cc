@@ -1,0 +1,321 @@
+#include "identification/identifiers/model_comparison.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "identification/fit_data.h"
+#include "identification/forward/map_points.h"
+#include "identification/holdout/blocked_hold_out.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/identifiers/structures.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/physical_bounds.h"
+#include "models/friction/coulomb.h"
+#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kBins[] = {8, 16, 32, 64, 128, 256};
+constexpr double kDeviations = 2;  // of k F above its mean
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// From 0 to 1 over what was travelled. [n]
+VectorXd ShareOfRange(const VectorXd& position) {
+  const double lower = position.minCoeff(), range = position.maxCoeff() - lower;
+  if (!(range > 0)) return VectorXd::Zero(position.size());
+  return (position.array() - lower) / range;
+}
+
+/// From 0 to 1 over a turn. [n]
+VectorXd ShareOfTurn(const VectorXd& angle) {
+  return angle.unaryExpr([](double a) { return a / kTurn - std::floor(a / kTurn); });
+}
+
+/// Sum and number of the samples in each bin of either direction.
+struct Means {
+  VectorXd sums, counts;  // [2 bins]
+
+  Means(const VectorXd& residual, const VectorXd& share, const VectorXd& velocity, Index bins)
+      : sums(VectorXd::Zero(2 * bins)), counts(VectorXd::Zero(2 * bins)) {
+    for (Index i = 0; i < residual.size(); ++i) {
+      const auto place = static_cast<Index>(share[i] * static_cast<double>(bins));
+      const Index bin = std::min(place, bins - 1) + (velocity[i] > 0 ? bins : 0);
+      sums[bin] += residual[i];
+      ++counts[bin];
+    }
+  }
+
+  /// Squares that the means take.
+  double Taken() const { return (sums.array().square() / counts.array().max(1)).sum(); }
+  double Filled() const { return static_cast<double>((counts.array() > 0).count()); }
+};
+
+bool TakesMoreThanChance(const VectorXd& residual, const VectorXd& share, const VectorXd& velocity,
+                         Index bins) {
+  const Means means(residual, share, velocity, bins);
+  const auto n = static_cast<double>(residual.size());
+  // squares about one mean, and about the means of all bins that hold samples
+  const double about_mean = residual.squaredNorm() - n * std::pow(residual.mean(), 2);
+  const double about_bins = residual.squaredNorm() - means.Taken();
+  const double freedom = means.Filled() - 1;
+  if (freedom < 1 || !(about_bins > 0) || freedom > 0.5 * n) return false;
+
+  // beyond what as many means take of noise alone
+  const double taken = (about_mean - about_bins) / (about_bins / (n - freedom - 1));
+  return taken > freedom + kDeviations * std::sqrt(2 * freedom);
+}
+
+/// Whether means over bins of place, one set for each direction of motion, take more of a residual
+/// than chance would, at any of six widths of 8 to 256 bins:
+///     (S0 - S1) / s^2 > k + 2 sqrt(2 k),   s^2 = S1 / (n - k - 1),
+/// S0: squares about one mean, S1: squares about the k + 1 means of bins that hold samples. Under chance
+/// alone the left side is k F, k on average, give or take sqrt(2 k). Kernels are no freer than such
+/// means, and a map that takes no more than chance gives does not lower the error on what it has not seen.
+/// residual: [n] N.m or N; points: [n x 5]. Places are the joint's position, and the motor's angle.
+bool LeavesOverPlace(const VectorXd& residual, const MapPoints& points) {
+  const auto column = [&](MapQuantity quantity) -> VectorXd {
+    return points.col(static_cast<Index>(quantity));
+  };
+  const VectorXd velocity = column(MapQuantity::velocity);
+  const VectorXd shares[] = {ShareOfRange(column(MapQuantity::position)),
+                             ShareOfTurn(column(MapQuantity::motor_position))};
+  for (const VectorXd& share : shares) {
+    for (const Index bins : kBins) {
+      if (TakesMoreThanChance(residual, share, velocity, bins)) return true;
+    }
+  }
+  return false;
+}
+
+constexpr Eigen::Index kRows = 3000;    // on which structures are compared
+constexpr double kHopeless = 4;         // of the mean squared error of another
+constexpr double kFewParameters = 0.1;  // of the rows
+
+Trial Try(const Structure& structure, const IdentifierInput& input) {
+  Trial trial{structure, AtBounds(structure.Quick().Fitted(input), input.measurements)};
+  trial.gives_friction = GivesFriction(trial.fit);
+  // the shape that was chosen for a map stays with the structure
+  if (!trial.fit.friction.maps.empty()) {
+    trial.structure = structure.WithShapeOf(trial.fit.friction.maps[0]);
+  }
+  if (trial.gives_friction) return trial;
+
+  // beyond doubt or perhaps by chance
+  trial.told = Infer(trial.fit);
+  trial.dropped =
+      trial.told.status == Status::ok ? "gives no friction" : StatusName(trial.told.status);
+  return trial;
+}
+
+}  // namespace
+
+ModelComparison::ModelComparison(const IdentifierInput& input, const Selection& selection)
+    : log_(Condense({input.measurements, selection}, kRows)),
+      quick_(input.On(log_.view)),
+      rows_(static_cast<double>(quick_.selection.count())) {}
+
+void ModelComparison::Add(const std::vector<Structure>& structures) {
+  for (const Structure& structure : structures) {
+    quick_.Tell("trying " + structure.Name());
+    trials_.push_back(Try(structure, quick_));
+  }
+}
+
+void ModelComparison::LeaveOut(const std::vector<Structure>& structures, const std::string& why) {
+  for (const Structure& structure : structures) {
+    trials_.push_back({.structure = structure, .dropped = why});
+    trials_.back().told.status = Status::not_identifiable;
+  }
+}
+
+const Structure* ModelComparison::Best() const {
+  const Trial* best = BestTrial();
+  return best ? &best->structure : nullptr;
+}
+
+std::optional<double> ModelComparison::LagOfBest(const IdentifierInput& all) const {
+  const Trial* best = BestTrial();
+  if (!best) return std::nullopt;
+  all.Tell("looking for a lag of the torque");
+  const Fit& fit = best->fit;
+
+  // jumps of E stand at rows: back to the samples with which those begin
+  CourseStart start = fit.Start();
+  for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
+  return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
+}
+
+bool ModelComparison::MayHaveMap() const {
+  const Trial* best = BestTrial();
+  if (!best) return true;
+  const Measurements& m = log_.view.measurements;
+  if (m.position_integrated) return KnowsMotorAngle(m);
+  const MapPoints points = Kept(PointsOf(m), best->fit.used);
+  return LeavesOverPlace(best->fit.residual(), points);
+}
+
+ChosenKernels ModelComparison::KernelsBesideBest(FittedGravity gravity) const {
+  quick_.Tell("choosing the kernels of maps");
+  // E as the best structure so far has it
+  const Trial* best = BestTrial();
+  Eigen::VectorXd energy;
+  if (best) {
+    const Fit& fit = best->fit;
+    energy = PredictFriction(fit.friction, log_.view.measurements, fit.Start()).energy;
+  }
+
+  // energy-ml has both maps, over position and over the motor's angle
+  const auto chosen = [&](WarmMap position) {
+    const Options options =
+        EnergyMl().options.With(GravityOption{gravity}).With(WarmMapOptions{{}, position});
+    return MapBesideEnergy(quick_.With(options), energy);
+  };
+  ChosenKernels kernels;
+  const Measurements& m = log_.view.measurements;
+  if (!m.position_integrated) kernels.position = chosen(WarmMap::map);
+  if (KnowsMotorAngle(m)) kernels.motor = chosen(WarmMap::motor);
+  return kernels;
+}
+
+bool ModelComparison::MayWarm() const {
+  return std::ranges::any_of(trials_, [](const Trial& trial) {
+    const Identifier& identifier = trial.structure.identifier;
+    if (identifier.name != EnergyMl().name) return false;
+    // one without slope, where the joint has one, need not settle for its warming
+    const bool too_poor = identifier.options.Get<LawOption>().law->name == Coulomb::name;
+    return too_poor ? trial.gives_friction : trial.told.status != Status::not_identifiable;
+  });
+}
+
+bool ModelComparison::MayWarmBeside(FittedGravity gravity) const {
+  const Structure* best = Best();
+  return MayWarm() || !best || best->gravity() == gravity;
+}
+
+bool ModelComparison::MayBendAndWarm() const {
+  return MayWarm() ||
+         Find(StribeckStructure(FittedWarming::none))->told.status != Status::not_identifiable;
+}
+
+bool ModelComparison::MayHaveTwoLevels(FittedWarming warming) const {
+  const Trial& one = *Find(StribeckStructure(warming));
+  if (one.told.status == Status::ok) return Pushes(one.fit);
+
+  // where the curve does not fit: by a linear law, or by two levels without warming
+  if (warming == FittedWarming::none) return Pushes(First().fit);
+  const Trial* cold = Find(TwoLevelStribeckStructure(FittedWarming::none));
+  return cold && cold->told.status == Status::ok;
+}
+
+void ModelComparison::DropDominated() {
+  // the best by BIC first: whatever outdoes one stands before it
+  std::vector<Trial*> order;
+  for (Trial& trial : trials_) {
+    if (trial.outdone) trial.dropped.clear();
+    trial.outdone = false;
+    if (trial.dropped.empty()) order.push_back(&trial);
+  }
+  std::ranges::stable_sort(order, {}, [&](const Trial* one) { return BicOf(*one); });
+
+  // dropped only by those that stand themselves
+  std::vector<const Trial*> standing;
+  for (Trial* one : order) {
+    for (const Trial* other : standing) {
+      if (one->dropped.empty()) one->dropped = WhyDominated(*one, *other);
+    }
+    one->outdone = !one->dropped.empty();
+    if (!one->outdone) standing.push_back(one);
+  }
+}
+
+const Structure* ModelComparison::OnlyOne() const {
+  const auto stands = [](const Trial& trial) { return trial.dropped.empty(); };
+  if (std::ranges::count_if(trials_, stands) != 1) return nullptr;
+  return &std::ranges::find_if(trials_, stands)->structure;
+}
+
+bool ModelComparison::HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds) {
+  if (trial.errors) return true;
+  quick_.Tell(fmt::format("comparing on {} held-out blocks: {}", bounds.size() - 1,
+                          trial.structure.Name()));
+  trial.errors = trial.structure.ErrorsOn(quick_, bounds);
+  if (trial.errors && trial.errors->allFinite()) return true;
+  trial.dropped = "fails without one of the blocks";
+  return false;
+}
+
+std::vector<StructureCandidate> ModelComparison::Compare(int blocks) {
+  const std::vector<Eigen::Index> bounds = CutIntoBlocks(quick_.selection, blocks);
+  // one that fails outdoes nobody: those that it dropped stand again
+  const auto fails = [&](Trial& trial) { return trial.dropped.empty() && !HoldOut(trial, bounds); };
+  while (std::ranges::any_of(trials_, fails)) DropDominated();
+
+  std::vector<StructureCandidate> contenders;
+  standing_.clear();
+  for (size_t i = 0; i < trials_.size(); ++i) {
+    const Trial& trial = trials_[i];
+    if (!trial.dropped.empty()) continue;
+    standing_.push_back(i);
+    contenders.push_back(
+        {trial.structure.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
+  }
+  return contenders;
+}
+
+std::vector<StructureTrial> ModelComparison::Told() const {
+  std::vector<StructureTrial> told;
+  for (const Trial& trial : trials_) {
+    StructureTrial& one = told.emplace_back();
+    one.name = trial.structure.Name();
+    one.parameters = trial.Parameters();
+    one.dropped = trial.dropped;
+    if (trial.errors) one.rmse = std::sqrt(trial.errors->mean());
+  }
+  return told;
+}
+
+const Trial* ModelComparison::BestTrial() const {
+  const Trial* best = nullptr;
+  for (const Trial& trial : trials_) {
+    if (trial.gives_friction && (!best || BicOf(trial) < BicOf(*best))) best = &trial;
+  }
+  return best;
+}
+
+const Trial* ModelComparison::Find(const Structure& structure) const {
+  const auto found = std::ranges::find_if(
+      trials_, [&](const Trial& trial) { return trial.structure.Name() == structure.Name(); });
+  return found == trials_.end() ? nullptr : &*found;
+}
+
+bool ModelComparison::Pushes(const Fit& fit) const {
+  const Eigen::VectorXd residual = fit.residual();
+  if (residual.size() == 0) return false;
+  const double mean = residual.mean();
+  const double square = residual.squaredNorm() / static_cast<double>(residual.size());
+  return Bic(square - mean * mean, 1, rows_) < Bic(square, 0, rows_);
+}
+
+std::string ModelComparison::WhyDominated(const Trial& one, const Trial& other) const {
+  if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
+    return fmt::format("outdone by {}, which is simpler", other.structure.Name());
+  }
+
+  // to leave little counts only with few parameters for so many rows
+  if (other.Parameters() < kFewParameters * rows_ &&
+      kHopeless * other.MeanSquare() < one.MeanSquare()) {
+    return fmt::format("{} leaves less than half of its residual", other.structure.Name());
+  }
+  return "";
+}
+
+}  // namespace warmjoint

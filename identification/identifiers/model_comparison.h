@@ -1,0 +1,115 @@
+// Structures that are tried on one log and compared on parts of it that they have not seen.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/holdout/structure_choice.h"
+#include "identification/identifiers/structures.h"
+#include "identification/inference/inference.h"
+#include "identification/preparation/condense.h"
+
+namespace warmjoint {
+
+/// What became of a structure on the rows that are compared.
+struct Trial {
+  Structure structure;
+  Fit fit{};
+  bool gives_friction = false;
+  Inference told{};                         // of one that gives no friction: why
+  std::string dropped{};                    // why it is no contender; empty for one that is
+  bool outdone = false;                     // by another that stands, which is why
+  std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
+
+  double Parameters() const { return fit.effective_parameters; }
+  /// (N.m)^2 or N^2; of exact fits that of rounding, by which none is better than another.
+  double MeanSquare() const {
+    return std::max(fit.residual().squaredNorm() / static_cast<double>(fit.torque.size()),
+                    RoundingVariance(fit.torque));
+  }
+};
+
+/// Everything that is tried on one log.
+class ModelComparison {
+ public:
+  /// On rows that hold the means of neighbouring samples. selection: of the samples that take part. What
+  /// the input refers to must outlive it.
+  ModelComparison(const IdentifierInput& input, const Selection& selection);
+  ModelComparison(const ModelComparison&) = delete;
+  ModelComparison& operator=(const ModelComparison&) = delete;
+
+  /// Fits structures. Of maps, the shapes that they chose are kept from then on.
+  void Add(const std::vector<Structure>& structures);
+  /// Tells of structures that are not tried.
+  void LeaveOut(const std::vector<Structure>& structures, const std::string& why);
+
+  /// The structure that BIC prefers so far, of those that fit all rows; none where nothing does.
+  const Structure* Best() const;
+
+  /// The lag, s, that the best so far finds where every sample shows one; nothing where none does. all: the
+  /// input with every sample.
+  std::optional<double> LagOfBest(const IdentifierInput& all) const;
+
+  /// Whether a map may help: the best so far leaves something over place, or nothing fits.
+  bool MayHaveMap() const;
+
+  /// The kernels of maps that suit the log, chosen once, beside the warming of the best so far. gravity: its
+  /// kind, fitted beside the maps.
+  ChosenKernels KernelsBesideBest(FittedGravity gravity) const;
+
+  /// Whether a warming may be told beside gravity, which has been tried without one: a linear law
+  /// can be told with it, or the best so far has that gravity.
+  bool MayWarmBeside(FittedGravity gravity) const;
+
+  /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
+  /// be told without warming, or a linear law with it.
+  bool MayBendAndWarm() const;
+
+  /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
+  /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
+  /// more, that two levels fit without it.
+  bool MayHaveTwoLevels(FittedWarming warming) const;
+
+  /// Drops those that cannot be chosen whatever the blocks say: one that stands itself is simpler and preferred
+  /// by BIC, or leaves half of the residual.
+  void DropDominated();
+
+  /// The structure that stands where it is the only one: there is nothing to compare.
+  const Structure* OnlyOne() const;
+
+  /// Errors of those that stand, on blocks that they have not seen. Where one fails without a block, those that it
+  /// outdid stand again.
+  std::vector<StructureCandidate> Compare(int blocks);
+  /// The structure of the i-th contender of the last comparison.
+  const Structure& Contending(size_t i) const { return trials_[standing_[i]].structure; }
+
+  const Trial& First() const { return trials_.front(); }
+  /// Rows that are compared.
+  double rows() const { return rows_; }
+  /// All trials, for a reader.
+  std::vector<StructureTrial> Told() const;
+
+ private:
+  const Trial* BestTrial() const;
+  /// Finds the errors of a trial on blocks between bounds; false, and why, where it fails without one.
+  bool HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds);
+  /// Whether a linear law can be told with warming.
+  bool MayWarm() const;
+  double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
+  /// The trial of a structure; null where it was not tried.
+  const Trial* Find(const Structure& structure) const;
+  /// Whether the residual has a mean, which BIC would give a parameter.
+  bool Pushes(const Fit& fit) const;
+  /// Why one cannot be chosen beside another; empty where it can.
+  std::string WhyDominated(const Trial& one, const Trial& other) const;
+
+  const CondensedLog log_;
+  const IdentifierInput quick_;
+  double rows_;
+  std::vector<Trial> trials_;
+  std::vector<size_t> standing_;  // places of the contenders among the trials
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,107 @@
+#include "identification/inference/apply.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/uncertainty/between_ends.h"
+#include "identification/uncertainty/tails.h"
+
+namespace warmjoint {
+namespace {
+
+/// What all rows do to one parameter, in its unit.
+struct Change {
+  double shift = 0;
+  double reach = 0;             // of either end of the interval
+  double below = 0, above = 0;  // how far the value may lie from itself, of rows that cover
+  bool has_interval = true;
+};
+
+/// One for each row of the fit's table.
+std::vector<Change> ChangesBy(const std::vector<Cause>& causes, std::size_t count) {
+  std::vector<Change> changes(count);
+  // a fit without numbers has none to change
+  if (count == 0) return changes;
+  for (const Cause& cause : causes) {
+    for (const std::size_t row : cause.without_interval) changes[row].has_interval = false;
+    if (cause.action == Action::note || cause.bias.size() == 0) continue;
+    for (std::size_t i = 0; i < cause.rows.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double bias = cause.bias[at];
+      const double spread = cause.spread.size() > 0 ? cause.spread[at] : 0;
+      Change& change = changes[cause.rows[i]];
+      if (cause.action == Action::shift) change.shift += bias;
+      if (cause.action == Action::widen) change.reach += std::abs(bias) + kNormal95 * spread;
+      if (cause.action == Action::cover) (bias < 0 ? change.below : change.above) += std::abs(bias);
+    }
+  }
+  return changes;
+}
+
+void Apply(const Change& change, ParameterInterval& known) {
+  known.value += change.shift;
+  known.widened += change.reach + change.below + change.above;
+  if (!change.has_interval) {
+    known.std.reset();
+    known.interval95.reset();
+  }
+  if (!known.interval95) return;
+
+  // noise around either end of what is covered: an interval that holds the one that is true
+  auto& [lower, upper] = *known.interval95;
+  const double half = known.HalfWidth(), middle = 0.5 * (lower + upper);
+  if (const double apart = change.below + change.above; apart > 0 && half > 0) {
+    const double reach = half * ReachBeyondEnds(kNormal95 * apart / half) / kNormal95;
+    lower = middle - change.below - reach;
+    upper = middle + change.above + reach;
+  }
+  lower += change.shift - change.reach;
+  upper += change.shift + change.reach;
+}
+
+/// The row by which the answer is refused; nullptr where none does.
+const Cause* RefusalOf(const std::vector<Cause>& causes) {
+  const Cause* worst = nullptr;
+  for (const Cause& cause : causes) {
+    if (cause.action != Action::refuse) continue;
+    if (!worst || cause.status > worst->status) worst = &cause;
+  }
+  return worst;
+}
+
+}  // namespace
+
+Inference Apply(Inference answer, std::vector<Cause> causes) {
+  std::ranges::stable_sort(causes, {}, &Cause::source);
+  // the numbers
+  const std::vector<Change> changes = ChangesBy(causes, answer.parameters.size());
+  for (std::size_t i = 0; i < changes.size(); ++i) Apply(changes[i], answer.parameters[i]);
+
+  // the status; values that are refused stay, without what would make them look sure
+  const Cause* const refusal = RefusalOf(causes);
+  if (refusal) {
+    answer.status = refusal->status;
+    answer.message = refusal->sentence;
+    answer.warnings.clear();
+    answer.gives_friction = false;
+    for (ParameterInterval& one : answer.parameters) {
+      one.std.reset();
+      one.interval95.reset();
+    }
+  }
+
+  // what is said of it
+  const bool is_ok = answer.status == Status::ok;
+  for (const Cause& cause : causes) {
+    if (cause.action == Action::refuse || cause.sentence.empty()) continue;
+    if (!is_ok && cause.sentence_in != SentenceIn::any_answer) continue;
+    if (cause.sentence_in == SentenceIn::message) {
+      answer.message += "; " + cause.sentence;
+    } else {
+      answer.warnings.push_back(cause.sentence);
+    }
+  }
+  return answer;
+}
+
+}  // namespace warmjoint

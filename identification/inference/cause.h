@@ -1,0 +1,81 @@
+// Everything that says something about an answer, as rows of one list.
+#pragma once
+
+#include <warmjoint/estimate.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace warmjoint {
+
+/// What a row is about, in the order in which sentences are read.
+enum class Source {
+  // what refuses an answer by itself
+  fit,
+  bound,
+  faults,
+  few_samples,
+  worse_than_mean,
+  own_law,
+  // what no test can see
+  cold_start,
+  open_start,
+  slow_drift,
+  open_drift,
+  open_curve,
+  open_memory,
+  dead_band,
+  degrees,
+  clock,
+  // what the log leaves open
+  held_losses,
+  gaps,
+  rounding,
+  hidden_steps,
+  // what tests for lack of fit found in the residual
+  findings,
+  hidden_means,
+  hints,
+  // how the log was prepared
+  reversals,
+  preparation,
+  velocity_averaged,
+  velocity_noise,
+  recording
+};
+
+/// What a row does to an answer.
+enum class Action {
+  note,    // says something, changes nothing
+  widen,   // intervals reach farther by |bias| + 1.96 spread
+  cover,   // intervals hold the value, and the value with the bias, for noise around either
+  shift,   // values and intervals move by the bias
+  refuse,  // no interval, friction or band; the answer's status is the row's
+};
+
+/// A sentence is a warning, ends the message, or is a warning that a refused answer has, too: it is about the log.
+enum class SentenceIn { warning, message, any_answer };
+
+struct Cause {
+  Source source = Source::fit;
+  Action action = Action::note;
+  std::vector<std::size_t> rows{};  // [p] of the fit's table that the bias is about
+  Eigen::VectorXd bias{};  // [p] change of each value, were this taken into account; empty: of none
+  Eigen::VectorXd spread{};                     // [p] standard deviations of the bias; empty: 0
+  std::vector<std::size_t> without_interval{};  // rows of the table that get none
+  double size =
+      0;  // how far off an assumption was taken to be, N.m or N, where it has no fixed size
+  Status status = Status::ok;  // of one that refuses
+  std::string sentence{};      // empty: nothing is said
+  SentenceIn sentence_in = SentenceIn::warning;
+};
+
+/// Whether a list refuses the answer.
+inline bool IsRefused(const std::vector<Cause>& causes) {
+  return std::ranges::any_of(causes, [](const Cause& one) { return one.action == Action::refuse; });
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,15 @@
+// What becomes of intervals where the residual is structure.
+#pragma once
+
+#include "identification/fit.h"
+#include "identification/inference/inference.h"
+
+namespace warmjoint {
+
+/// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
+/// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by
+/// default, d joins the errors as one more of them, covariance + d d^T, and a warning says so; beyond
+/// it no number gets an interval. fit: with unmodelled_residual; inference: with the covariance by noise.
+void ApplyHausmanTest(const Fit& fit, Inference& inference);
+
+}  // namespace warmjoint

@@ -1,0 +1,168 @@
+#include "identification/lack_of_fit/find_lack_of_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "identification/lack_of_fit/examine.h"
+#include "identification/lack_of_fit/explain.h"
+#include "identification/lack_of_fit/table.h"
+#include "identification/uncertainty/tails.h"
+
+namespace warmjoint {
+namespace {
+
+// of the friction, by all findings together; why: between what real logs that repeat leave, 12 % at most, and
+// a constant torque taken for friction, 26 % (a study of 1,320 simulated and 35 real fits)
+constexpr double kTogether = 0.25;
+
+std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit& fit,
+                                      const std::string& unit) {
+  std::vector<Diagnostic> diagnostics;
+  for (const Finding& finding : examination.findings) {
+    Diagnostic& one = diagnostics.emplace_back();
+    one.test = finding.test->name;
+    one.made = finding.made;
+    // a test that was not made tells why, and nothing else
+    if (!finding.made) {
+      one.reason = finding.reason;
+      continue;
+    }
+    one.statistic = ZOf(finding.p);
+    one.p = finding.p;
+    one.p_adjusted = finding.p_adjusted;
+    one.rejected = finding.rejected;
+    one.effect = examination.Rms(finding);
+    one.effect_unit = unit;
+    one.moves = NamedMoves(examination.rows, finding.moves, fit);
+  }
+  return diagnostics;
+}
+
+/// Whether something was found that may stand in the warming in that way.
+bool Finds(const Examination& examination, HeatRelation warming) {
+  return std::ranges::any_of(examination.findings, [=](const Finding& finding) {
+    return finding.rejected && finding.test->warming == warming;
+  });
+}
+
+/// The row of a source; nullptr where there is none.
+Cause* Row(Source source, Examination& examination) {
+  const auto found = std::ranges::find(examination.causes, source, &Cause::source);
+  return found == examination.causes.end() ? nullptr : &*found;
+}
+
+/// How far a finding changes the friction, beside --relevance: half of that is allowed of what moves understate.
+double Counted(const Finding& finding) {
+  return (finding.test->harm == Harm::of_either_twice ? 2 : 1) * finding.harm;
+}
+
+/// Why what was found is too much to live with; nothing where it is not.
+std::optional<std::string> TooMuch(const Examination& examination, const Finding& worst,
+                                   const LackOfFitSettings& judging, const Measurements& m) {
+  if (Counted(worst) > judging.relevance) return ExplainTooMuch(worst, judging.relevance, m);
+  double explained = 0;
+  for (const Finding* finding : examination.Found()) explained += finding->explained;
+  explained = std::min(explained, examination.squares);
+  const double together = std::sqrt(explained / examination.samples) / examination.friction;
+  if (together <= kTogether) return std::nullopt;
+  return ExplainTooMuchTogether(together, kTogether);
+}
+
+/// What drifts is partly taken up by the warming, by how much cannot be known: no interval of it is left.
+std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Role role = fit.parameters[i].role;
+    if (role == Role::heat || role == Role::start) rows.push_back(i);
+  }
+  return rows;
+}
+
+/// The row of all findings: refuses the answer that they make wrong, else widens its intervals.
+void ActOnFindings(const Explained& of, const LackOfFitSettings& judging,
+                   Examination& examination) {
+  Cause* const row = Row(Source::findings, examination);
+  if (!row) return;
+
+  // what helps against the largest, and which changes the friction most
+  const std::vector<const Finding*> found = examination.Found();
+  const std::string remedy = found[0]->test->remedy({*found[0], of.identifier, of.input, of.fit});
+  const Finding& worst =
+      **std::ranges::max_element(found, {}, [](const Finding* one) { return Counted(*one); });
+  const Measurements& m = of.input.measurements;
+  const std::string depends = ExplainFindings(examination, m);
+  if (const auto why = TooMuch(examination, worst, judging, m)) {
+    row->action = Action::refuse;
+    row->status = Status::inadequate_model;
+    row->sentence = fmt::format("{}; {}; {}", depends, *why, remedy);
+    return;
+  }
+
+  // nobody knows how much of a drift, or of a warm start, the warming took up
+  const bool drifts = Finds(examination, HeatRelation::confounded);
+  const auto widen = [&](Source source) {
+    if (Cause* const open = Row(source, examination)) open->action = Action::widen;
+  };
+  if (drifts) {
+    row->without_interval = RowsOfWarming(of.fit);
+    widen(Source::open_drift);
+  }
+  if (Finds(examination, HeatRelation::starts)) widen(Source::open_start);
+  row->sentence = fmt::format(
+      "{}: {}; {}", depends,
+      ExplainWidened(worst.harm, drifts && of.fit.RowOf(Role::heat).has_value()), remedy);
+}
+
+/// What the start does to the numbers: of one that is not known, intervals cover a warm one; of one that is taken to be
+/// cold, a warning where a warm one would leave an interval.
+void ActOnStart(const Explained& of, StartBelief start, Examination& examination) {
+  Cause* const row = Row(Source::cold_start, examination);
+  if (!row) return;
+  if (start == StartBelief::unknown) {
+    row->action = Action::widen;
+    row->sentence = kCoversWarmStart;
+    row->sentence_in = SentenceIn::message;
+  } else {
+    row->sentence = ExplainColdStart(*row, of);
+  }
+}
+
+/// Sentences of what the log leaves open, in the order in which they are read.
+void ExplainLog(const Explained& of, Examination& examination) {
+  if (Cause* const row = Row(Source::held_losses, examination)) {
+    row->sentence = ExplainHeldLosses(*row, of);
+  }
+  if (Cause* const row = Row(Source::gaps, examination)) {
+    row->sentence = ExplainGaps(of.input.measurements);
+  }
+  for (const Source source : {Source::rounding, Source::hidden_steps}) {
+    if (Cause* const row = Row(source, examination)) row->sentence = ExplainRounding(*row, of);
+  }
+  if (Cause* const row = Row(Source::hints, examination)) {
+    row->sentence = ExplainHints(*row, examination, of);
+  }
+}
+
+}  // namespace
+
+LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
+                        const Inference& by_noise, const LackOfFitSettings& judging) {
+  const std::string& unit = input.measurements.torque_unit;
+  // a fit that is not ok has nothing to examine
+  if (by_noise.status != Status::ok) {
+    Examination none;
+    none.findings = NotMade(fmt::format("the fit is {}", StatusName(by_noise.status)));
+    return {DiagnosticsOf(none, fit, unit), {}};
+  }
+  Examination examination = ExamineResidual(fit, by_noise, input.measurements, input.selection);
+  const Explained of{identifier, input, fit, by_noise};
+  ActOnStart(of, judging.start, examination);
+  ExplainLog(of, examination);
+  ActOnFindings(of, judging, examination);
+  return {DiagnosticsOf(examination, fit, unit), std::move(examination.causes)};
+}
+
+}  // namespace warmjoint

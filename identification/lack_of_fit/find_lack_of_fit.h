@@ -1,0 +1,33 @@
+// Whether a model is adequate: what the residual of its fit still shows, as rows.
+#pragma once
+
+#include <warmjoint/estimate.h>
+
+#include <vector>
+
+#include "identification/identifier.h"
+#include "identification/inference/cause.h"
+#include "identification/inference/inference.h"
+#include "identification/lack_of_fit/lack_of_fit_settings.h"
+
+namespace warmjoint {
+
+struct LackOfFit {
+  std::vector<Diagnostic> diagnostics;  // of every test
+  std::vector<Cause> causes;
+};
+
+/// Examines a fit by the table of tests for lack of fit (table.h), made at one error level for the log
+/// (error_level.h). What they find is relevant where one finding changes the friction of law and heat by
+/// more than the share `judging.relevance` of its rms over the kept samples (Harm), or where all together
+/// amount to a quarter of it. Then a row refuses the answer, inadequate_model, and names what the
+/// residual depends on and what to try. Of less a row widens the intervals as far as the
+/// parameters would move were it part of the model; none is given of warming beside lack of fit over time or
+/// energy, since nobody can tell
+/// how much of that the warming took up. Where a start that is taken to be cold matters, a row
+/// says how much. Noise that is coloured is no lack of fit: the intervals account for it.
+/// Of a fit that is not ok no test is made. input: what the identifier saw; by_noise: what noise says of the fit.
+LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
+                        const Inference& by_noise, const LackOfFitSettings& judging);
+
+}  // namespace warmjoint

@@ -1,0 +1,29 @@
+// How far off an assumption may be for all that a log tells, and what that does to the parameters.
+#pragma once
+
+#include <warmjoint/recording.h>
+
+#include "identification/lack_of_fit/bins.h"
+#include "identification/lack_of_fit/circumstances.h"
+#include "identification/lack_of_fit/examine.h"
+#include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/sensitivity.h"
+
+namespace warmjoint {
+
+/// Adds the rows open_start, open_drift, open_curve and open_memory. A force f that an assumption leaves out has a factor c, which joins the fit
+/// for one step of least squares. Its interval at the level of the log's tests for lack of fit (error_level.h),
+/// for noise of any colour, is what no test can rule out. The farther end of that, as far as it is possible at all, moves the parameters by -(J^T W J)^-1 J^T W f c.
+///   start: f = dF/dE(0); E(0) lies between 0 and the most that the joint warms up.
+///   curve: f = s v^2, with its heat or without; c at most the friction at the highest speed.
+///   memory: f = s (u - |v|), u: |v| behind one of the filters of Circumstances::past; c as of the curve.
+///   drift: f = s d(t), against the motion and with its heat, or F t, a sensor whose gain drifts; d = t, or
+///   (1 - exp(-t/T))/(1 - exp(-1/T)), T = 1/2, 1/4, 1/8; t: share of the log. The friction that is asked for
+///   may be that of the first moment or of the last, d or d - 1. Of all of them the largest counts, for each
+///   parameter by itself; c at most the friction, or 1.
+/// fit: over the bins.
+void AddUndetectedBias(const FittedModel& model, const Measurements& measurements, const Bins& bins,
+                       const Circumstances& known, Eigen::Index p, const ForceMoves& fit,
+                       Examination& examination);
+
+}  // namespace warmjoint
