@@ -273,16 +273,18 @@ Measurements AssembleMeasurements(RawColumns raw, std::vector<ColumnSource> sour
                       Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1)) / layout.rate);
   }
   LeaveOutRows(raw, sources);
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    CheckValues(raw, sources[k].column->name, raw.values[k]);
+  }
   const bool is_assumed = TakeTime(raw, sources, layout);
   TakeClock(raw);
 
-  // to SI, each value checked
+  // to SI
   double range = 0;  // after which the position sensor starts again, rad or m
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const ColumnSource& source = sources[k];
     const RecordingColumn* const column = source.column;
     const Unit& unit = source.unit;
-    CheckValues(raw, column->name, raw.values[k]);
     Eigen::VectorXd values = std::move(raw.values[k]);
     const double scale = ScaleOf(column->name, layout);
     if (unit.factor != 1 || unit.offset != 0 || scale != 1) {
