@@ -26,6 +26,7 @@ constexpr int kMost = 6;  // frequencies that are reported together
 constexpr int kMotorHarmonics = 8;
 constexpr double kFinestPosition = 512;  // cycles over the travel; why: twelve times a map's
 constexpr double kSamplesACycle = 16;    // why: two samples a bin
+constexpr int kSpeedFactors = 4;         // why: they tell five speeds apart
 constexpr double kSpeedsDiffer = 0.02;   // relative; why: bins take such speeds for one
 constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
 
@@ -194,9 +195,9 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
   finding.test = axis.test;
   finding.made = true;
   // the strongest of many frequencies: each of them counts
-  finding.p =
-      std::min(1.0, axis.frequencies * HotellingPValue(score.segment(first, q),
-                                                       scatter.block(first, first, q, q), parts));
+  finding.p = std::min(
+      1.0, axis.frequencies * axis.factors *
+               HotellingPValue(score.segment(first, q), scatter.block(first, first, q, q), parts));
   finding.explained = std::max(0.0, score.dot(coefficients) - (normal.inverse() * scatter).trace());
   finding.period = axis.length / (axis.step * index);
 
@@ -235,13 +236,41 @@ std::optional<AngleAxis> PositionAxis(const FittedModel& model, const Measuremen
   return axis;
 }
 
-/// |v| less its mean over the kept samples, of rms 1 over them. [N]; empty where there is but one speed
-VectorXd SpeedFactor(const VectorXd& velocity, const Selection& selection) {
-  const VectorXd speeds = Kept(velocity, selection).cwiseAbs();
-  const double mean = speeds.mean();
-  const double spread = std::sqrt((speeds.array() - mean).square().mean());
-  if (!(spread > kSpeedsDiffer * mean)) return {};
-  return (velocity.cwiseAbs().array() - mean) / spread;
+/// cos(k pi r), k = 1 to kSpeedFactors, r: share of the kept samples that are slower. [N x kSpeedFactors]; without columns where
+/// there is but one speed
+MatrixXd SpeedFactors(const VectorXd& velocity, const Selection& selection) {
+  VectorXd speeds = Kept(velocity, selection).cwiseAbs();
+  std::ranges::sort(speeds);
+  const auto n = static_cast<double>(speeds.size());
+  const double slow = speeds[speeds.size() / 10],
+               fast = speeds[speeds.size() - 1 - speeds.size() / 10];
+  if (!(fast - slow > kSpeedsDiffer * fast)) return MatrixXd(velocity.size(), 0);
+  MatrixXd factors(velocity.size(), kSpeedFactors);
+  for (Index i = 0; i < velocity.size(); ++i) {
+    const auto slower = std::ranges::lower_bound(speeds, std::abs(velocity[i])) - speeds.begin();
+    const double angle = std::numbers::pi * static_cast<double>(slower) / n;
+    for (int k = 0; k < kSpeedFactors; ++k) factors(i, k) = std::cos((k + 1) * angle);
+  }
+  return factors;
+}
+
+/// Ripple whose strength changes with the speed, as one finding: that of the strongest function of the speed.
+Finding TestBySpeed(AngleAxis axis, const VectorXd& velocity, const Selection& selection,
+                    VectorXd& residual, ErrorLevel& level) {
+  const MatrixXd factors = SpeedFactors(velocity, selection);
+  axis.factors = static_cast<int>(factors.cols());
+  Finding strongest;
+  double explained = 0;
+  for (Index k = 0; k < factors.cols(); ++k) {
+    axis.factor = factors.col(k);
+    ErrorLevel own = level;
+    Finding finding = TestAxis(axis, velocity, selection, residual, own);
+    if (finding.rejected) explained += finding.explained;
+    if (!strongest.test || finding.p < strongest.p) strongest = std::move(finding);
+  }
+  if (strongest.rejected) strongest.explained = explained;
+  if (strongest.rejected) level.Rejects(strongest.p);
+  return strongest;
 }
 
 }  // namespace
@@ -291,8 +320,8 @@ std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& m,
     const MapQuantity quantity = is_motor ? MapQuantity::motor_position : MapQuantity::position;
     if (std::ranges::find(model.mapped, quantity) == model.mapped.end()) continue;
     axis->test = is_motor ? &MotorAngleBySpeedTest() : &PositionBySpeedTest();
-    axis->factor = SpeedFactor(m.velocity, model.selection);
-    if (axis->factor.size() > 0) test(*axis);
+    Finding finding = TestBySpeed(*axis, m.velocity, model.selection, residual, level);
+    if (finding.test) findings.push_back(std::move(finding));
   }
   return findings;
 }

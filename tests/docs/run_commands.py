@@ -7,16 +7,15 @@ there (WARMJOINT_BUILT). Pictures of the page must be those that its commands ma
 Exits 77 where every block was skipped, and 1 with the block's words where one fails.
 """
 
-import operator
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/docs"))
 
@@ -75,25 +74,30 @@ def unmarked(text):
             if line.startswith("    ") and line.strip().startswith(COMMANDS)]
 
 
-def pixels(path):
-    """Size and filtered rows of a PNG."""
-    data, at, header, packed = path.read_bytes(), 8, None, b""
+def words(path):
+    """What a PNG says of itself: title, finding, and a line for each series."""
+    data, at, said = path.read_bytes(), 8, {}
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at : at + 8])
-        body = data[at + 8 : at + 8 + length]
-        header = body if kind == b"IHDR" else header
-        packed += body if kind == b"IDAT" else b""
+        if kind == b"iTXt":
+            key, text = data[at + 8 : at + 8 + length].split(b"\0\0\0\0\0", 1)
+            said[key.decode()] = text.decode()
         at += 12 + length
-    return header, zlib.decompress(packed)
+    return said
 
 
 def stale(shown, made):
-    """Why a picture is not the one that was made; empty where it is. A line that moved by its width changes 0.3 % of the bytes."""
-    (header, old), (new_header, new) = pixels(shown), pixels(made)
-    if header != new_header:
-        return "has another size"
-    share = sum(map(operator.ne, old, new)) / len(new)
-    return f"differs in {100 * share:.2f} % of its bytes" if share > 0.003 else ""
+    """Why a picture is not the one that was made, by the data of its figure; empty where it is. Numbers count as equal within 1 %."""
+    number = re.compile(r"[-\u2212]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+    for key, now in words(made).items():
+        before = words(shown).get(key, "")
+        if number.sub("#", before) != number.sub("#", now):
+            return f"has another {key.lower()}: {before!r}, now {now!r}"
+        for one, other in zip(number.findall(before), number.findall(now)):
+            old, new = (float(text.replace("\u2212", "-")) for text in (one, other))
+            if abs(old - new) > 0.01 * max(abs(old), abs(new)):
+                return f"has another {key.lower()}: {one} in {before!r}, now {other}"
+    return ""
 
 
 def check_pictures(root, page, text, target, draw):
