@@ -6,7 +6,7 @@ namespace warmjoint {
 
 Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLevel& level) {
   Finding finding;
-  finding.test = &FadingTest();
+  finding.test = FindLackOfFitTest("position_by_energy");
   finding.reason = finding.test->absent;
   if (!model.maps || !model.thermal) return finding;
 
@@ -20,7 +20,7 @@ Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLev
   fit.LearnNoise({steady, fading});
   fit.Take(steady);
   finding = fit.Test(fading);
-  finding.test = &FadingTest();
+  finding.test = FindLackOfFitTest("position_by_energy");
   finding.p_adjusted = level.Adjusted(finding.p);
   if (finding.explained <= 0 || !level.Rejects(finding.p)) return finding;
 

@@ -125,7 +125,7 @@ MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
 Finding TestLag(const FittedModel& model, const Measurements& measurements, VectorXd& residual,
                 ErrorLevel& level) {
   Finding finding;
-  finding.test = &LagTest();
+  finding.test = FindLackOfFitTest("lag");
   finding.reason = finding.test->absent;
   const Selection& selection = model.selection;
   if (selection.segments.size() < 2) return finding;
@@ -146,7 +146,7 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   const Features decay{decays.col(best), kLags};
   fit.LearnNoise({decay});
   finding = fit.Test(decay);
-  finding.test = &LagTest();
+  finding.test = FindLackOfFitTest("lag");
 
   // a lag leaves a share of what was before, not of what comes: the test has one side
   const double share = fit.CoefficientOf(decay.columns);

@@ -24,10 +24,8 @@ constexpr size_t kKernelsAPeriod = 3;     // why: a wave has two coefficients, a
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HoldsMap(const Advice& advice, MapQuantity quantity) {
-  const std::vector<FrictionMap>& maps = advice.fit.friction.maps;
-  return std::ranges::any_of(maps, [&](const FrictionMap& map) {
-    return std::ranges::any_of(map.axes,
-                               [&](const MapAxis& axis) { return axis.quantity == quantity; });
+  return std::ranges::any_of(advice.fit.friction.maps, [=](const FrictionMap& map) {
+    return FindAxis(map, quantity) != nullptr;
   });
 }
 bool HoldsWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }

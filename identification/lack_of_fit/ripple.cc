@@ -210,7 +210,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
 
 std::optional<AngleAxis> MotorAxis(const Measurements& m) {
   if (!KnowsMotorAngle(m)) return std::nullopt;
-  AngleAxis axis{&MotorAngleTest(), {}, 2 * std::numbers::pi, 1, kMotorHarmonics};
+  AngleAxis axis{FindLackOfFitTest("motor_angle"), {}, 2 * std::numbers::pi, 1, kMotorHarmonics};
   const Eigen::ArrayXd turns = MotorPosition(m).array() / axis.length;
   axis.phase = turns - turns.floor();
   return axis;
@@ -231,7 +231,7 @@ std::optional<AngleAxis> PositionAxis(const FittedModel& model, const Measuremen
   const double cycles = std::min(
       {travel / finest, kFinestPosition, static_cast<double>(kept.size()) / kSamplesACycle});
   if (cycles < 1) return std::nullopt;
-  AngleAxis axis{&PositionTest(), {}, travel, 0.5, static_cast<int>(2 * cycles)};
+  AngleAxis axis{FindLackOfFitTest("position"), {}, travel, 0.5, static_cast<int>(2 * cycles)};
   axis.phase = (m.position.array() - lower) / travel;
   return axis;
 }
@@ -308,20 +308,19 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
 std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& m, VectorXd& residual,
                                 ErrorLevel& level) {
   std::vector<Finding> findings;
-  const auto test = [&](const AngleAxis& axis) {
-    Finding finding = TestAxis(axis, m.velocity, model.selection, residual, level);
+  const auto add = [&](Finding finding) {
     if (finding.test) findings.push_back(std::move(finding));
   };
   for (auto axis : {MotorAxis(m), PositionAxis(model, m)}) {
     if (!axis) continue;
-    test(*axis);
+    add(TestAxis(*axis, m.velocity, model.selection, residual, level));
     // a map follows the ripple at the mean of the speeds
-    const bool is_motor = axis->test == &MotorAngleTest();
+    const bool is_motor = axis->test == FindLackOfFitTest("motor_angle");
     const MapQuantity quantity = is_motor ? MapQuantity::motor_position : MapQuantity::position;
     if (std::ranges::find(model.mapped, quantity) == model.mapped.end()) continue;
-    axis->test = is_motor ? &MotorAngleBySpeedTest() : &PositionBySpeedTest();
-    Finding finding = TestBySpeed(*axis, m.velocity, model.selection, residual, level);
-    if (finding.test) findings.push_back(std::move(finding));
+    axis->test = is_motor ? FindLackOfFitTest("motor_angle_by_speed")
+                          : FindLackOfFitTest("position_by_speed");
+    add(TestBySpeed(*axis, m.velocity, model.selection, residual, level));
   }
   return findings;
 }

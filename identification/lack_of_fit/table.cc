@@ -175,42 +175,10 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
   return tests;
 }
 
-namespace {
-
-/// The row of that name, which the table has.
-const LackOfFitTest& Row(std::string_view name) { return *FindLackOfFitTest(name); }
-
-}  // namespace
-
 const LackOfFitTest* FindLackOfFitTest(std::string_view name) {
   const auto& all = LackOfFitTests();
   const auto row = std::ranges::find(all, name, &LackOfFitTest::name);
   return row == all.end() ? nullptr : &*row;
-}
-
-const LackOfFitTest& LagTest() {
-  static const LackOfFitTest& row = Row("lag");
-  return row;
-}
-const LackOfFitTest& FadingTest() {
-  static const LackOfFitTest& row = Row("position_by_energy");
-  return row;
-}
-const LackOfFitTest& PositionTest() {
-  static const LackOfFitTest& row = Row("position");
-  return row;
-}
-const LackOfFitTest& MotorAngleTest() {
-  static const LackOfFitTest& row = Row("motor_angle");
-  return row;
-}
-const LackOfFitTest& PositionBySpeedTest() {
-  static const LackOfFitTest& row = Row("position_by_speed");
-  return row;
-}
-const LackOfFitTest& MotorAngleBySpeedTest() {
-  static const LackOfFitTest& row = Row("motor_angle_by_speed");
-  return row;
 }
 
 }  // namespace warmjoint

@@ -60,12 +60,4 @@ const std::vector<LackOfFitTest>& LackOfFitTests();
 /// The row of that name; nullptr where there is none.
 const LackOfFitTest* FindLackOfFitTest(std::string_view name);
 
-/// The rows of tests that look at samples.
-const LackOfFitTest& LagTest();
-const LackOfFitTest& FadingTest();
-const LackOfFitTest& PositionTest();
-const LackOfFitTest& MotorAngleTest();
-const LackOfFitTest& PositionBySpeedTest();
-const LackOfFitTest& MotorAngleBySpeedTest();
-
 }  // namespace warmjoint

@@ -75,7 +75,7 @@ def unmarked(text):
 
 
 def words(path):
-    """What a PNG says of itself: title, finding, and a line for each series."""
+    """Width and height of a PNG as its bytes, and what it says of itself: title, finding, and a line for each series."""
     data, at, said = path.read_bytes(), 8, {}
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at : at + 8])
@@ -83,14 +83,19 @@ def words(path):
             key, text = data[at + 8 : at + 8 + length].split(b"\0\0\0\0\0", 1)
             said[key.decode()] = text.decode()
         at += 12 + length
-    return said
+    return data[16:24], said
 
 
 def stale(shown, made):
     """Why a picture is not the one that was made, by the data of its figure; empty where it is. Numbers count as equal within 1 %."""
     number = re.compile(r"[-\u2212]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-    for key, now in words(made).items():
-        before = words(shown).get(key, "")
+    (size, said), (new_size, new_said) = words(shown), words(made)
+    if size != new_size:
+        return "has another size"
+    if "Data" not in new_said:
+        return "says nothing of its data"
+    for key, now in new_said.items():
+        before = said.get(key, "")
         if number.sub("#", before) != number.sub("#", now):
             return f"has another {key.lower()}: {before!r}, now {now!r}"
         for one, other in zip(number.findall(before), number.findall(now)):
