@@ -58,9 +58,9 @@ std::string LastLine(std::string text) {
 
 }  // namespace
 
-FileFormat FormatOf(const std::string& path) {
+PictureFormat PictureFormatOf(const std::string& path) {
   const std::string end = fs::path(path).extension().string();
-  for (const Word<FileFormat>& word : WordsOf(FileFormat{})) {
+  for (const Word<PictureFormat>& word : WordsOf(PictureFormat{})) {
     if (end == "." + std::string(word.name)) return word.value;
   }
   Refuse({path}, "pictures end in .png, .svg or .pdf, not in '{}'", end);
@@ -118,7 +118,7 @@ std::string Backend::FillPage(const std::string& page, const Tree& data) const {
 
 void WritePicture(const Backend& backend, const figures::Figure& figure, const std::string& path) {
   PictureSetting setting;
-  setting.format = FormatOf(path);
+  setting.format = PictureFormatOf(path);
   const DrawnFigure drawn = backend.Draw({figure}, setting).front();
   if (!drawn.refusal.empty()) throw OutputFailed(path + ": " + drawn.refusal);
   WriteWholeFile(path, drawn.bytes);

@@ -9,20 +9,21 @@
 
 namespace warmjoint {
 
-enum class FileFormat { png, svg, pdf };
+enum class PictureFormat { png, svg, pdf };
 
-inline std::span<const Word<FileFormat>> WordsOf(FileFormat) {
-  static constexpr std::array words{Word{"png", FileFormat::png}, Word{"svg", FileFormat::svg},
-                                    Word{"pdf", FileFormat::pdf}};
+inline std::span<const Word<PictureFormat>> WordsOf(PictureFormat) {
+  static constexpr std::array words{Word{"png", PictureFormat::png},
+                                    Word{"svg", PictureFormat::svg},
+                                    Word{"pdf", PictureFormat::pdf}};
   return words;
 }
 
 /// The format that the name of a file asks for by its end. Throws BadInput for any other.
-FileFormat FormatOf(const std::string& path);
+PictureFormat PictureFormatOf(const std::string& path);
 
 /// How figures become files.
 struct PictureSetting {
-  FileFormat format = FileFormat::png;
+  PictureFormat format = PictureFormat::png;
   std::string style = "screen";  // of draw.py
   double width = 0;              // mm; 0: the style's
   double height = 0;             // mm; 0: what the figure needs
@@ -68,7 +69,7 @@ class Backend {
   std::string python_;
 };
 
-/// Draws one figure into a file of the format that its end names. Throws OutputFailed, and BadInput as FormatOf does.
+/// Draws one figure into a file of the format that its end names. Throws OutputFailed, and BadInput as PictureFormatOf does.
 void WritePicture(const Backend& backend, const figures::Figure& figure, const std::string& path);
 
 }  // namespace warmjoint

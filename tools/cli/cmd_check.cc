@@ -129,7 +129,7 @@ ExitStatus Check(const CheckArguments& arguments) {
   const std::vector<std::filesystem::path> outputs{arguments.segments, arguments.plot};
   std::optional<Backend> backend;
   if (!arguments.plot.empty()) {
-    FormatOf(arguments.plot);
+    PictureFormatOf(arguments.plot);
     AtomicFile{arguments.plot};
     backend.emplace();
   }

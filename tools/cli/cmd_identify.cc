@@ -117,7 +117,7 @@ std::optional<Backend> CheckOutputs(const IdentifyArguments& arguments) {
     if (!path.empty()) AtomicFile{path};
   }
   if (arguments.plot.empty()) return std::nullopt;
-  FormatOf(arguments.plot);
+  PictureFormatOf(arguments.plot);
   return Backend();
 }
 

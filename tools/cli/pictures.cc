@@ -187,7 +187,7 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
 PictureSetting SettingOf(const PictureArguments& arguments) {
   PictureSetting setting;
   // format, style and resolution by name
-  setting.format = FormatOf("picture." + arguments.format);
+  setting.format = PictureFormatOf("picture." + arguments.format);
   setting.style = arguments.style;
   setting.dpi = arguments.dpi;
   setting.titled = arguments.title != "none";
