@@ -3,9 +3,7 @@
 // The paper's expansion over P x V x E (40 x 6 x 3 kernels), once E is known from a fit of law,
 // position map and warming together (warm_maps.h).
 #include "identification/identifiers/identifier_list.h"
-#include "identification/maps/over_energy.h"
-#include "identification/maps/warm_maps.h"
-#include "identification/physical_bounds.h"
+#include "identification/maps/map_model.h"
 
 namespace warmjoint {
 namespace {
@@ -41,24 +39,23 @@ std::vector<std::vector<FrictionMap>> Shapes(const EnergyMapSize& size, const Ma
 }
 
 Fit FitEnergyMap(const IdentifierInput& input) {
-  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
-  if (begin.refusal) return Refused(kName, *begin.refusal);
-  MapTask& task = begin.task;
-
-  // E, with position parts beside it, one for each direction of motion
   const auto& size = input.options.Get<EnergyMapSize>();
   const auto& options = input.options.Get<MapOptions>();
-  for (const double width : options.Widths()) {
-    task.candidates.push_back({PositionMap(begin.points, options.kernel, size.kernels, width)});
-  }
-  const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
-  if (!warm) return Refused(kName, Unsolvable());
-  const Fit first = AsFit(input, *warm);
-  if (!GivesFriction(first)) return first;
-
-  // the map over that E too
-  return IdentifyOverEnergy(input, task, &first,
-                            [&](const MapPoints& points) { return Shapes(size, options, points); });
+  // E, with position parts beside it, one for each direction of motion
+  const auto beside = [&](const MapPoints& points) {
+    std::vector<std::vector<FrictionMap>> shapes;
+    for (const double width : options.Widths()) {
+      shapes.push_back({PositionMap(points, options.kernel, size.kernels, width)});
+    }
+    return shapes;
+  };
+  // then the map over that E too
+  return FitMapModel(
+      kName, input,
+      {.quantities = {MapQuantity::position},
+       .maps = beside,
+       .heat = MapHeat::estimated,
+       .over_energy = [&](const MapPoints& points) { return Shapes(size, options, points); }});
 }
 
 }  // namespace

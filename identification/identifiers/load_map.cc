@@ -3,11 +3,8 @@
 // The paper's proposal P x E x L: a level that depends on the load which the joint transmits. The
 // recording must have the column `load`. Where no warm-up can be seen E is 0 and its axis left
 // out.
-#include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/inference/inference.h"
-#include "identification/maps/over_energy.h"
-#include "identification/maps/warm_maps.h"
+#include "identification/maps/map_model.h"
 
 namespace warmjoint {
 namespace {
@@ -49,33 +46,23 @@ std::vector<std::vector<FrictionMap>> Shapes(const MapOptions& options, const Ma
 }
 
 Fit FitLoadMap(const IdentifierInput& input) {
-  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position, MapQuantity::load});
-  if (begin.refusal) return Refused(kName, *begin.refusal);
-  MapTask& task = begin.task;
-
-  // E, with the load's part beside it
   const auto& size = input.options.Get<LoadMapSize>();
   const auto& options = input.options.Get<MapOptions>();
   const AxisSize load{MapQuantity::load, size.load_kernels};
-  task.candidates = Shapes(options, begin.points, {load});
-  const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
-  if (!warm) return Refused(kName, Unsolvable());
-  const Fit first = AsFit(input, *warm);
-  const Inference told = Infer(first);
-  const Fit* warming = told.gives_friction ? &first : nullptr;
-
-  // the level over all of them
-  const auto maker = [&](const MapPoints& warm_points) {
-    std::vector<AxisSize> axes{{MapQuantity::position, size.position_kernels}};
-    if (warming) axes.push_back({MapQuantity::energy, size.energy_kernels});
-    axes.push_back(load);
-    return Shapes(options, warm_points, axes);
-  };
-  Fit fit = IdentifyOverEnergy(input, task, warming, maker);
-  if (!warming && Infer(fit).status == Status::ok) {
-    fit.afterword += "; without warming: " + told.message;
-  }
-  return fit;
+  // E, with the load's part beside it; then the level over all of them
+  return FitMapModel(
+      kName, input,
+      {.quantities = {MapQuantity::position, MapQuantity::load},
+       .maps = [&](const MapPoints& points) { return Shapes(options, points, {load}); },
+       .heat = MapHeat::where_seen,
+       .over_energy =
+           [&](const MapPoints& points) {
+             std::vector<AxisSize> axes{{MapQuantity::position, size.position_kernels}};
+             const bool warms = !CannotCarry(MapQuantity::energy, points);
+             if (warms) axes.push_back({MapQuantity::energy, size.energy_kernels});
+             axes.push_back(load);
+             return Shapes(options, points, axes);
+           }});
 }
 
 }  // namespace

@@ -3,30 +3,26 @@
 // Eqs. (10)-(16): law and Gaussian kernels over position, one part for each direction of motion,
 // or over position times velocity.
 #include "identification/identifiers/identifier_list.h"
-#include "identification/maps/identify_maps.h"
+#include "identification/maps/map_model.h"
 #include "identification/seen_samples.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr const char* kName = "position-ridge";
-
-Fit FitMap(const IdentifierInput& given) {
-  const RigidPart rigid = PrepareRigid(given);
-  if (rigid.why) return Refused(kName, {rigid.status, *rigid.why});
-  const IdentifierInput input = rigid.Of(given);
-  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position}, rigid);
-  if (begin.refusal) return Refused(kName, *begin.refusal);
-  begin.task.candidates = PositionMaps(input.options, begin.points);
-  return IdentifyMaps(input, begin.task);
+Fit FitPositionMap(const IdentifierInput& input) {
+  return FitMapModel("position-ridge", input,
+                     {.quantities = {MapQuantity::position}, .maps = [&](const MapPoints& points) {
+                        return PositionMaps(input.options, points);
+                      }});
 }
 
 }  // namespace
 
 Identifier PositionRidge() {
-  return {kName, "a nominal law and a map over position by ridge regression, without warming",
+  return {"position-ridge",
+          "a nominal law and a map over position by ridge regression, without warming",
           OptionGroups<LawOption, MapOptions, PositionMapOptions, GravityOption, MotionOption>{},
-          &FitMap};
+          &FitPositionMap};
 }
 
 }  // namespace warmjoint

@@ -56,9 +56,11 @@ double SquaresWithout(const StribeckProblem& problem) {
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
   const InitialGuess start = ScanTimeConstant(loop, level, weight);
   const double scale = std::sqrt(squares / static_cast<double>(torque.size()));
-  const ThermalFit fit = FitThermalFriction(loop, level, Eigen::MatrixXd(m.size(), 0), weight,
-                                            start, InitialEnergy::zero, scale);
-  return std::min(squares, fit.solution.squares);
+  const Eigen::MatrixXd no_offsets(m.size(), 0);
+  const ThermalFit fit = FitThermalFriction(
+      {.loop = loop, .level = level, .offsets = no_offsets, .weight = weight, .scale = scale},
+      start);
+  return std::min(squares, fit.squares);
 }
 
 /// The drop of |e|^2 / s^2 that the level at rest and stribeck_velocity bring.

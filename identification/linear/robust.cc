@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kNormal = 1.4826;  // why: standard deviation over median size of normal noise
 constexpr double kFarResidual = 4;  // standard deviations: one normal sample in 16 000
-constexpr int kMostRounds = 100;
-constexpr double kConverged = 1e-9;  // of the fitted torque between rounds, relative
 
 }  // namespace
 
@@ -39,32 +37,6 @@ std::string DescribeLoss(const Eigen::VectorXd& residual, double threshold) {
       "; {} of {} samples lie more than {:.0f} standard deviations off, and Huber's loss bounds "
       "their pull",
       (residual.array().abs() > far).count(), residual.size(), kFarResidual);
-}
-
-RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
-  RobustLeastSquares robust;
-  robust.fit = SolveLeastSquares(A, y);
-  for (int round = 0; round < kMostRounds && robust.fit.mixed.empty(); ++round) {
-    // the threshold follows the residual of the round before
-    const Eigen::VectorXd fitted = A * robust.fit.solution;
-    robust.threshold = HuberThreshold(y - fitted);
-
-    // squares again, with less weight on what lies far off
-    const Eigen::VectorXd root = HuberWeights(y - fitted, robust.threshold).cwiseSqrt();
-    const LeastSquares next = SolveLeastSquares(root.asDiagonal() * A, root.cwiseProduct(y));
-    if (!next.mixed.empty()) break;
-
-    // until the fitted torque changes no more
-    const double change = (A * next.solution - fitted).norm();
-    robust.fit = next;
-    robust.converged = change <= kConverged * fitted.norm();
-    if (robust.converged) break;
-  }
-  // the errors follow from plain columns and the scores of the loss
-  if (robust.fit.mixed.empty()) {
-    robust.fit.cofactor = Cofactor(A.transpose() * A);
-  }
-  return robust;
 }
 
 }  // namespace warmjoint

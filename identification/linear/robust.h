@@ -4,9 +4,6 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "identification/identifier.h"
-#include "identification/linear/least_squares.h"
-
 namespace warmjoint {
 
 /// Where Huber's loss turns from squares to lines, in standard deviations: 95 % as efficient as
@@ -28,15 +25,5 @@ Eigen::VectorXd HuberScores(const Eigen::VectorXd& residual, double threshold);
 /// "; 12 of 3600 samples lie more than 4 standard deviations off, which Huber's loss bounds"; empty
 /// for an infinite threshold. residual: [n] N.m or N.
 std::string DescribeLoss(const Eigen::VectorXd& residual, double threshold);
-
-/// argmin sum rho(y - A x) by reweighted squares, the threshold following the residual.
-struct RobustLeastSquares {
-  LeastSquares fit;  // of the last round; cofactor: (A^T A)^-1
-  double threshold = 0;
-  bool converged = false;
-};
-
-/// A: [n x d]; y: [n].
-RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y);
 
 }  // namespace warmjoint

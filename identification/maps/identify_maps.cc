@@ -18,6 +18,7 @@
 #include "identification/maps/holes.h"
 #include "identification/maps/imitated_columns.h"
 #include "identification/maps/make_bands.h"
+#include "identification/maps/motor_maps.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/sign.h"
 #include "models/recording/measurements.h"
@@ -158,7 +159,7 @@ MapTask MakeMapTask(const Options& options, const std::string& identifier) {
 }
 
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
-                       std::initializer_list<MapQuantity> quantities, const RigidPart& rigid) {
+                       const std::vector<MapQuantity>& quantities, const RigidPart& rigid) {
   MapBeginning begin{MakeMapTask(input.options, identifier), {}, {}};
   begin.task.rigid = rigid;
   // one that is not asked for has no columns, over all samples
@@ -318,8 +319,14 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
   if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, maps);
   fit.errors.known = OfTable(known, maps);
-  if (task.settings.bands == MapBands::wide && GivesFriction(fit))
-    AddBands(input, task, maps, known, fit);
+  if (task.settings.bands == MapBands::none || !GivesFriction(fit)) return fit;
+  AddBands(input, task, maps, known, fit);
+  // what a motor's map shows, which comes first
+  const FrictionMap& first = maps.maps.front();
+  if (first.axes.front().quantity != MapQuantity::motor_position) return fit;
+  const auto count = static_cast<Eigen::Index>(first.size());
+  DescribeMotorRipple(first, known.covariance.block(maps.free, maps.free, count, count),
+                      input.measurements, fit);
   return fit;
 }
 
@@ -330,13 +337,6 @@ Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice
     return OfTable(MapCovariance(kept->problem, kept->fit), kept->fit);
   };
   return fit;
-}
-
-Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
-  auto choice = ChooseAndFit(input, task);
-  if (!choice) return Refused(task.identifier, Unsolvable());
-  if (task.settings.bands == MapBands::none) return AsSketch(input, task, std::move(*choice));
-  return AsFit(input, task, choice->fit, MapCovariance(choice->problem, choice->fit));
 }
 
 }  // namespace warmjoint

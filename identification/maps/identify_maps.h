@@ -1,7 +1,6 @@
 // What identifiers with maps share: from candidates of maps to a fit.
 #pragma once
 
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,7 +44,7 @@ struct MapBeginning {
 /// data tell the law's parameters apart and vary in each of the quantities that maps are wanted
 /// over. identifier: its name; rigid: fitted beside law and maps.
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
-                       std::initializer_list<MapQuantity> quantities, const RigidPart& rigid = {});
+                       const std::vector<MapQuantity>& quantities, const RigidPart& rigid = {});
 
 /// What is to be fitted, with the choice made.
 struct ChosenProblem {
@@ -84,8 +83,5 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
 
 /// The same without bands. How sure it is costs as much as the fit: that is found where it is asked for.
 Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice);
-
-/// All of the above.
-Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task);
 
 }  // namespace warmjoint

@@ -2,22 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <cmath>
 #include <deque>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/maps/judge_warm_maps.h"
-#include "identification/maps/map_block.h"
-#include "identification/maps/motor_maps.h"
-#include "identification/maps/warming_block.h"
+#include "identification/maps/holes.h"
+#include "identification/maps/map_blocks.h"
 #include "identification/physical_bounds.h"
-#include "identification/warming/conclude_thermal_fit.h"
+#include "identification/uncertainty/penalised_uncertainty.h"
+#include "identification/warming/fit_law.h"
+#include "identification/warming/law_problem.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
 
@@ -104,6 +107,100 @@ class Visibility {
   double latest_ = 0, last_ = 0, before_last_ = 0;
 };
 
+/// How sure law, maps and warming are together. Order: law, rigid part, weights, k, log tau, E(0) where it was estimated,
+/// jumps.
+struct JointUncertainty {
+  Uncertainty known;
+  double end_energy_std = 0;  // of E at the end of the log, N.m or N
+};
+
+/// Law, maps and warming as one fit of a law that has the kernels as further columns.
+ThermalFit Joined(const WarmMaps& warm) {
+  const ThermalFit& warming = warm.warming;
+  const Eigen::Index d = warm.task.law_count(), q = warm.fit.x.size() - warm.fit.free;
+  const ThermalLayout& of = warming.layout;
+  ThermalFit joined;
+  joined.layout =
+      ThermalLayout::Of(d + q, of.heat.size, of.start.size, of.jumps.size, warm.task.rigid.count());
+  const Eigen::Index heat = of.rigid.begin - of.heat.begin;
+  joined.x.resize(joined.layout.size());
+  joined.x << warm.fit.x.head(d), warm.fit.x.tail(q), warming.x.segment(of.heat.begin, heat),
+      warm.fit.x.segment(d, warm.task.rigid.count());
+  joined.prior = Eigen::VectorXd::Zero(joined.layout.size());
+  joined.prior.segment(joined.layout.heat.begin, heat) = warming.prior.segment(of.heat.begin, heat);
+  return joined;
+}
+
+/// Where the unknowns of a joined fit stand in the order of JointUncertainty: which one comes at each place.
+std::vector<Eigen::Index> InOrder(const ThermalLayout& layout, Eigen::Index law) {
+  std::vector<Eigen::Index> order;
+  const auto take = [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) order.push_back(i);
+  };
+  take(0, law);
+  take(layout.rigid.begin, layout.rigid.end());
+  take(law, layout.rigid.begin);
+  return order;
+}
+
+/// Of all unknowns. jacobian: [n x p]; prior: [p]; residual: [n]
+Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
+                         const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& prior,
+                         const Eigen::VectorXd& residual) {
+  const Eigen::Index d = jacobian.cols();
+  const Eigen::Index q = warm.fit.x.size() - warm.fit.free;
+  // normal matrix of law, maps and warming together
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(d, d);
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+
+  // columns of norm 1 for the inverse: the gain's are far from the others'
+  Eigen::MatrixXd penalised = gram;
+  auto of_weights = penalised.block(warm.fit.free, warm.fit.free, q, q);
+  of_weights += PenaltyOf(warm.fit.maps, of_weights, warm.fit.unseen, warm.fit.strength);
+  // what is known of the heat beforehand
+  penalised.diagonal() += prior;
+  const Eigen::VectorXd scale = penalised.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
+  const Eigen::MatrixXd inverse =
+      scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(d, d)) * scale.asDiagonal();
+  // rows of samples, from the first to before the last
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
+    return jacobian.middleRows(first, last - first);
+  };
+  // independent weights: with those that go together gain and time constant are off by half of what is said
+  return PenalisedCovariance(
+      {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, warm.fit.unseen, prior},
+      rows, residual, input.selection);
+}
+
+/// residual: [n] of law, maps and heat, N.m or N
+JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& warm,
+                                 const Eigen::VectorXd& residual) {
+  const Measurements& m = input.measurements;
+  // columns of law and kernels, and those of the losses where they differ
+  const Eigen::MatrixXd law = LawColumns(*warm.task.law, m.velocity);
+  const Eigen::MatrixXd of_loss = LossColumns(*warm.task.law, m);
+  const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
+  const ClosedLoop loop =
+      ClosedLoop::Along(m, ConcatColumns(law, kernels),
+                        of_loss.size() > 0 ? ConcatColumns(of_loss, kernels) : of_loss)
+          .WithJumps(Behind(warm.gaps));
+
+  // derivatives of torque and of E at the end by all unknowns
+  const ThermalFit joined = Joined(warm);
+  const std::vector<Eigen::Index> order = InOrder(joined.layout, law.cols());
+  const Eigen::MatrixXd jacobian =
+      Kept(WarmJacobian(loop, warm.task.rigid.columns, joined), input.selection)(Eigen::all, order);
+  Eigen::VectorXd of_end = Eigen::VectorXd::Zero(joined.layout.size());
+  of_end.head(joined.layout.rigid.begin) = WarmEnd(loop, joined).slopes;
+  of_end = of_end(order).eval();
+
+  JointUncertainty result{CovarianceOf(input, warm, jacobian, joined.prior(order), residual)};
+  result.end_energy_std = std::sqrt(of_end.dot(result.known.covariance * of_end));
+  return result;
+}
+
 /// Of law and heat without the weights between them.
 Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   std::vector<Eigen::Index> places(static_cast<size_t>(known.covariance.cols()));
@@ -113,7 +210,7 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   return known;
 }
 
-/// Adds the warming to a fit of law and maps. known: JudgeWarmMaps
+/// Adds the warming to a fit of law and maps. known: JointCovariance
 void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements& measurements,
              Fit& fit) {
   const ThermalFit& warming = warm.warming;
@@ -126,18 +223,8 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements&
   fit.errors.known = WithoutWeights(known, warm.fit);
   fit.count += static_cast<int>(rows.size());
   fit.effective_parameters += static_cast<double>(rows.size());
-  fit.afterword = fmt::format("; warming beside them in {} rounds", warm.rounds);
+  fit.afterword = fmt::format("; warming beside them in {} rounds", warm.rounds) + fit.afterword;
   if (!warm.gaps.empty()) fit.warnings.push_back(LossesInGaps(warm.gaps, measurements));
-}
-
-/// Adds what the motor's map shows, where there is one. known: JudgeWarmMaps
-void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements& measurements,
-               Fit& fit) {
-  const FrictionMap& first = maps.maps[0];
-  if (first.axes[0].quantity != MapQuantity::motor_position) return;
-  const auto count = static_cast<Eigen::Index>(first.size());
-  DescribeMotorRipple(first, known.covariance.block(maps.free, maps.free, count, count),
-                      measurements, fit);
 }
 
 }  // namespace
@@ -198,7 +285,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // law and maps, as sure as the warming beside them leaves them
   const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
                                    TakenByEnergy(input, warm.task.energy);
-  const JointUncertainty joint = JudgeWarmMaps(input, warm, residual);
+  const JointUncertainty joint = JointCovariance(input, warm, residual);
   const Uncertainty& known = joint.known;
   Fit fit = AsFit(input, warm.task, warm.fit, known);
   if (fit.refusal) return fit;
@@ -212,7 +299,6 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   AddHeat(warm, known, m, fit);
   fit.end_energy_std = joint.end_energy_std;
   if (!GivesFriction(fit)) return fit;
-  AddRipple(warm.fit, known, m, fit);
   // a friction that drives itself by its own heat is no model
   const auto* asked = input.options.Find<GravityOption>();
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <string>
 
@@ -49,13 +48,5 @@ InitialEnergy InitialEnergyOf(const Options& options);
 /// The sentence that the log itself contradicts what was expected, by more than four deviations of both;
 /// empty where it does not. found: E(0) in a fit that knows nothing of it, deviation: of that, N.m or N.
 std::string UnlikeBefore(const InitialEnergy& expected, double found, double deviation);
-
-/// Fits once more where E(0) was expected, by the noise that the fit leaves: the fit before it knew no
-/// noise to weigh the expectation by. Where the log contradicts what was expected (UnlikeBefore), E(0) is estimated from the log alone. loop, level, offsets, kept: as of
-/// FitThermalFriction; fit: takes the place of the one given. deviation: of E(0) in a fit that knows
-/// nothing of it, N.m or N. Returns the clause that tells of a contradiction, else an empty text.
-std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                       const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                       const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit);
 
 }  // namespace warmjoint

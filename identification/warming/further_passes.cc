@@ -3,81 +3,74 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/warming/expected_start.h"
 
 namespace warmjoint {
-
 namespace {
 
-/// FitJumps beside the E(0) that the fit has or knows. loop: with the jumps
-Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, ThermalFit& fit) {
+/// Once more from where a fit ended, with what is known of E(0) and the noise that the fit left.
+ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFit& fit) {
+  rows.initial = initial;
+  rows.scale = std::sqrt(fit.squares / rows.weight.sum());
+  ThermalFit next = FitThermalFriction(rows, StartFrom(fit));
+  next.Follow(fit);
+  return next;
+}
+
+/// FitJumps with the E(0) that the fit has or knows. rows: with the jumps
+Eigen::VectorXd AddJumps(ThermalRows rows, const std::vector<LogGap>& gaps, ThermalFit& fit) {
   const Thermal thermal = fit.thermal();
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gaps.size()));
   // how large jumps may be, by the energy without them
-  const LoopResponse response =
-      loop.Simulate(fit.parameters(), thermal, fit.initial_energy(), none);
-  const Eigen::VectorXd spread =
-      JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
-  // how much noise there is, by the squares so far
-  const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  ThermalFit next = FitThermalFriction(loop, level, offsets, kept, StartFrom(fit), fit.initial,
-                                       scale, JumpWeights(scale, spread));
-  next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
-  fit = std::move(next);
-  return spread;
+  const LoopResponse response = rows.loop.Simulate(fit.law(), thermal, fit.initial_energy(), none);
+  rows.jump_spread = JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
+  fit = Again(rows, fit.initial, fit);
+  return rows.jump_spread;
 }
 
 }  // namespace
 
-Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
-                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, const InitialGuess& scanned,
-                         ThermalFit& fit) {
-  const ClosedLoop without = std::exchange(loop, loop.WithJumps(Behind(gaps)));
-  const Eigen::VectorXd spread = AddJumps(loop, level, offsets, kept, gaps, fit);
+Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gaps,
+                         const InitialGuess& scanned, ThermalFit& fit) {
+  const ClosedLoop loop = rows.loop.WithJumps(Behind(gaps));
+  const ThermalRows with = rows.Along(loop);
+  Eigen::VectorXd spread = AddJumps(with, gaps, fit);
   if (!fit.estimates_initial_energy()) return spread;
 
-  // the other way: a cold start, jumps, then E(0)
-  const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  ThermalFit other =
-      FitThermalFriction(without, level, offsets, kept, scanned, InitialEnergy::zero, scale);
+  // the other order: a cold start, jumps, then E(0)
+  ThermalRows cold = rows;
+  cold.initial = InitialEnergy::zero;
+  cold.scale = std::sqrt(fit.squares / rows.weight.sum());
+  ThermalFit other = FitThermalFriction(cold, scanned);
   if (!other.converged) return spread;
-  // the start E(0) beside those jumps
-  const Eigen::VectorXd other_spread = AddJumps(loop, level, offsets, kept, gaps, other);
-  ThermalFit freed =
-      FitThermalFriction(loop, level, offsets, kept, StartFrom(other), fit.initial,
-                         std::sqrt(other.solution.squares / kept.sum()), other.jump_weights);
+  ThermalRows freed_rows = with;
+  freed_rows.jump_spread = AddJumps(with, gaps, other);
+  ThermalFit freed = Again(freed_rows, fit.initial, other);
   // taken where it converges and leaves smaller squares
-  const bool leaves_less = !(fit.converged && fit.solution.squares <= freed.solution.squares);
+  const bool leaves_less = !(fit.converged && fit.squares <= freed.squares);
   if (!freed.converged || !leaves_less) return spread;
-  freed.trace.insert(freed.trace.begin(), other.trace.begin(), other.trace.end());
   fit = std::move(freed);
-  return other_spread;
+  return freed_rows.jump_spread;
 }
 
-std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Selection& moving,
-                                             const ClosedLoop& loop, const Eigen::VectorXd& level,
-                                             const Eigen::MatrixXd& offsets,
-                                             const Eigen::VectorXd& spread,
-                                             const LoopResponse& response, ThermalFit& fit) {
-  if (!fit.converged || response.feeds_itself) return nullptr;
-  // what the fit leaves, and the noise in it
-  const Eigen::VectorXd left =
-      loop.direction().cwiseProduct(level - offsets * fit.offset_values()) - response.force;
-  auto whitening = WhiteningFor(Kept(left, moving), m, moving);
-  if (!whitening) return nullptr;
+std::string WeighStart(const ThermalRows& rows,
+                       const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit) {
+  const InitialEnergy initial = fit.initial;
+  if (!initial.is_expected()) return "";
 
-  // the same fit by whitened rows
-  const double scale = std::sqrt(whitening->noise().innovation);
-  ThermalFit next =
-      FitThermalFriction(loop, level, offsets, moving.keep.cast<double>(), StartFrom(fit),
-                         fit.initial, scale, JumpWeights(scale, spread), whitening.get());
-  if (!next.converged) return nullptr;
-  next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
-  fit = std::move(next);
-  return whitening;
+  // the log alone, which says what its noise is, too
+  const ThermalFit alone = Again(rows, InitialEnergy::estimated, fit);
+  if (alone.converged) {
+    const std::string unlike = UnlikeBefore(initial, alone.initial_energy(), deviation(alone));
+    if (!unlike.empty()) {
+      fit = alone;
+      return unlike;
+    }
+  }
+  // no contradiction: both together, from where the better fit ended
+  const ThermalFit& better = alone.converged ? alone : fit;
+  fit = Again(rows, initial, better);
+  return "";
 }
 
 }  // namespace warmjoint

@@ -4,55 +4,57 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/row_products.h"
+#include "identification/linear/least_squares.h"
 
 namespace warmjoint {
 namespace {
 
-/// What pulls E(0) to its expected value: weight (E(0) - mean)^2 beside the squared residuals.
-struct StartPull {
-  double mean = 0;    // N.m or N
-  double weight = 0;  // of one squared residual
-};
+/// The residuals' variance over that of each unknown beside the log, or 0: of jumps, and of an E(0) that is expected. [p]
+Eigen::VectorXd Prior(const ThermalRows& rows) {
+  const ThermalLayout layout = rows.layout();
+  const auto weight = [&](double spread) {
+    return std::pow(rows.scale / std::max(spread, 1e-9 * rows.scale), 2);
+  };
+  Eigen::VectorXd prior = Eigen::VectorXd::Zero(layout.size());
+  for (Eigen::Index i = 0; i < layout.jumps.size; ++i) {
+    prior[layout.jumps.begin + i] = weight(rows.jump_spread[i]);
+  }
+  if (layout.start.size > 0 && rows.initial.is_expected()) {
+    prior[layout.start.begin] = weight(rows.initial.spread);
+  }
+  return prior;
+}
 
-/// The condensed least-squares problem, as ceres::TinySolver wants it, over law parameters (d), k, log tau, E(0) where
-/// it is estimated, jumps of E (J) and offsets (q). What is summed over the samples is compiled for each size of the
-/// common laws; all else has its sizes at run time.
-class CondensedProblem {
+/// The products of one log's rows with each other, for any x. What is summed over the samples is compiled for each size
+/// of the common laws; all else has its sizes at run time.
+class LogProducts {
  public:
-  using Scalar = double;
-  enum { NUM_PARAMETERS = Eigen::Dynamic, NUM_RESIDUALS = Eigen::Dynamic };
+  explicit LogProducts(const ThermalRows& rows)
+      : rows_(rows),
+        layout_(rows.layout()),
+        weight_(rows.weight.cwiseSqrt()),
+        prior_(Prior(rows)) {}
 
-  /// warming: 2 for (k, log tau), 3 with E(0); jump_weights: [J] what each jump's square counts beside the squared
-  /// residuals; pull: on E(0), where it is estimated; transform: of the rows, in the order of the samples that count;
-  /// or none. The references are to outlive the problem.
-  CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                   const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                   const Eigen::VectorXd& jump_weights, int warming, const StartPull& pull,
-                   double scale, const RowTransform* transform = nullptr);
+  const ThermalLayout& layout() const { return layout_; }
 
-  int NumParameters() const { return static_cast<int>(x_.size()); }
-  int NumResiduals() const { return NumParameters() + 1; }
-
-  /// A square factor R of the products, R^T R = [J r]^T [J r] / scale^2: its last column is the residuals [p + 1], the
-  /// others the jacobian [p + 1 x p], where one is asked for.
-  bool operator()(const double* x, double* residuals, double* jacobian) const;
-
-  /// [J r]^T [J r] at x, r = measured - modelled level. [p + 1 x p + 1]
-  const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const;
-
-  std::vector<ThermalIterate>& trace() const { return trace_; }
+  /// [J r]^T [J r] at x, r = measured - modelled level, over the log's variance. x: [p]; returns [p + 1 x p + 1]
+  Eigen::MatrixXd At(const Eigen::VectorXd& x);
 
  private:
-  /// Sums the products over the samples at x_. D: law parameters, or Dynamic, which jumps and offsets need; Q: warming.
+  /// Sums the products over the samples at x. D: law parameters, or Dynamic, which jumps and offsets need; Q: gain,
+  /// log(tau) and maybe E(0).
   template <int D, int Q>
-  void SumProducts() const;
-  void SumProductsOfSize() const;
+  Eigen::MatrixXd SumProducts(const Eigen::VectorXd& x) const;
+  Eigen::MatrixXd SumProductsOfSize(const Eigen::VectorXd& x) const;
 
   /// The products of the mapped rows. The map is one of torque: rows of the level change
   /// their sign with the direction.
@@ -63,56 +65,146 @@ class CondensedProblem {
   template <int D, int Q, typename Row>
   void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const;
 
-  /// Adds the row sqrt(w) [-1, -b] of parameter i, which lies b from what it is known for but for its
-  /// spread.
-  void AddKnown(Eigen::Index i, double w, double b) const;
-
-  const ClosedLoop& loop_;
-  const Eigen::VectorXd& level_;
-  const Eigen::MatrixXd& offsets_;
-  Eigen::VectorXd weight_;        // [N] of each row, the root of its square's
-  Eigen::VectorXd jump_weights_;  // [J]
-  int warming_;
-  StartPull pull_;
-  double scale_;
-  const RowTransform* transform_;
-  Eigen::Index d_;
-
-  // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there
-  mutable Eigen::VectorXd x_;         // [p]
-  mutable Eigen::VectorXd measured_;  // [N] level less what the offsets explain
-  mutable Eigen::MatrixXd products_;  // [p + 1 x p + 1]
-  mutable std::vector<ThermalIterate> trace_;
+  ThermalRows rows_;
+  ThermalLayout layout_;
+  Eigen::VectorXd weight_;    // [N] of each row, the root of its square's
+  Eigen::VectorXd prior_;     // [p]
+  Eigen::VectorXd measured_;  // [N] level less what the offsets explain
 };
 
 /// Columns of [J r] for D law parameters and Q of warming; Dynamic where D is.
 template <int D, int Q>
 constexpr int kColumns = D == Eigen::Dynamic ? Eigen::Dynamic : D + Q + 1;
 
-CondensedProblem::CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                                   const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                                   const Eigen::VectorXd& jump_weights, int warming,
-                                   const StartPull& pull, double scale,
-                                   const RowTransform* transform)
-    : loop_(loop),
-      level_(level),
-      offsets_(offsets),
-      weight_(kept.cwiseSqrt()),
-      jump_weights_(jump_weights),
-      warming_(warming),
-      pull_(pull),
-      scale_(scale),
-      transform_(transform),
-      d_(loop.levels().cols()),
-      x_(Eigen::VectorXd::Constant(d_ + warming + jump_weights.size() + offsets.cols(),
-                                   std::numeric_limits<double>::quiet_NaN())) {}
+Eigen::MatrixXd LogProducts::At(const Eigen::VectorXd& x) {
+  measured_ = rows_.level;
+  if (layout_.rigid.size > 0) measured_ -= rows_.offsets * layout_.rigid.Of(x);
+  Eigen::MatrixXd products = SumProductsOfSize(x);
+
+  // what is known beside the samples: rows sqrt(w) [-1, -b] of unknowns that lie b from what they are known for
+  Eigen::VectorXd off = x;
+  if (layout_.start.size > 0) off[layout_.start.begin] -= rows_.initial.mean;
+  const Eigen::Index p = layout_.size();
+  const Eigen::VectorXd pull = prior_.cwiseProduct(off);
+  products.diagonal().head(p) += prior_;
+  products.col(p).head(p) += pull;
+  products.row(p).head(p) += pull;
+  products(p, p) += prior_.dot(off.cwiseAbs2());
+  return products / (rows_.scale * rows_.scale);
+}
+
+Eigen::MatrixXd LogProducts::SumProductsOfSize(const Eigen::VectorXd& x) const {
+  const auto sum = [&]<int D>() {
+    return layout_.start.size == 0 ? SumProducts<D, 2>(x) : SumProducts<D, 3>(x);
+  };
+  // sizes that the compiler knows, without jumps and offsets; else of any size
+  switch (layout_.jumps.size + layout_.rigid.size == 0 ? layout_.law.size : Eigen::Dynamic) {
+    case 1:
+      return sum.template operator()<1>();
+    case 2:
+      return sum.template operator()<2>();
+    case 3:
+      return sum.template operator()<3>();
+    default:
+      return sum.template operator()<Eigen::Dynamic>();
+  }
+}
+
+template <int D, int Q>
+Eigen::MatrixXd LogProducts::SumProducts(const Eigen::VectorXd& x) const {
+  const Thermal thermal{x[layout_.gain()], std::exp(x[layout_.log_time_constant()])};
+  const double initial = Q == 3 ? x[layout_.start.begin] : 0;
+  const double* jumps = x.data() + layout_.jumps.begin;
+  // rows of the kept samples along one simulation
+  const auto fill = [&](auto&& next) {
+    WithHolds(rows_.loop.intervals(), thermal, [&](const auto& hold) {
+      RunWithSensitivities<D>(rows_.loop, x.data(), thermal.gain, initial, jumps, hold,
+                              [&](Eigen::Index n, double level, const double* g, const double* S) {
+                                if (weight_[n] != 0)
+                                  Fill<D, Q>(n, measured_[n] - level, g, S, next(n));
+                              });
+    });
+  };
+  // a transform takes all rows at once; else they are summed as they come
+  if (rows_.transform) return TransformedProducts(fill);
+  RowProducts<kColumns<D, Q>> products(layout_.size() + 1);
+  fill([&](Eigen::Index) { return products.Next(); });
+  return products.Sums();
+}
+
+template <typename FillRows>
+Eigen::MatrixXd LogProducts::TransformedProducts(const FillRows& fill) const {
+  RowTransform::Rows rows(rows_.transform->size(), layout_.size() + 1);
+  Eigen::VectorXd sign(rows_.transform->size());
+  Eigen::Index count = 0;
+  fill([&](Eigen::Index n) {
+    sign[count] = rows_.loop.direction()[n];
+    return rows.row(count++);
+  });
+  // levels back to torques, whose noise the transform knows
+  rows.array().colwise() *= sign.array();
+  rows_.transform->Apply(rows);
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
+  products.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
+  return products.selfadjointView<Eigen::Upper>();
+}
+
+template <int D, int Q, typename Row>
+void LogProducts::Fill(Eigen::Index n, double residual, const double* g, const double* S,
+                       Row row) const {
+  const LoopSize<D> size(layout_.law.size);
+  const Eigen::Index d = size.value();
+  const Eigen::Index q = D == Eigen::Dynamic ? layout_.rigid.size : 0;
+  const Eigen::Index j = D == Eigen::Dynamic ? layout_.jumps.size : 0;
+  const double w = weight_[n];
+  // derivatives by law, warming, jumps and offsets, then the residual itself
+  for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
+  for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
+  for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
+  for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * rows_.offsets(n, i);
+  row[d + Q + j + q] = w * residual;
+}
+
+/// The sum over logs, as ceres::TinySolver wants it.
+class CondensedProblem {
+ public:
+  using Scalar = double;
+  enum { NUM_PARAMETERS = Eigen::Dynamic, NUM_RESIDUALS = Eigen::Dynamic };
+
+  /// logs: must outlive this; unknowns: p
+  CondensedProblem(std::span<const SharedRows> logs, Eigen::Index unknowns) : logs_(logs) {
+    for (const SharedRows& log : logs) products_of_.emplace_back(log.rows);
+    x_ = Eigen::VectorXd::Constant(unknowns, std::numeric_limits<double>::quiet_NaN());
+  }
+
+  int NumParameters() const { return static_cast<int>(x_.size()); }
+  int NumResiduals() const { return NumParameters() + 1; }
+
+  /// A square factor R of the products, R^T R = [J r]^T [J r]: its last column is the residuals [p + 1], the others the
+  /// jacobian [p + 1 x p], where one is asked for.
+  bool operator()(const double* x, double* residuals, double* jacobian) const;
+
+  /// [J r]^T [J r] at x, each log over its variance. [p + 1 x p + 1]
+  const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const;
+
+  std::vector<ThermalIterate>& trace() const { return trace_; }
+
+ private:
+  std::span<const SharedRows> logs_;
+
+  // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there
+  mutable std::vector<LogProducts> products_of_;
+  mutable Eigen::VectorXd x_;         // [p]
+  mutable Eigen::MatrixXd products_;  // [p + 1 x p + 1]
+  mutable std::vector<ThermalIterate> trace_;
+};
 
 bool CondensedProblem::operator()(const double* x, double* residuals, double* jacobian) const {
   Evaluate(Eigen::Map<const Eigen::VectorXd>(x, NumParameters()));
 
-  // a factor R of the products, R^T R = [J r]^T [J r] / scale^2
+  // a factor R of the products, R^T R = [J r]^T [J r]
   const Eigen::Index p = NumParameters();
-  const Eigen::LDLT<Eigen::MatrixXd> factors(products_ / (scale_ * scale_));
+  const Eigen::LDLT<Eigen::MatrixXd> factors(products_);
   Eigen::MatrixXd root = factors.transpositionsP() * Eigen::MatrixXd::Identity(p + 1, p + 1);
   root = factors.matrixU() * root;
   root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
@@ -128,184 +220,110 @@ bool CondensedProblem::operator()(const double* x, double* residuals, double* ja
 const Eigen::MatrixXd& CondensedProblem::Evaluate(const Eigen::VectorXd& x) const {
   if (x_ == x) return products_;
   x_ = x;
-
-  // what the samples tell
-  measured_ = level_;
-  if (offsets_.cols() > 0) measured_ -= offsets_ * x_.tail(offsets_.cols());
-  SumProductsOfSize();
-
-  // what is known beside them
-  for (Eigen::Index i = 0; i < jump_weights_.size(); ++i) {
-    AddKnown(d_ + warming_ + i, jump_weights_[i], x_[d_ + warming_ + i]);
+  // each log's own products, at the places of its unknowns; the residual's come last
+  products_.setZero(NumResiduals(), NumResiduals());
+  for (size_t i = 0; i < logs_.size(); ++i) {
+    std::vector<Eigen::Index> places = logs_[i].places;
+    const Eigen::VectorXd own = x(places);
+    places.push_back(NumParameters());
+    products_(places, places) += products_of_[i].At(own);
   }
-  if (warming_ == 3) AddKnown(d_ + 2, pull_.weight, x_[d_ + 2] - pull_.mean);
   return products_;
-}
-
-void CondensedProblem::SumProductsOfSize() const {
-  const auto sum = [&]<int D>() { warming_ == 2 ? SumProducts<D, 2>() : SumProducts<D, 3>(); };
-  // sizes that the compiler knows, without jumps and offsets; else of any size
-  switch (jump_weights_.size() + offsets_.cols() == 0 ? d_ : Eigen::Dynamic) {
-    case 1:
-      return sum.template operator()<1>();
-    case 2:
-      return sum.template operator()<2>();
-    case 3:
-      return sum.template operator()<3>();
-    default:
-      return sum.template operator()<Eigen::Dynamic>();
-  }
-}
-
-template <int D, int Q>
-void CondensedProblem::SumProducts() const {
-  const Thermal thermal{x_[d_], std::exp(x_[d_ + 1])};
-  const double initial = Q == 3 ? x_[d_ + 2] : 0;
-  const double* jumps = x_.data() + d_ + Q;
-  // rows of the kept samples along one simulation
-  const auto fill = [&](auto&& next) {
-    WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
-      RunWithSensitivities<D>(loop_, x_.data(), thermal.gain, initial, jumps, hold,
-                              [&](Eigen::Index n, double level, const double* g, const double* S) {
-                                if (weight_[n] != 0)
-                                  Fill<D, Q>(n, measured_[n] - level, g, S, next(n));
-                              });
-    });
-  };
-  // a transform takes all rows at once; else they are summed as they come
-  if (transform_) {
-    products_ = TransformedProducts(fill);
-    return;
-  }
-  RowProducts<kColumns<D, Q>> products(NumResiduals());
-  fill([&](Eigen::Index) { return products.Next(); });
-  products_ = products.Sums();
-}
-
-template <typename FillRows>
-Eigen::MatrixXd CondensedProblem::TransformedProducts(const FillRows& fill) const {
-  RowTransform::Rows rows(transform_->size(), NumResiduals());
-  Eigen::VectorXd sign(transform_->size());
-  Eigen::Index count = 0;
-  fill([&](Eigen::Index n) {
-    sign[count] = loop_.direction()[n];
-    return rows.row(count++);
-  });
-  // levels back to torques, whose noise the transform knows
-  rows.array().colwise() *= sign.array();
-  transform_->Apply(rows);
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
-  products.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
-  return products.selfadjointView<Eigen::Upper>();
-}
-
-template <int D, int Q, typename Row>
-void CondensedProblem::Fill(Eigen::Index n, double residual, const double* g, const double* S,
-                            Row row) const {
-  const LoopSize<D> size(d_);
-  const Eigen::Index d = size.value();
-  const Eigen::Index q = D == Eigen::Dynamic ? offsets_.cols() : 0;
-  const Eigen::Index j = D == Eigen::Dynamic ? jump_weights_.size() : 0;
-  const double w = weight_[n];
-  // derivatives by law, warming, jumps and offsets, then the residual itself
-  for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
-  for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
-  for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
-  for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * offsets_(n, i);
-  row[d + Q + j + q] = w * residual;
-}
-
-void CondensedProblem::AddKnown(Eigen::Index i, double w, double b) const {
-  const Eigen::Index last = products_.rows() - 1;
-  products_(i, i) += w;
-  products_(i, last) += w * b;
-  products_(last, i) += w * b;
-  products_(last, last) += w * b * b;
 }
 
 constexpr int kMostIterations = 50;
 
-ThermalFit Solve(const CondensedProblem& problem, const Eigen::VectorXd& start) {
+}  // namespace
+
+ThermalLayout ThermalLayout::Of(Eigen::Index law, Eigen::Index heat, Eigen::Index start,
+                                Eigen::Index jumps, Eigen::Index rigid) {
+  ThermalLayout layout;
+  Eigen::Index next = 0;
+  const auto take = [&](Eigen::Index size) {
+    return Slice{std::exchange(next, next + size), size};
+  };
+  layout.law = take(law);
+  layout.heat = take(heat);
+  layout.start = take(start);
+  layout.jumps = take(jumps);
+  layout.rigid = take(rigid);
+  return layout;
+}
+
+ThermalLayout ThermalRows::layout() const {
+  // E(0) is unknown where it is not held
+  return ThermalLayout::Of(loop.levels().cols(), 2, initial.spread > 0 ? 1 : 0,
+                           static_cast<Eigen::Index>(loop.jumps().size()), offsets.cols());
+}
+
+Thermal ThermalFit::thermal() const {
+  return {x[layout.gain()], std::exp(x[layout.log_time_constant()])};
+}
+
+double ThermalFit::initial_energy() const {
+  return estimates_initial_energy() ? x[layout.start.begin] : 0;
+}
+
+InitialGuess StartFrom(const ThermalFit& fit) {
+  InitialGuess start;
+  start.parameters.resize(fit.layout.law.size + fit.layout.rigid.size);
+  start.parameters << fit.law(), fit.rigid();
+  start.thermal = fit.thermal();
+  return start;
+}
+
+SharedFit FitTogether(std::span<const SharedRows> logs, const Eigen::VectorXd& start) {
   using Solver = ceres::TinySolver<CondensedProblem>;
+  const CondensedProblem problem(logs, start.size());
   Solver solver;
   solver.options.max_num_iterations = kMostIterations;
   solver.options.gradient_tolerance = 1e-10;
   solver.options.parameter_tolerance = 1e-11;
   solver.options.function_tolerance = 1e-10;  // of |r|^2, which is about the number of samples
   solver.options.initial_trust_region_radius = 1e8;
-  Solver::Parameters x = start;
-  solver.Solve(problem, &x);
+  SharedFit fit;
+  fit.x = start;
+  solver.Solve(problem, &fit.x);
 
-  // the products at the solution tell squares and normal matrix
-  const Eigen::Index p = x.size();
-  const Eigen::MatrixXd& products = problem.Evaluate(x);
-  ThermalFit fit;
-  fit.solution = {x, products(p, p)};
-  fit.normal = products.topLeftCorner(p, p);
+  // the products at the solution tell squares and cofactor
+  const Eigen::Index p = fit.x.size();
+  const Eigen::MatrixXd& products = problem.Evaluate(fit.x);
+  fit.squares = products(p, p);
+  fit.cofactor = Cofactor(products.topLeftCorner(p, p));
   // every iterate, the solution last
   fit.trace = std::move(problem.trace());
-  fit.trace.push_back(fit.solution);
+  fit.trace.push_back({fit.x, fit.squares});
   fit.converged = solver.summary.status != Solver::HIT_MAX_ITERATIONS &&
-                  std::isfinite(fit.solution.squares) && x.allFinite();
+                  std::isfinite(fit.squares) && fit.x.allFinite();
   return fit;
 }
 
-}  // namespace
-
-Thermal ThermalFit::thermal() const {
-  return {solution.x[law_parameters], std::exp(solution.x[law_parameters + 1])};
-}
-
-Eigen::VectorXd ThermalFit::parameters() const { return solution.x.head(law_parameters); }
-
-double ThermalFit::initial_energy() const {
-  return estimates_initial_energy() ? solution.x[law_parameters + 2] : 0;
-}
-
-Eigen::VectorXd ThermalFit::jump_values() const {
-  const Eigen::Index count = jump_weights.size();
-  return solution.x.segment(solution.x.size() - offsets - count, count);
-}
-
-Eigen::VectorXd ThermalFit::prior() const {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(solution.x.size());
-  all.segment(all.size() - offsets - jump_weights.size(), jump_weights.size()) = jump_weights;
-  if (estimates_initial_energy()) all[law_parameters + 2] = start_weight;
-  return all;
-}
-
-InitialGuess StartFrom(const ThermalFit& fit) {
-  InitialGuess start;
-  start.parameters.resize(fit.law_parameters + fit.offsets);
-  start.parameters << fit.parameters(), fit.offset_values();
-  start.thermal = fit.thermal();
-  return start;
-}
-
-ThermalFit FitThermalFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                              const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                              const InitialGuess& start, const InitialEnergy& initial, double scale,
-                              const Eigen::VectorXd& jump_weights, const RowTransform* transform) {
-  const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
-  // heat has gain and log(tau), and E(0) where that is not known for sure
-  const int warming = initial.spread > 0 ? 3 : 2;
-  const StartPull pull{initial.mean, StartWeight(scale, initial)};
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + jumps + q);
+ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start) {
+  ThermalFit fit;
+  fit.layout = rows.layout();
+  fit.initial = rows.initial;
+  fit.prior = Prior(rows);
   // from the scanned law and heat, without jumps, with the E(0) that is expected
-  x.head(d + 2) << start.parameters.head(d), start.thermal.gain,
-      std::log(start.thermal.time_constant);
-  x.tail(q) = start.parameters.tail(q);
-  if (warming == 3) x[d + 2] = initial.mean;
+  const auto& [law, heat, initial, jumps, rigid] = fit.layout;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(fit.layout.size());
+  x.segment(law.begin, law.size) = start.parameters.head(law.size);
+  x[fit.layout.gain()] = start.thermal.gain;
+  x[fit.layout.log_time_constant()] = std::log(start.thermal.time_constant);
+  if (initial.size > 0) x[initial.begin] = rows.initial.mean;
+  x.tail(rigid.size) = start.parameters.tail(rigid.size);
 
-  ThermalFit fit = Solve(
-      CondensedProblem(loop, level, offsets, kept, jump_weights, warming, pull, scale, transform),
-      x);
-  // which entries of x are what
-  fit.law_parameters = d;
-  fit.jump_weights = jump_weights;
-  fit.offsets = q;
-  fit.initial = initial;
-  fit.start_weight = pull.weight;
+  // all unknowns are those of the one log; squares are the torque's
+  std::vector<Eigen::Index> places(static_cast<size_t>(x.size()));
+  std::iota(places.begin(), places.end(), 0);
+  const SharedRows one{rows, std::move(places)};
+  SharedFit found = FitTogether({&one, 1}, x);
+  const double variance = rows.scale * rows.scale;
+  for (ThermalIterate& iterate : found.trace) iterate.squares *= variance;
+  fit.x = std::move(found.x);
+  fit.squares = variance * found.squares;
+  fit.cofactor = found.cofactor / variance;
+  fit.trace = std::move(found.trace);
+  fit.converged = found.converged;
   return fit;
 }
 

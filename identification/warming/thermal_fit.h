@@ -1,9 +1,10 @@
-// Joint maximum likelihood of law and warming over the closed loop.
+// Least squares of law and heat over the closed loop, of one log or of several that share unknowns.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
@@ -30,64 +31,113 @@ struct InitialEnergy {
 inline constexpr InitialEnergy InitialEnergy::zero{0, 0};
 inline constexpr InitialEnergy InitialEnergy::estimated{0, std::numeric_limits<double>::infinity()};
 
-/// One iterate of the fit.
-struct ThermalIterate {
-  Eigen::VectorXd
-      x;  // [p] law parameters (d), k, log(tau), E(0) if estimated, jumps (J), offsets (q)
-  double squares = 0;  // sum of squared residuals over the kept samples
+/// Unknowns that stand together in x.
+struct Slice {
+  Eigen::Index begin = 0, size = 0;
+
+  Eigen::Index end() const { return begin + size; }
+  /// Of a vector over x. [size]
+  Eigen::VectorXd Of(const Eigen::VectorXd& x) const { return x.segment(begin, size); }
 };
 
-struct ThermalFit {
-  ThermalIterate solution;
-  Eigen::MatrixXd normal;  // J^T J at the solution, of the rows as fitted, and the jumps' weights
-  std::vector<ThermalIterate> trace;
-  bool converged = false;
+/// Where the unknowns x of one log stand, in this order.
+struct ThermalLayout {
+  Slice law;    // parameters of the law, d
+  Slice heat;   // gain and log(tau), or none
+  Slice start;  // E(0), or none
+  Slice jumps;  // of E at the loop's jumps, J
+  Slice rigid;  // gravity and inertia, q
 
-  Thermal thermal() const;
-  Eigen::VectorXd parameters() const;  // [d] of the law
-  bool estimates_initial_energy() const {
-    return solution.x.size() > law_parameters + 2 + jump_weights.size() + offsets;
+  /// Of so many unknowns each.
+  static ThermalLayout Of(Eigen::Index law, Eigen::Index heat, Eigen::Index start,
+                          Eigen::Index jumps, Eigen::Index rigid);
+  Eigen::Index size() const { return rigid.end(); }
+  Eigen::Index gain() const { return heat.begin; }
+  Eigen::Index log_time_constant() const { return heat.begin + 1; }
+};
+
+/// A log, and how its rows count in a fit. Refers to what it is given.
+struct ThermalRows {
+  const ClosedLoop& loop;          // over the columns of the law, with the jumps of E
+  const Eigen::VectorXd& level;    // [N] sign(v) torque, N.m or N
+  const Eigen::MatrixXd& offsets;  // [N x q] sign(v) dG/dg, torque that makes no heat
+  const Eigen::VectorXd& weight;   // [N] of the squares: 1, 0 or between
+  InitialEnergy initial{};
+  double scale = 1;               // about the residuals' standard deviation, N.m or N
+  Eigen::VectorXd jump_spread{};  // [J] standard deviation of each jump, N.m or N
+  /// Of the rows that count, whose weights are 1 then, as torque; or none.
+  const RowTransform* transform = nullptr;
+
+  ThermalLayout layout() const;
+  /// The same rows along another loop, which must outlive what is returned.
+  ThermalRows Along(const ClosedLoop& other) const {
+    return {other, level, offsets, weight, initial, scale, jump_spread, transform};
   }
-  double initial_energy() const;
-  Eigen::VectorXd jump_values() const;  // [J] of E, N.m or N
-  Eigen::VectorXd prior() const;        // [p] what `normal` has on its diagonal beside J^T J
-  Eigen::VectorXd offset_values() const { return solution.x.tail(offsets); }  // [q]
-  Eigen::Index law_parameters = 0;                                            // d
-  Eigen::VectorXd jump_weights;                                               // [J]
-  Eigen::Index offsets = 0;                                                   // q
-  InitialEnergy initial;    // what was known of E(0)
-  double start_weight = 0;  // of its distance from the mean, StartWeight
+};
+
+/// One iterate of a fit.
+struct ThermalIterate {
+  Eigen::VectorXd x;   // [p] as ThermalLayout has it
+  double squares = 0;  // sum of squared residuals over the samples that count
+};
+
+/// What a fit of law, heat, gravity and inertia to one log came to.
+struct ThermalFit {
+  ThermalLayout layout;
+  Eigen::VectorXd x;                  // [p]
+  double squares = 0;                 // infinite where the columns cannot be told apart
+  Eigen::MatrixXd cofactor;           // [p x p] (J^T J + P)^-1 of the rows as fitted
+  Eigen::VectorXd prior;              // [p] the diagonal P: what is known of x beside the log
+  std::vector<ThermalIterate> trace;  // the solution last; empty without heat
+  bool converged = false;
+  InitialEnergy initial;            // what was known of E(0)
+  std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be told apart
+
+  bool has_heat() const { return layout.heat.size > 0; }
+  bool estimates_initial_energy() const { return layout.start.size > 0; }
+  Thermal thermal() const;                                      // of a fit with heat
+  double initial_energy() const;                                // N.m or N
+  Eigen::VectorXd law() const { return layout.law.Of(x); }      // [d]
+  Eigen::VectorXd jumps() const { return layout.jumps.Of(x); }  // [J] of E, N.m or N
+  Eigen::VectorXd rigid() const { return layout.rigid.Of(x); }  // [q]
+  /// The deviation of an unknown for a variance of the noise.
+  double Deviation(Eigen::Index i, double variance) const {
+    return std::sqrt(variance * cofactor(i, i));
+  }
+  /// Puts the trace of the fit before in front of this one's.
+  void Follow(const ThermalFit& before) {
+    trace.insert(trace.begin(), before.trace.begin(), before.trace.end());
+  }
 };
 
 /// To begin where a fit ended: its law and offsets, and its warming.
 InitialGuess StartFrom(const ThermalFit& fit);
 
-/// Minimises the squared residuals of the kept samples by Ceres' Levenberg-Marquardt with exact
-/// derivatives. Each evaluation is condensed: [J r] is replaced by a square factor R of the same
-/// products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps
-/// exactly as it would on all of them.
-/// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
-/// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
-/// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N; jump_weights: [J] of
-/// the loop's jumps (JumpWeights): each counts as a sample that measured 0, and an expected E(0) as one
-/// that measured its mean; transform: of the rows of the samples that count, whose weights are 1 then,
-/// as torque; or none.
-ThermalFit FitThermalFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                              const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                              const InitialGuess& start, const InitialEnergy& initial, double scale,
-                              const Eigen::VectorXd& jump_weights = {},
-                              const RowTransform* transform = nullptr);
+/// Minimises the squared residuals of the samples that count by Ceres' Levenberg-Marquardt with exact
+/// derivatives. start: parameters of the law and of the offsets [d + q]. Each jump counts as a sample
+/// that measured 0, and an expected E(0) as one that measured its mean.
+ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start);
 
-/// The residuals' variance over that of E(0), or 0. scale: of the residuals, N.m or N.
-inline double StartWeight(double scale, const InitialEnergy& initial) {
-  if (!initial.is_expected()) return 0;
-  return std::pow(scale / std::max(initial.spread, 1e-9 * scale), 2);
-}
+/// One log of several that are fitted together.
+struct SharedRows {
+  ThermalRows rows;
+  /// [p of this log] which unknown of the whole each one of its own is; two logs share those that are the same.
+  std::vector<Eigen::Index> places;
+};
 
-/// The residuals' variance over the variance of each jump. scale: of the residuals, N.m or N;
-/// spread: [J] standard deviation that each jump is known to have, N.m or N.
-inline Eigen::VectorXd JumpWeights(double scale, const Eigen::VectorXd& spread) {
-  return (scale / spread.array().max(1e-9 * scale)).square();
-}
+/// A minimum over all unknowns of several logs.
+struct SharedFit {
+  Eigen::VectorXd x;                  // [p]
+  double squares = 0;                 // in units of each log's scale
+  Eigen::MatrixXd cofactor;           // [p x p] (J^T J + P)^-1 of the rows over their scales
+  std::vector<ThermalIterate> trace;  // the solution last
+  bool converged = false;
+};
+
+/// The same over several logs, each with rows of its own, whose unknowns are partly shared: the gravity of two
+/// joints, say, but not their friction. Each evaluation is condensed: [J r] of a log is replaced by a square factor R
+/// of the same products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps exactly as
+/// it would on all of them. start: [p].
+SharedFit FitTogether(std::span<const SharedRows> logs, const Eigen::VectorXd& start);
 
 }  // namespace warmjoint

@@ -1,13 +1,11 @@
-#include "identification/maps/warming_block.h"
-
-#include <warmjoint/recording.h>
+#include "identification/maps/map_blocks.h"
 
 #include <cmath>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/further_passes.h"
-#include "identification/warming/scan_time_constant.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -26,6 +24,49 @@ ClosedLoop LoopOf(const Measurements& m, const Law& law, const MapBlock& maps) {
 
 }  // namespace
 
+MapBlock::MapBlock(const IdentifierInput& input, MapTask task)
+    : input_(input), task_(std::move(task)), everywhere_(PointsOf(input.measurements)) {
+  task_.energy = Eigen::VectorXd();
+  if (task_.candidates.size() > 1) return;
+  const std::vector<FrictionMap>& only = task_.candidates.front();
+  task_.rows = KernelRows::Kept(only, Kept(everywhere_, input.selection),
+                                task_.folds(input.selection.count()));
+  all_rows_ = KernelRows::Kept(only, everywhere_, 1);
+}
+
+bool MapBlock::ChooseBeside(const Eigen::VectorXd& energy) {
+  task_.energy = energy;
+  chosen_ = Choose(input_, task_);
+  if (!chosen_) return false;
+  if (task_.candidates.size() > 1)
+    all_rows_ = KernelRows::Kept(chosen_->problem.maps, everywhere_, 1);
+  torque_ = chosen_->problem.torque;
+  repeated_ = std::make_unique<RepeatedFit>(chosen_->problem, chosen_->normal, chosen_->strength);
+  fit_ = repeated_->Fit();
+  return fit_.has_value();
+}
+
+bool MapBlock::FitBeside(const Eigen::VectorXd& energy) {
+  task_.energy = energy;
+  MapProblem& problem = chosen_->problem;
+  if (!problem.rows) problem.rows = KernelRows::Kept(problem.maps, problem.points, 1);
+  torque_ =
+      Kept(input_.measurements.torque, input_.selection).col(0) - TakenByEnergy(input_, energy);
+  fit_ = repeated_->To(torque_);
+  return fit_.has_value();
+}
+
+Eigen::VectorXd MapBlock::Everywhere() const {
+  if (!all_rows_) return EvaluateMaps(fit_->maps, everywhere_);
+  return all_rows_->Times(fit_->x.tail(fit_->x.size() - fit_->free));
+}
+
+MapTask MapBlock::Settled() const {
+  MapTask settled = warmjoint::Settled(task_, *fit_);
+  settled.rows.reset();
+  return settled;
+}
+
 WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
                            const InitialEnergy& initial)
     : input_(input),
@@ -36,7 +77,7 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
 
 bool WarmingBlock::FitBeside(const MapBlock& maps) {
   const Measurements& m = input_.measurements;
-  ClosedLoop loop = LoopOf(m, *task_.law, maps);
+  const ClosedLoop loop = LoopOf(m, *task_.law, maps);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
 
   // gravity and inertia make no heat: out of the scan, beside the loop in the fit
@@ -50,22 +91,18 @@ bool WarmingBlock::FitBeside(const MapBlock& maps) {
 
   // what the maps left is about the noise
   const double scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count()));
+  ThermalRows rows{loop, level, offsets, kept_, initial_, scale};
   // jumps first beside a fit without them, which tells how warm the joint was, then with all else
-  const bool jumps = !gaps_.empty(), first = !fit_;
-  Eigen::VectorXd jump_weights;
-  if (jumps && !first) {
-    jump_weights = JumpWeights(
-        scale, JumpSpread(gaps_, energy_.cwiseAbs().maxCoeff(), fit_->thermal().time_constant));
-    loop = loop.WithJumps(Behind(gaps_));
+  const bool is_first = !fit_;
+  const ClosedLoop with_jumps = loop.WithJumps(Behind(gaps_));
+  if (!is_first) {
+    rows.jump_spread =
+        JumpSpread(gaps_, energy_.cwiseAbs().maxCoeff(), fit_->thermal().time_constant);
   }
-  // the fit of warming and rigid part; where it is the first, jumps follow it
-  fit_ = FitThermalFriction(loop, level, offsets, kept_, from, initial_, scale, jump_weights);
-  if (jumps && first) {
-    FitJumps(loop, level, offsets, kept_, gaps_, from, *fit_);
-  }
+  fit_ = FitThermalFriction(is_first ? rows : rows.Along(with_jumps), from);
+  if (is_first && !gaps_.empty()) FitJumps(rows, gaps_, from, *fit_);
   // the energy by this warming, beside which the maps are fitted next
-  energy_ = loop.Simulate(fit_->parameters(), fit_->thermal(), fit_->initial_energy(),
-                          fit_->jump_values())
+  energy_ = with_jumps.Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
                 .energy;
   return fit_->converged && energy_.allFinite();
 }

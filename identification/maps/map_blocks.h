@@ -1,15 +1,17 @@
-// Law and maps beside one course of the heat after the other.
+// The two blocks of unknowns that are fitted in turn: law and maps given the heat, and the heat given the maps.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "identification/maps/identify_maps.h"
+#include "identification/warming/gaps.h"
+#include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
 
-/// The block of law and maps where they and a warming are fitted in turn: what does not depend on E is made
-/// once.
+/// Law and maps with one energy after the other: what does not depend on E is made once.
 class MapBlock {
  public:
   /// input: must outlive this; task: its energy is not read.
@@ -41,6 +43,31 @@ class MapBlock {
   std::unique_ptr<RepeatedFit> repeated_;  // of what was chosen
   Eigen::VectorXd torque_;                 // [n] what the latest E leaves
   std::optional<MapWeights> fit_;
+};
+
+/// The warming, the law and one factor on the maps over the closed loop, with one fit of the maps after the other.
+class WarmingBlock {
+ public:
+  /// input, task: must outlive this; of the task, law, gravity and inertia are read; initial: what is
+  /// known of E(0).
+  WarmingBlock(const IdentifierInput& input, const MapTask& task, const InitialEnergy& initial);
+
+  /// Fits beside the maps' latest, from the warming that was found last, or from a scan. False where
+  /// it does not converge.
+  bool FitBeside(const MapBlock& maps);
+
+  const ThermalFit& fit() const { return *fit_; }
+  const Eigen::VectorXd& energy() const { return energy_; }  // [N] E, N.m or N
+  const std::vector<LogGap>& gaps() const { return gaps_; }  // where E jumps
+
+ private:
+  const IdentifierInput& input_;
+  const MapTask& task_;
+  const InitialEnergy initial_;
+  const std::vector<LogGap> gaps_;
+  const Eigen::VectorXd kept_;  // [N] 1 where a sample counts
+  std::optional<ThermalFit> fit_;
+  Eigen::VectorXd energy_;
 };
 
 }  // namespace warmjoint

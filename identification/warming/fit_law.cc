@@ -1,0 +1,408 @@
+#include "identification/warming/fit_law.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/lagged/lagged_fit.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/linear/robust.h"
+#include "identification/physical_bounds.h"
+#include "identification/seen_samples.h"
+#include "identification/uncertainty/disagreement.h"
+#include "identification/uncertainty/few_segments.h"
+#include "identification/uncertainty/tails.h"
+#include "identification/warming/expected_start.h"
+#include "identification/warming/further_passes.h"
+#include "identification/warming/law_problem.h"
+#include "identification/warming/warming_verdict.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint {
+namespace {
+
+/// A fit on its path from plain squares to its last pass.
+struct LawFit {
+  const char* name;
+  LawProblem problem;
+  RowTreatment rows;
+  ThermalFit fit;
+  double nominal_squares = 0;    // that the law leaves without heat, on the same rows
+  InitialGuess scanned{};        // where a fit with heat began
+  double threshold = kInfinity;  // N.m or N, where Huber's loss bends
+  std::shared_ptr<const LaggedRows> lag{};
+  std::shared_ptr<const Whitening> whitening{};
+  std::optional<Disagreement> unwhitened{};  // why coloured rows were not whitened
+
+  const IdentifierInput& input() const { return problem.input(); }
+  const Measurements& measurements() const { return problem.input().measurements; }
+  /// Takes a pass, and what the law leaves on its rows without heat.
+  void Take(RowTreatment treatment, ThermalFit next) {
+    rows = std::move(treatment);
+    fit = std::move(next);
+    nominal_squares = fit.has_heat() ? problem.FitCold(rows).squares : fit.squares;
+  }
+};
+
+/// Adds the heat by plain squares, with what is known of E(0) and a jump of E at each gap. Returns the clause that the
+/// log contradicts the start that was expected; or an empty text.
+std::string AddHeat(LawFit& law) {
+  // first without gaps, with E(0) as the options have it
+  LawProblem& problem = law.problem;
+  law.scanned = problem.Scan(law.measurements().torque, law.fit);
+  law.rows.scale = std::sqrt(law.nominal_squares / static_cast<double>(law.rows.torque.size()));
+  law.fit = problem.FitWarm(law.rows, InitialEnergyOf(law.input().options), law.scanned);
+
+  // what was known of E(0), weighed by the noise that this fit leaves
+  const ThermalRows rows = problem.WarmRows(law.fit.initial, law.rows.scale);
+  const std::string unlike_before = WeighStart(
+      rows,
+      [&](const ThermalFit& alone) {
+        return problem.CovarianceOf(alone).Deviation(alone.layout.start.begin);
+      },
+      law.fit);
+
+  // nobody knows the losses within gaps: E may jump there
+  const std::vector<LogGap> gaps = FindGaps(law.measurements());
+  if (!gaps.empty()) {
+    const Eigen::VectorXd spread = FitJumps(rows, gaps, law.scanned, law.fit);
+    problem.TakeJumps(gaps, spread);
+  }
+  law.rows.scale = std::sqrt(law.fit.squares / static_cast<double>(law.rows.torque.size()));
+  return unlike_before;
+}
+
+constexpr int kMostHuberRounds = 100;
+constexpr double kHuberConverged =
+    1e-6;  // of each parameter between rounds, in standard deviations
+
+/// Whether no parameter changed by more than a share of its standard deviation.
+bool HasConverged(const ThermalFit& before, const ThermalFit& after, double scale) {
+  const Eigen::ArrayXd deviations = scale * after.cofactor.diagonal().array().sqrt();
+  return ((after.x - before.x).array().abs() <= kHuberConverged * deviations).all();
+}
+
+/// Fits again and again, each sample weighted by what Huber's loss makes of its residual in the fit before (robust.h),
+/// until the parameters rest; converged says whether they do.
+void RefineByHuber(LawFit& law) {
+  law.threshold = 0;
+  ThermalFit fit = law.fit;
+  RowTreatment rows = law.rows;
+  bool rests = false;
+  for (int round = 0; round < kMostHuberRounds && fit.converged && !rests; ++round) {
+    // weights by how far the residual stands out of its robust spread
+    const Eigen::VectorXd residual =
+        rows.torque - Kept(law.problem.Respond(fit).torque, law.input().selection);
+    if (!residual.allFinite()) break;
+    law.threshold = HuberThreshold(residual);
+    if (!(law.threshold > 0)) break;
+    rows.weights = HuberWeights(residual, law.threshold);
+    rows.scale = law.threshold / kHuberBend;
+
+    // from where the fit before ended
+    ThermalFit next = law.problem.FitAgain(rows, fit);
+    rests = next.converged && HasConverged(fit, next, rows.scale);
+    fit = std::move(next);
+  }
+  // the fit of exact data has no residual that could bend the loss
+  fit.converged = fit.converged && (rests || !(law.threshold > 0));
+  law.Take(std::move(rows), std::move(fit));
+}
+
+/// Fits once more on whitened rows, where the noise is coloured beyond doubt; the fit stays as it was
+/// where that changes more than noise may.
+void Whiten(LawFit& law) {
+  const ThermalFit& plain = law.fit;
+  const ThermalResponse response = law.problem.Respond(plain);
+  if (!plain.converged || response.feeds_itself) return;
+  // what the fit leaves, and the noise in it
+  const Selection& selection = law.input().selection;
+  const Eigen::VectorXd left = law.rows.torque - Kept(response.torque, selection);
+  auto whitening = WhiteningFor(left, law.measurements(), selection);
+  if (!whitening) return;
+
+  // the same fit by whitened rows
+  const double innovation = whitening->noise().innovation;
+  RowTreatment rows{
+      .torque = law.rows.torque, .transform = whitening, .scale = std::sqrt(innovation)};
+  ThermalFit white = law.problem.FitAgain(rows, plain);
+  if (!white.converged) return;
+
+  // back to the plain fit where whitening changes too much, or leaves the bounds
+  const Uncertainty known = law.problem.CovarianceOf(plain);
+  law.unwhitened = FindDisagreement({plain.x, known.covariance},
+                                    {white.x, innovation * white.cofactor}, known.freedom);
+  const Law& nominal = law.problem.task().law;
+  if (law.unwhitened || LeavesBounds(LawParameters(nominal, white.law(), law.measurements()))) {
+    return;
+  }
+  law.whitening = std::move(whitening);
+  law.Take(std::move(rows), std::move(white));
+}
+
+/// A fit at one lag, of the search for the best.
+struct FitAtOneLag {
+  std::shared_ptr<const LaggedRows> lag;
+  RowTreatment rows;
+  ThermalFit fit;
+};
+
+/// The best lag (SearchLag), and the fit at it; nothing where the log shows no lag. start: of the first trial with heat,
+/// none without heat; without: [n] torque of the fit without a lag, empty where it went astray
+std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<InitialGuess> start,
+                                        const Eigen::VectorXd& without) {
+  const Selection& selection = law.input().selection;
+  const Eigen::VectorXd measured = Kept(law.measurements().torque, selection);
+  const auto runs = std::make_shared<const KeptRuns>(FindRuns(law.measurements(), selection));
+  FitAtOneLag latest;
+  const auto fit_at = [&](const LaggedRows& at) -> ModelBehindLag {
+    latest = {};
+    RowTreatment rows{.torque = at.Unlagged(measured),
+                      .transform = {std::shared_ptr<void>(), &at},
+                      .scale = law.rows.scale};
+    ThermalFit next =
+        start ? law.problem.FitWarm(rows, law.fit.initial, *start) : law.problem.FitCold(rows);
+    if (!next.converged) return {};
+    const ThermalResponse response = law.problem.Respond(next);
+    if (response.feeds_itself) return {};
+    // each trial begins where the latest ended
+    if (start) start = StartFrom(next);
+    latest = {nullptr, std::move(rows), std::move(next)};
+    return {latest.fit.squares, Kept(response.torque, selection)};
+  };
+  auto lag = SearchLag(runs, measured, without, fit_at);
+  if (!lag || fit_at(*lag).torque.size() == 0) return std::nullopt;
+  latest.rows.transform = latest.lag = std::move(lag);
+  return latest;
+}
+
+/// Where a search for the lag may begin if the fit without one went astray: from the torque less what the lag of a law
+/// without heat adds; nothing where that shows no lag.
+std::optional<InitialGuess> StartBehindLag(const LawFit& law) {
+  const auto found = FitAtBestLag(law, std::nullopt, {});
+  if (!found) return std::nullopt;
+  // without what the lag adds to the model the scan sees friction alone
+  const Selection& selection = law.input().selection;
+  Eigen::VectorXd torque = law.measurements().torque;
+  const Eigen::VectorXd model = Kept(law.problem.Respond(found->fit).torque, selection);
+  torque(found->lag->runs()->samples) -=
+      found->lag->FittedTo(Kept(torque, selection), model) - model;
+  return law.problem.Scan(torque, law.problem.FitCold(law.problem.AsMeasured()));
+}
+
+/// Fits once more behind the lag of the torque that leaves the least squares, where the log shows one. Losses follow
+/// from the friction itself, which no lag touches.
+void AddTorqueLag(LawFit& law) {
+  // what the search compares with: no lag at all
+  std::optional<InitialGuess> start;
+  Eigen::VectorXd without;
+  if (law.fit.converged) {
+    const ThermalResponse response = law.problem.Respond(law.fit);
+    if (!response.feeds_itself) without = Kept(response.torque, law.input().selection);
+    if (law.fit.has_heat()) start = StartFrom(law.fit);
+  } else {
+    start = StartBehindLag(law);
+    if (!start) return;
+  }
+  auto found = FitAtBestLag(law, std::move(start), without);
+  if (!found) return;
+  found->fit.Follow(law.fit);
+  law.lag = std::move(found->lag);
+  law.Take(std::move(found->rows), std::move(found->fit));
+}
+
+/// Why the warm-up cannot be told; nothing where it can.
+std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
+  const ThermalFit& fit = law.fit;
+  // variance of the noise, and how much wider few segments make an interval
+  const Selection& selection = law.input().selection;
+  const Eigen::Index p = fit.x.size();
+  const auto freedom = static_cast<double>(selection.count() - p);
+  const double explained = ExplainedVariances(law.nominal_squares, fit.squares, freedom,
+                                              Kept(law.measurements().torque, selection));
+  const double longest = law.scanned.longest / kScannedBeyond;
+  if (!fit.converged) {
+    if (auto why = InsignificantWarming(explained)) return why;
+    return RunawayWarming(fit.thermal().time_constant, longest);
+  }
+  const double reach = StudentQuantile(FewestFreedom(selection, p), kIntervalLevel) /
+                       StudentQuantile(kInfinity, kIntervalLevel);
+  const double deviation = fit.Deviation(fit.layout.log_time_constant(), fit.squares / freedom);
+  return UnidentifiableWarming({explained, reach * deviation, fit.thermal().time_constant,
+                                law.scanned.shortest, law.scanned.longest, longest});
+}
+
+/// Why there is no fit to trust; nothing where there is.
+std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& response) {
+  if (!law.fit.has_heat()) {
+    if (law.fit.converged) return std::nullopt;
+    return Refusal{Status::not_converged,
+                   "the weights of Huber's loss still move after 100 rounds; use loss squares"};
+  }
+  // no warming to see, no end of the iterations, or a friction that feeds itself
+  if (auto why = WhyNotIdentifiable(law)) return Refusal{Status::not_identifiable, *why};
+  if (!law.fit.converged) {
+    return Refusal{
+        Status::not_converged,
+        fmt::format("the fit has not converged after {} iterations", law.fit.trace.size() - 1),
+        FrictionKind::warm_up};
+  }
+  if (!response.feeds_itself) return std::nullopt;
+  return Refusal{
+      Status::inadequate_model,
+      WouldFeedItself(law.measurements().time[*response.feeds_itself],
+                      RemedyForNonDissipative(law.name, law.problem.task().law.name,
+                                              law.input().options.Get<GravityOption>().gravity))};
+}
+
+std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
+  std::vector<Iterate> trace;
+  for (const ThermalIterate& iterate : warm.trace) {
+    Iterate& entry = trace.emplace_back();
+    entry.iteration = static_cast<int>(trace.size()) - 1;
+    entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
+    // law, gain and time constant, which the fit knew by its logarithm
+    const Eigen::Index told = warm.layout.heat.end();
+    entry.values.assign(iterate.x.begin(), iterate.x.begin() + told);
+    entry.values.back() = std::exp(entry.values.back());
+  }
+  return trace;
+}
+
+/// What the errors of a fit follow from, whatever its loss. residual: [n]
+ErrorModel ErrorsOf(const LawFit& law, const Eigen::VectorXd& residual) {
+  ErrorModel errors;
+  errors.prior = law.fit.prior;
+  errors.cofactor = law.fit.cofactor;
+  errors.whitening = law.whitening;
+  if (std::isinf(law.threshold)) return errors;
+  // of a loss that bends: plain columns and the scores of the loss
+  const Eigen::MatrixXd rows = Kept(law.problem.JacobianOf(law.fit), law.input().selection);
+  Eigen::MatrixXd normal = rows.transpose() * rows;
+  if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
+  errors.cofactor = Cofactor(normal);
+  errors.scores = HuberScores(residual, law.threshold);
+  return errors;
+}
+
+/// What was done: a clause.
+std::string Summary(const LawFit& law) {
+  const std::string motion = law.measurements().acceleration ? kOfAnyMotion : "";
+  const std::string rows = fmt::format("{} samples{}{}{}", law.input().selection.count(), motion,
+                                       law.lag ? kBehindLag : "", law.whitening ? kWhitened : "");
+  return law.fit.has_heat()
+             ? fmt::format("maximum likelihood on {}, refined in {} iterations", rows,
+                           law.fit.trace.size() - 1)
+             : fmt::format("law {} by least squares on {}", law.problem.task().law.name, rows);
+}
+
+/// The table of parameters in the order of x: law, heat, E(0), jumps, gravity and inertia.
+void FillTable(const LawFit& law, Fit& fit) {
+  const Measurements& m = law.measurements();
+  fit.parameters = LawParameters(law.problem.task().law, law.fit.law(), m);
+  if (law.fit.has_heat()) Append(HeatTable(law.fit, m), fit);
+  AddRigid(law.problem.task().gravity, law.fit.rigid(), m, fit);
+}
+
+/// The fit as a value, or why there is none to trust.
+Fit Conclude(LawFit law) {
+  const Measurements& m = law.measurements();
+  const ThermalFit& found = law.fit;
+  const ThermalResponse response = law.problem.Respond(found);
+  Fit fit;
+  fit.identifier = law.name;
+  fit.trace = TraceOf(found, law.input().selection.count());
+  fit.refusal = WhyRefused(law, response);
+  FillTable(law, fit);
+  if (fit.refusal) return fit;
+
+  // the model
+  fit.friction = FrictionOf(law.problem.task().law, found.law(), m);
+  // and how well it fits
+  fit.used = law.input().selection;
+  fit.torque = Kept(m.torque, fit.used);
+  fit.fitted = Kept(response.torque, fit.used);
+  fit.errors = ErrorsOf(law, fit.residual());
+  if (law.unwhitened) fit.unmodelled_residual = {*law.unwhitened, Kept(response.force, fit.used)};
+  fit.count = static_cast<int>(found.x.size());
+  fit.effective_parameters = fit.count;
+  if (!std::isinf(law.threshold)) fit.loss_bend = law.threshold;
+  fit.summary = Summary(law);
+  fit.jacobian = [columns = law.problem.task().columns] { return columns; };
+
+  // the heat
+  if (found.has_heat()) {
+    fit.friction.thermal = found.thermal();
+    fit.initial_energy = found.initial_energy();
+    fit.jump_samples = law.problem.loop().jumps();
+    const auto loop = std::make_shared<const ClosedLoop>(law.problem.loop());
+    fit.jacobian = [loop, rigid = law.problem.task().gravity.columns, found] {
+      return WarmJacobian(*loop, rigid, found);
+    };
+    fit.end_energy = [loop, found] { return WarmEnd(*loop, found); };
+    const std::vector<LogGap>& gaps = law.problem.gaps();
+    if (!gaps.empty()) fit.warnings.push_back(LossesInGaps(gaps, m));
+  }
+
+  // the lag, which the model of law and heat does not know
+  if (law.lag) AddLag(law.lag, response.torque, m, fit);
+  return fit;
+}
+
+}  // namespace
+
+Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
+  if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
+  const bool warms = heat == HeatFit::estimated;
+  const LinearTask task = BeginLinear(given, warms ? 3 : 0);
+  if (task.refusal) return Refused(name, *task.refusal);
+  const IdentifierInput chosen = task.gravity.Of(given);
+  const Selection moving = WithoutRest(chosen.selection, chosen.measurements);
+  const IdentifierInput input = chosen.With(moving);
+
+  // the columns of law and gravity must be distinct before any warming is thought of
+  LawProblem problem(input, task);
+  const RowTreatment measured = problem.AsMeasured();
+  ThermalFit cold = problem.FitCold(measured);
+  if (!cold.converged) {
+    return Refused(name, Status::not_identifiable,
+                   IndistinctColumns(cold.mixed, task.law, task.gravity, input));
+  }
+  LawFit law{.name = name, .problem = std::move(problem), .rows = measured, .fit = std::move(cold)};
+  law.nominal_squares = law.fit.squares;
+  const std::string unlike_before = warms ? AddHeat(law) : "";
+
+  // behind a lag; else by the passes that outliers and the colour of the noise ask for
+  if (AsksForLag(input.options)) AddTorqueLag(law);
+  if (!law.lag) {
+    if (input.options.Get<LossOption>().loss == LossKind::huber) {
+      RefineByHuber(law);
+    } else {
+      Whiten(law);
+    }
+  }
+  const bool lacks_lag = AsksForLag(input.options) && !law.lag;
+  Fit fit = Conclude(std::move(law));
+  if (lacks_lag && !fit.refusal) fit.afterword = kNoLagSeen;
+  if (!unlike_before.empty()) fit.warnings.push_back(unlike_before);
+  return fit;
+}
+
+std::vector<FitParameter> HeatTable(const ThermalFit& warm, const Measurements& measurements) {
+  std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
+  if (warm.estimates_initial_energy()) {
+    rows.push_back(StartParameter(warm.initial_energy(), measurements));
+  }
+  std::ranges::copy(JumpParameters(warm.jumps(), measurements), std::back_inserter(rows));
+  return rows;
+}
+
+}  // namespace warmjoint

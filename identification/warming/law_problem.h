@@ -1,0 +1,89 @@
+// A log, law, gravity and heat as every pass of a fit by squares sees them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "identification/fit.h"
+#include "identification/identifier.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/warming/gaps.h"
+#include "identification/warming/thermal_fit.h"
+
+namespace warmjoint {
+
+/// What a fit by squares makes of the kept samples.
+struct RowTreatment {
+  Eigen::VectorXd torque;     // [n] N.m or N, that is fitted; behind a lag LaggedRows::Unlagged
+  Eigen::VectorXd weights{};  // [n] of the squares; or empty: 1
+  std::shared_ptr<const RowTransform> transform{};  // of columns and torque; or none
+  double scale = 1;  // about the standard deviation of what is left, N.m or N
+};
+
+/// What a fit says along its log.
+struct ThermalResponse {
+  Eigen::VectorXd force;                     // [N] F, N.m or N
+  Eigen::VectorXd torque;                    // [N] F + G + M a, N.m or N
+  std::optional<Eigen::Index> feeds_itself;  // LoopResponse::feeds_itself
+};
+
+/// Law, gravity and inertia, with or without heat.
+class LawProblem {
+ public:
+  /// input: without samples at rest; input and task must outlive this.
+  LawProblem(const IdentifierInput& input, const LinearTask& task);
+
+  /// The rows as they were measured.
+  RowTreatment AsMeasured() const;
+  /// Without heat, by linear least squares. A fit has not converged where the columns cannot be told apart.
+  ThermalFit FitCold(const RowTreatment& rows) const;
+  /// With heat.
+  ThermalFit FitWarm(const RowTreatment& rows, const InitialEnergy& initial,
+                     const InitialGuess& start) const;
+  /// Once more from where a fit ended, with heat where it has any; its trace goes on.
+  ThermalFit FitAgain(const RowTreatment& rows, const ThermalFit& fit) const;
+
+  /// A start for all linear parameters, law before gravity, and the warming: the scan over tau once gravity is out of
+  /// the loss. torque: [N]; cold: FitCold(AsMeasured())
+  InitialGuess Scan(const Eigen::VectorXd& torque, const ThermalFit& cold) const;
+
+  ThermalResponse Respond(const ThermalFit& fit) const;
+  /// d(F + G + M a)/dx over all samples, without lag. [N x p]
+  Eigen::MatrixXd JacobianOf(const ThermalFit& fit) const;
+  /// How sure a fit to plain squares is of its x, whatever the colour of the noise.
+  Uncertainty CovarianceOf(const ThermalFit& plain) const;
+
+  const IdentifierInput& input() const { return input_; }
+  const LinearTask& task() const { return task_; }
+  const ClosedLoop& loop() const { return loop_; }
+  /// The rows of fits with heat, before anything was made of them.
+  ThermalRows WarmRows(const InitialEnergy& initial, double scale) const {
+    return {loop_, level_, offsets_, kept_, initial, scale, jump_spread_};
+  }
+
+  /// At what samples E jumps, and how far it may. spread: [J] N.m or N
+  void TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& spread);
+  const std::vector<LogGap>& gaps() const { return gaps_; }
+
+ private:
+  const IdentifierInput& input_;
+  const LinearTask& task_;
+  Eigen::MatrixXd columns_;  // [n x d + q] law, then gravity and inertia
+  Eigen::VectorXd torque_;   // [n] N.m or N
+  Eigen::VectorXd kept_;     // [N] 1 where a sample is kept, else 0
+  ClosedLoop loop_;
+  Eigen::VectorXd level_;    // [N] sign(v) torque
+  Eigen::MatrixXd offsets_;  // [N x q] sign(v) dG/dg
+  std::vector<LogGap> gaps_;
+  Eigen::VectorXd jump_spread_;  // [J]
+};
+
+/// d(F + G)/dx over all samples, without lag. rigid: [N x q] dG/dg; returns [N x p]
+Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const Eigen::MatrixXd& rigid,
+                             const ThermalFit& fit);
+
+/// E at the end of the log, with its slopes by law, heat, E(0) where it was estimated, and jumps. [p without gravity]
+EndEnergy WarmEnd(const ClosedLoop& loop, const ThermalFit& fit);
+
+}  // namespace warmjoint
