@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/uncertainty/disagreement.h"
+#include "identification/inference/cause.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
 
@@ -54,6 +54,8 @@ struct ErrorModel {
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
   /// Of the rows that the fit solved, and with which C is; or none.
   std::shared_ptr<const Whitening> whitening;
+  /// [p] one error more of x, beside that by noise: by structure that the model lacks; or empty.
+  Eigen::VectorXd structure;
   /// Covariance of the table's estimated rows, where the identifier had to know it already.
   std::optional<Uncertainty> known;
   /// The same found where it is asked for: of a sketch, of which hardly anyone does; or not set.
@@ -67,13 +69,6 @@ struct Iterate {
   double rmse = 0;             // over the kept samples, N.m or N
   /// E at this moment, N.m or N, of a filter whose iterations are the samples that it has seen.
   std::optional<double> energy{};
-};
-
-/// That the colour of a fit's residual is structure and no noise: what whitening would have changed.
-struct UnmodelledResidual {
-  Disagreement change;
-  Eigen::VectorXd
-      friction;  // [n] F at the kept samples, N.m or N, beside which it is little or much
 };
 
 /// A first-order lag of the torque's way into the log.
@@ -101,10 +96,9 @@ struct EndEnergy {
 struct Fit {
   std::string identifier;
   std::optional<Refusal> refusal;  // then nothing else is known but the trace
-  std::optional<Refusal> voided;   // why the numbers, which stand, mean nothing
   std::string summary;             // what was done: a clause that begins the message
-  std::string afterword;           // what ends it; begins with its own separator, or empty
-  std::vector<std::string> warnings;
+  /// What else is to be said of it, and what makes its numbers mean nothing or leaves them without intervals.
+  std::vector<Cause> causes;
 
   // the model
   Friction friction;  // law, warming and maps, whatever their bounds
@@ -136,6 +130,8 @@ struct Fit {
   double effective_parameters = 0;  // trace of the hat matrix
   std::optional<double> loss_bend;  // where a robust loss bends, N.m or N
   std::vector<MapBand> bands;       // one for each of the friction's maps
+  /// Of each band, the derivatives of its values by the law's parameters, [g x d].
+  std::vector<Eigen::MatrixXd> bands_by_law;
   /// In place of parameters of the law that only a prior tells from a map.
   std::vector<FrictionAtSpeed> friction_at_speeds;
   std::vector<Iterate> trace;
@@ -143,9 +139,6 @@ struct Fit {
   std::optional<StructureChoice> choice;  // of an identifier that chooses
   /// The same structure, fitted to other samples: of an identifier that chooses one; else not set.
   std::function<Fit(const IdentifierInput&)> structure;
-
-  std::optional<UnmodelledResidual> unmodelled_residual;  // where the residual is not only noise
-  std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
 
   /// The heat that the log began with: E(0), and the jumps of E.
   CourseStart Start() const;

@@ -24,7 +24,7 @@ std::optional<std::string> RisesFromRest(const Friction& friction) {
 }
 
 bool GivesFriction(const Fit& fit) {
-  const bool stands = !fit.refusal && !fit.voided;
+  const bool stands = !fit.refusal && !IsRefused(fit.causes);
   return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.friction);
 }
 

@@ -77,7 +77,8 @@ Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitPa
     const bool is_level = row.part == LawPart::level;
     if (row.role != Role::law || !(is_level || row.part == LawPart::slope)) continue;
     cause.rows.push_back(i);
-    moves.push_back(is_level ? move * taken.mean_speed : move);
+    // a slope that is too small goes with levels that are too large
+    moves.push_back(is_level ? -move * taken.mean_speed : move);
   }
   cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
   return cause;
@@ -163,11 +164,10 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
 
   // what is said about it, and what that leaves of it
   LackOfFit found = FindCauses(identifier, input, judging, answer);
-  answer.causes = std::move(found.causes);
-  answer.judged = Apply(answer.inferred, answer.causes);
+  answer.judged = Apply(answer.inferred, std::move(found.causes));
   answer.judged.diagnostics = std::move(found.diagnostics);
   answer.judged.assumptions =
-      AssumptionsOf(answer.causes, answer.fit, input.measurements.torque_unit);
+      AssumptionsOf(answer.judged.causes, answer.fit, input.measurements.torque_unit);
   return answer;
 }
 

@@ -3,20 +3,16 @@
 
 #include <warmjoint/estimate.h>
 
-#include <vector>
-
 #include "identification/identifier.h"
-#include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/lack_of_fit_settings.h"
 
 namespace warmjoint {
 
-/// A fit, what noise says of it, what else is known about it, and what that leaves.
+/// A fit, what noise says of it, and what all causes leave of that.
 struct Answer {
   Fit fit;
   Inference inferred;
-  std::vector<Cause> causes;
   Inference judged;
 };
 

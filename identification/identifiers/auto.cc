@@ -32,31 +32,31 @@ namespace {
 constexpr const char* kName = "auto";
 
 /// Laws with and without warming, then gravity beside the best of them.
-void TryLinear(const IdentifierInput& input, ModelComparison& tournament) {
+void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
   const std::vector<FittedGravity> kinds = GravityKinds(input);
   for (const FittedGravity gravity : kinds) {
     if (gravity == FittedGravity::paired && kinds.size() > 1) continue;
-    tournament.Add(ColdStructures(gravity));
+    comparison.Add(ColdStructures(gravity));
     // a warming beside a further gravity only where it may be told
-    if (gravity == kinds.front() || tournament.MayWarmBeside(gravity)) {
-      tournament.Add(WarmStructures(gravity));
+    if (gravity == kinds.front() || comparison.MayWarmWith(gravity)) {
+      comparison.Add(WarmStructures(gravity));
     } else {
-      tournament.LeaveOut(WarmStructures(gravity),
+      comparison.LeaveOut(WarmStructures(gravity),
                           "neither gravity nor a warming can be seen by itself");
     }
   }
 
   // gravity that is free over place, beside the best of them alone
   if (kinds.size() > 1 && kinds.back() == FittedGravity::paired) {
-    if (const Structure* best = tournament.Best()) {
-      tournament.Add({best->With(GravityOption{FittedGravity::paired})});
+    if (const Structure* best = comparison.Best()) {
+      comparison.Add({best->With(GravityOption{FittedGravity::paired})});
     }
   }
 }
 
 /// Gravity to try beside maps: that of the best linear structure, but a sine where that is paired, over
 /// a joint that turns: what is no sine is the map's.
-FittedGravity GravityBesideMaps(const IdentifierInput& input, const Structure* best) {
+FittedGravity GravityForMaps(const IdentifierInput& input, const Structure* best) {
   const std::vector<FittedGravity> kinds = GravityKinds(input);
   const FittedGravity gravity = best ? best->gravity() : kinds.front();
   const bool turns = std::ranges::find(kinds, FittedGravity::sincos) != kinds.end();
@@ -64,33 +64,33 @@ FittedGravity GravityBesideMaps(const IdentifierInput& input, const Structure* b
 }
 
 /// What bends or ripples, with the gravity of the best linear one.
-void TryCurved(const IdentifierInput& input, ModelComparison& tournament) {
-  const FittedGravity gravity = GravityBesideMaps(input, tournament.Best());
+void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
+  const FittedGravity gravity = GravityForMaps(input, comparison.Best());
   const bool cold = TakesColdStart(input.options);
 
   // a bend over the speed, with and without warming
-  tournament.Add({StribeckStructure(FittedWarming::none)});
+  comparison.Add({StribeckStructure(FittedWarming::none)});
   if (!cold) {
-    tournament.LeaveOut({StribeckStructure(FittedWarming::estimated)},
+    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)},
                         "it takes the joint for cold as the log begins");
-  } else if (tournament.MayBendAndWarm()) {
-    tournament.Add({StribeckStructure(FittedWarming::estimated)});
+  } else if (comparison.MayBendAndWarm()) {
+    comparison.Add({StribeckStructure(FittedWarming::estimated)});
   } else {
-    tournament.LeaveOut({StribeckStructure(FittedWarming::estimated)},
+    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)},
                         "neither a bend over the speed nor a warming can be seen by itself");
   }
 
   // a level for each direction, where one may help
   for (const FittedWarming warming : {FittedWarming::none, FittedWarming::estimated}) {
     if (!cold && warming != FittedWarming::none) continue;
-    if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
+    if (comparison.MayHaveTwoLevels(warming)) comparison.Add({TwoLevelStribeckStructure(warming)});
   }
 
   // maps, where something is left over place
-  if (tournament.MayHaveMap()) {
-    tournament.Add(MapStructures(input, gravity, tournament.KernelsBesideBest(gravity)));
+  if (comparison.MayHaveMap()) {
+    comparison.Add(MapStructures(input, gravity, comparison.KernelsGivenBest(gravity)));
   } else {
-    tournament.LeaveOut(MapStructures(input, gravity),
+    comparison.LeaveOut(MapStructures(input, gravity),
                         "nothing is left over place that a map could take");
   }
 }
@@ -98,23 +98,23 @@ void TryCurved(const IdentifierInput& input, ModelComparison& tournament) {
 /// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds
 /// one.
 struct Trials {
-  std::unique_ptr<ModelComparison> tournament;
+  std::unique_ptr<ModelComparison> comparison;
   std::optional<double> lag;  // s
 };
 
 Trials TryAll(const IdentifierInput& input) {
   Trials trials;
-  trials.tournament = std::make_unique<ModelComparison>(input, input.selection);
-  TryLinear(input, *trials.tournament);
-  trials.lag = trials.tournament->LagOfBest(input);
+  trials.comparison = std::make_unique<ModelComparison>(input, input.selection);
+  TryLinear(input, *trials.comparison);
+  trials.lag = trials.comparison->LagOfBest(input);
 
   // a torque that lags: all again, on samples where it has settled
   if (trials.lag) {
-    trials.tournament = std::make_unique<ModelComparison>(
+    trials.comparison = std::make_unique<ModelComparison>(
         input, Settled(input.measurements, input.selection, *trials.lag));
-    TryLinear(input, *trials.tournament);
+    TryLinear(input, *trials.comparison);
   }
-  TryCurved(input, *trials.tournament);
+  TryCurved(input, *trials.comparison);
   return trials;
 }
 
@@ -122,13 +122,13 @@ Trials TryAll(const IdentifierInput& input) {
 /// where the torque has settled.
 Fit FitOnAll(const Structure& chosen, const std::optional<double>& lag,
              const IdentifierInput& input) {
-  if (!lag || chosen.CanTellLag()) return chosen.Fitted(input);
+  if (!lag || chosen.CanEstimateLag()) return chosen.Fitted(input);
   const Selection settled = Settled(input.measurements, input.selection, *lag);
   Fit fit = chosen.Fitted(input.With(settled));
-  fit.warnings.push_back(
-      fmt::format("the torque lags by {:.3g} s: samples within five times that after a change of "
-                  "speed are left out",
-                  *lag));
+  fit.causes.push_back(Remark(
+      fmt::format("the torque lags by {:.3g} s: samples within five times that after a change "
+                  "of speed are left out",
+                  *lag)));
   return fit;
 }
 
@@ -162,12 +162,12 @@ std::string NotShown(const Fit& fit, const PreparedLog& log) {
 }
 
 /// Nothing that was tried fits.
-Fit NothingFits(const ModelComparison& tournament, StructureChoice choice) {
-  const Inference& first = tournament.First().told;
+Fit NothingFits(const ModelComparison& comparison, StructureChoice choice) {
+  const Inference& first = comparison.First().told;
   const Status status = first.status == Status::ok ? Status::not_identifiable : first.status;
   Fit fit = Refused(kName, status,
                     fmt::format("none of {} structures fits; {} says: {}", choice.trials.size(),
-                                tournament.First().structure.Name(), first.message));
+                                comparison.First().structure.Name(), first.message));
   fit.choice = std::move(choice);
   return fit;
 }
@@ -178,16 +178,16 @@ Fit FitChosen(const IdentifierInput& input) {
 
   // compare on rows that hold the means of neighbours
   const Trials trials = TryAll(input);
-  ModelComparison& tournament = *trials.tournament;
+  ModelComparison& comparison = *trials.comparison;
 
   // what cannot be chosen goes first, the rest is held out block by block
-  tournament.DropDominated();
-  const Structure* only = tournament.OnlyOne();
+  comparison.DropDominated();
+  const Structure* only = comparison.OnlyOne();
   std::vector<StructureCandidate> contenders;
-  if (!only) contenders = tournament.Compare(blocks);
-  StructureChoice told{"", "", blocks, tournament.Told()};
-  const Structure* best = tournament.Best();
-  if (!best) return NothingFits(tournament, std::move(told));
+  if (!only) contenders = comparison.Compare(blocks);
+  StructureChoice told{"", "", blocks, comparison.Told()};
+  const Structure* best = comparison.Best();
+  if (!best) return NothingFits(comparison, std::move(told));
 
   // by the blocks, or by BIC where none can do without one of them, as one that holds the warm-up
   Structure chosen = *best;
@@ -198,13 +198,13 @@ Fit FitChosen(const IdentifierInput& input) {
     told.reason = fmt::format("chose {} by BIC: none can do without one of the {} blocks of time",
                               chosen.Name(), blocks);
   } else {
-    const Choice choice = ChooseStructure(contenders, tournament.rows());
-    chosen = tournament.Contending(choice.chosen);
+    const Choice choice = ChooseStructure(contenders, comparison.rows());
+    chosen = comparison.Contending(choice.chosen);
     told.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
   }
 
   // on every sample, with the reason before what it says
-  if (trials.lag && chosen.CanTellLag()) {
+  if (trials.lag && chosen.CanEstimateLag()) {
     chosen = chosen.With(LagOption{TorqueLagFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");

@@ -12,12 +12,15 @@
 // (on Table I such intervals would hold the time constant in 72 % of the runs instead of 95 %).
 #include <fmt/format.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "identification/alternating/block_descent.h"
-#include "identification/alternating/convergence.h"
 #include "identification/alternating/first_guess.h"
 #include "identification/alternating/nominal_part.h"
 #include "identification/fit_data.h"
@@ -28,6 +31,38 @@
 
 namespace warmjoint {
 namespace {
+
+/// Judgement of a sequence that converges linearly, x[i+1] - x* = rate (x[i] - x*).
+struct Convergence {
+  double rate = 1;       // observed, over the last changes; 1 where none can be seen
+  double remaining = 0;  // |x[n] - x*|, extrapolated: |x[n] - x[n-1]| rate / (1 - rate)
+};
+
+constexpr size_t kLastChanges = 5;  // over which the rate is observed
+constexpr double kStill = 1e-9;     // a change that the stopping rules inside explain
+
+double Change(const std::vector<Eigen::VectorXd>& iterates, size_t i) {
+  return (iterates[i] - iterates[i - 1]).cwiseAbs().maxCoeff();
+}
+
+/// iterates: x[0], x[1], ..., each [d] and divided by its scale, so that 0.01 is 1 %; distances
+/// are the largest over the entries. Infinite where the sequence does not approach anything, or is
+/// too short (fewer than 3) to tell.
+Convergence JudgeConvergence(const std::vector<Eigen::VectorXd>& iterates) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (iterates.size() < 3) return {1, kNever};
+
+  const size_t last = iterates.size() - 1;
+  const double change = Change(iterates, last);
+  if (change < kStill) return {0, 0};
+
+  // change[n] = rate^m change[n - m]
+  const size_t span = std::min(kLastChanges, last - 1);
+  const double rate =
+      std::pow(change / Change(iterates, last - span), 1.0 / static_cast<double>(span));
+  if (!(rate < 1)) return {1, kNever};
+  return {rate, change * rate / (1 - rate)};
+}
 
 constexpr const char* kName = "energy-als";
 constexpr double kSingular = 1e-6;  // of the joint Jacobian; short of it the intervals tell
@@ -247,11 +282,11 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   fit.errors.known = OfTable(part, d, known);
   const auto [arrived, message] =
       Arrival(states, known, input.options.Get<EnergyAlsOptions>().tolerance);
-  if (!arrived) fit.voided = {Status::not_converged, message};
+  if (!arrived) fit.causes.push_back(Voids(Status::not_converged, message));
   fit.summary = message;
 
   // W is formed of the noisy torque, so the residual understates the errors
-  fit.without_intervals = "gives no intervals, energy-ml does";
+  fit.causes.push_back(DropsIntervals("gives no intervals, energy-ml does"));
   return fit;
 }
 

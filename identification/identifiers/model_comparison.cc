@@ -163,7 +163,7 @@ bool ModelComparison::MayHaveMap() const {
   return LeavesOverPlace(best->fit.residual(), points);
 }
 
-ChosenKernels ModelComparison::KernelsBesideBest(FittedGravity gravity) const {
+ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
   quick_.Tell("choosing the kernels of maps");
   // E as the best structure so far has it
   const Trial* best = BestTrial();
@@ -177,7 +177,7 @@ ChosenKernels ModelComparison::KernelsBesideBest(FittedGravity gravity) const {
   const auto chosen = [&](WarmMap position) {
     const Options options =
         EnergyMl().options.With(GravityOption{gravity}).With(WarmMapOptions{{}, position});
-    return MapBesideEnergy(quick_.With(options), energy);
+    return MapGivenEnergy(quick_.With(options), energy);
   };
   ChosenKernels kernels;
   const Measurements& m = log_.view.measurements;
@@ -196,7 +196,7 @@ bool ModelComparison::MayWarm() const {
   });
 }
 
-bool ModelComparison::MayWarmBeside(FittedGravity gravity) const {
+bool ModelComparison::MayWarmWith(FittedGravity gravity) const {
   const Structure* best = Best();
   return MayWarm() || !best || best->gravity() == gravity;
 }

@@ -57,11 +57,11 @@ class ModelComparison {
 
   /// The kernels of maps that suit the log, chosen once, beside the warming of the best so far. gravity: its
   /// kind, fitted beside the maps.
-  ChosenKernels KernelsBesideBest(FittedGravity gravity) const;
+  ChosenKernels KernelsGivenBest(FittedGravity gravity) const;
 
   /// Whether a warming may be told beside gravity, which has been tried without one: a linear law
   /// can be told with it, or the best so far has that gravity.
-  bool MayWarmBeside(FittedGravity gravity) const;
+  bool MayWarmWith(FittedGravity gravity) const;
 
   /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
   /// be told without warming, or a linear law with it.

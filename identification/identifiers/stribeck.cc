@@ -130,10 +130,10 @@ void JudgeWarmth(const Measurements& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
-  fit.voided = {
-      Status::inadequate_model,
-      WouldFeedItself(m.time[predicted.feeds_itself],
-                      RemedyForNonDissipative("energy-ml", without, FittedGravity::none))};
+  fit.causes.push_back(
+      Voids(Status::inadequate_model,
+            WouldFeedItself(m.time[predicted.feeds_itself],
+                            RemedyForNonDissipative("energy-ml", without, FittedGravity::none))));
 }
 
 std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {

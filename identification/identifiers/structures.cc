@@ -70,7 +70,7 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
   return wide.With(over);
 }
 
-bool Structure::CanTellLag() const {
+bool Structure::CanEstimateLag() const {
   const auto* maps = identifier.options.Find<WarmMapOptions>();
   return identifier.options.Find<LagOption>() && (!maps || maps->position == WarmMap::none);
 }
@@ -91,18 +91,18 @@ Structure Structure::Quick() const {
   return sketch.With(made);
 }
 
-Options Structure::OptionsBeside(const Options& input) const {
+Options Structure::OptionsWith(const Options& input) const {
   if (!identifier.options.Find<InitialEnergyOptions>()) return identifier.options;
   return identifier.options.With(input.Get<InitialEnergyOptions>());
 }
 
 Fit Structure::Fitted(const IdentifierInput& input) const {
-  return identifier.fit(input.With(OptionsBeside(input.options)));
+  return identifier.fit(input.With(OptionsWith(input.options)));
 }
 
 std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
                                                    const std::vector<Eigen::Index>& bounds) const {
-  return BlockedErrors(identifier, input.With(Quick().OptionsBeside(input.options)), bounds);
+  return BlockedErrors(identifier, input.With(Quick().OptionsWith(input.options)), bounds);
 }
 
 std::span<const Word<GravityToTry>> WordsOf(GravityToTry) {
@@ -153,9 +153,12 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
     one.strength = chosen->strength;
     return one.WithShapeOf(chosen->map);
   };
-  // what looks like gravity beside a law that is too simple may be a map's
-  std::vector<FittedGravity> kinds{FittedGravity::none};
-  if (gravity != FittedGravity::none) kinds.push_back(gravity);
+  // what looks like gravity with a law that is too simple may be a map's, unless gravity was asked for
+  std::vector<FittedGravity> kinds{gravity};
+  const bool is_asked = input.options.Get<AutoOptions>().gravity.kind.has_value();
+  if (!is_asked && gravity != FittedGravity::none) {
+    kinds.insert(kinds.begin(), FittedGravity::none);
+  }
 
   std::vector<Structure> structures;
   const bool knows_motor = KnowsMotorAngle(input.measurements);
@@ -180,7 +183,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
 std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
                             const CourseStart& start, const IdentifierInput& input) {
   const Measurements& m = input.measurements;
-  if (m.acceleration || !structure.CanTellLag()) return std::nullopt;
+  if (m.acceleration || !structure.CanEstimateLag()) return std::nullopt;
 
   // whether what the model leaves shows a lag at all
   const TorquePrediction predicted = PredictTorque(without, m, input.selection, start);

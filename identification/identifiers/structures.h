@@ -42,10 +42,10 @@ struct Structure {
   Structure WithShapeOf(const FrictionMap& map) const;
 
   /// Whether it could estimate a lag of the torque, too.
-  bool CanTellLag() const;
+  bool CanEstimateLag() const;
 
   /// Its options, E(0) as those of the input have it, where it asks.
-  Options OptionsBeside(const Options& input) const;
+  Options OptionsWith(const Options& input) const;
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
   /// The same without what only a reader wants: bands along maps.

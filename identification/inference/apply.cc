@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "identification/uncertainty/between_ends.h"
 #include "identification/uncertainty/tails.h"
@@ -24,6 +25,9 @@ std::vector<Change> ChangesBy(const std::vector<Cause>& causes, std::size_t coun
   if (count == 0) return changes;
   for (const Cause& cause : causes) {
     for (const std::size_t row : cause.without_interval) changes[row].has_interval = false;
+    if (cause.action == Action::drop_intervals) {
+      for (Change& change : changes) change.has_interval = false;
+    }
     if (cause.action == Action::note || cause.bias.size() == 0) continue;
     for (std::size_t i = 0; i < cause.rows.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
@@ -101,7 +105,22 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
       answer.warnings.push_back(cause.sentence);
     }
   }
+  std::ranges::move(causes, std::back_inserter(answer.causes));
   return answer;
+}
+
+FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives) {
+  FigureChange change;
+  for (const Cause& cause : causes) {
+    if (cause.bias.size() == 0) continue;
+    const Eigen::VectorXd by = derivatives(cause.rows);
+    const double bias = by.dot(cause.bias);
+    if (cause.action == Action::shift) change.shift += bias;
+    if (cause.action != Action::widen && cause.action != Action::cover) continue;
+    change.reach += std::abs(bias);
+    if (cause.spread.size() > 0) change.reach += kNormal95 * by.cwiseProduct(cause.spread).norm();
+  }
+  return change;
 }
 
 }  // namespace warmjoint

@@ -14,4 +14,14 @@ namespace warmjoint {
 /// by_noise: what noise alone says.
 Inference Apply(Inference by_noise, std::vector<Cause> causes);
 
+/// What the causes of an answer do to a figure that depends on its parameters, to first order.
+struct FigureChange {
+  double shift = 0;
+  double reach = 0;  // of either end of its interval
+};
+
+/// Each row's biases act together, |d b| + 1.96 |d s|; rows add. causes: Inference::causes; derivatives: [P] of the figure by
+/// the value of each row of the fit's table
+FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives);
+
 }  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
-#include "identification/linear/remedy_for_curve.h"
+#include "identification/linear/command.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/parameter_rows.h"
 #include "models/recording/course_of.h"
@@ -73,16 +73,16 @@ std::string RemedyForFallingSlope(const Fit& fit) {
   }
   if (curved) {
     return "friction that falls with speed beyond the law's curve is warming: try --identifier " +
-           CurveCommand(law, "estimated");
+           CurveCommand(law, "estimated").Text();
   }
   if (Warms(fit)) {
     return "friction that falls with speed is a Stribeck effect: try --identifier " +
-           CurveCommand(law, "estimated");
+           CurveCommand(law, "estimated").Text();
   }
   return fmt::format(
       "friction that falls with speed is warming, or a Stribeck effect: try --identifier {}, or "
       "--identifier {} where the joint does not warm",
-      LinearCommand("energy-ml", law), CurveCommand(law, "none"));
+      LinearCommand("energy-ml", law).Text(), CurveCommand(law, "none").Text());
 }
 
 /// What makes a fit leave its bounds, and what to try.
@@ -90,7 +90,7 @@ std::string Remedy(const Fit& fit, const FitParameter& parameter) {
   if (parameter.part == LawPart::slope) return RemedyForFallingSlope(fit);
   // neither slope nor level: a linear law may do without it
   if (parameter.part != LawPart::level) {
-    return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law));
+    return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law).Text());
   }
   const char* push = "a negative level would push the joint: ";
   // gravity is fitted already, which leaves the sign as a cause
@@ -126,7 +126,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
   cause.sentence = fmt::format(
       "{}: friction rises from rest with speed, where law {} lets it fall; try "
       "--identifier {} --set law={}",
-      *rises, law, Linear(fit), TellsDirections(law) ? "asymmetric" : "viscous_coulomb");
+      *rises, law, Linear(fit), HasLevelForEachDirection(law) ? "asymmetric" : "viscous_coulomb");
   return cause;
 }
 
@@ -176,8 +176,8 @@ void HoldAtBounds(const Inference& told, const Measurements& measurements, Fit& 
     if (excess->beyond || !excess->known.interval95) return;
     held.push_back(column);
     gaps.push_back(excess->bound - row.value);
-    fit.warnings.push_back(
-        fmt::format("{}: noise may do that, so it is set to {}", Words(*excess), excess->bound));
+    fit.causes.push_back(Remark(
+        fmt::format("{}: noise may do that, so it is set to {}", Words(*excess), excess->bound)));
   }
 
   // the others as the covariance has them with these held

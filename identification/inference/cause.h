@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace warmjoint {
@@ -49,11 +50,12 @@ enum class Source {
 
 /// What a row does to an answer.
 enum class Action {
-  note,    // says something, changes nothing
-  widen,   // intervals reach farther by |bias| + 1.96 spread
-  cover,   // intervals hold the value, and the value with the bias, for noise around either
-  shift,   // values and intervals move by the bias
-  refuse,  // no interval, friction or band; the answer's status is the row's
+  note,            // says something, changes nothing
+  widen,           // intervals reach farther by |bias| + 1.96 spread
+  cover,           // intervals hold the value, and the value with the bias, for noise around either
+  drop_intervals,  // no number has an interval
+  shift,           // values and intervals move by the bias
+  refuse,          // no interval, friction or band; the answer's status is the row's
 };
 
 /// A sentence is a warning, ends the message, or is a warning that a refused answer has, too: it is about the log.
@@ -72,6 +74,29 @@ struct Cause {
   std::string sentence{};      // empty: nothing is said
   SentenceIn sentence_in = SentenceIn::warning;
 };
+
+/// What a fit says of itself, and changes nothing.
+inline Cause Remark(std::string sentence, SentenceIn in = SentenceIn::warning) {
+  return {.sentence = std::move(sentence), .sentence_in = in};
+}
+
+/// Why the numbers of a fit, which stand, mean nothing.
+inline Cause Voids(Status status, std::string sentence) {
+  return {.action = Action::refuse, .status = status, .sentence = std::move(sentence)};
+}
+
+/// Why no number of a fit has an interval: a clause.
+inline Cause DropsIntervals(std::string clause) {
+  return {.action = Action::drop_intervals,
+          .sentence = std::move(clause),
+          .sentence_in = SentenceIn::message};
+}
+
+/// Whether a list leaves no number an interval.
+inline bool DropIntervals(const std::vector<Cause>& causes) {
+  return std::ranges::any_of(causes,
+                             [](const Cause& one) { return one.action == Action::drop_intervals; });
+}
 
 /// Whether a list refuses the answer.
 inline bool IsRefused(const std::vector<Cause>& causes) {

@@ -54,9 +54,8 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   return known;
 }
 
-}  // namespace
-
-Uncertainty CovarianceOf(const Fit& fit) {
+/// By the noise of the residual.
+Uncertainty ByNoise(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
   // what the identifier knew already, or finds only where it is asked
   if (errors.known) return *errors.known;
@@ -71,6 +70,16 @@ Uncertainty CovarianceOf(const Fit& fit) {
   if (errors.weights.size() > 0) return OfWeighted(jacobian(), errors, residual, fit.used);
 
   return OfSquares(fit, residual, jacobian);
+}
+
+}  // namespace
+
+Uncertainty CovarianceOf(const Fit& fit) {
+  Uncertainty known = ByNoise(fit);
+  // structure that moves the friction little joins the errors as one more of them
+  const Eigen::VectorXd& structure = fit.errors.structure;
+  if (structure.size() > 0) known.covariance += structure * structure.transpose();
+  return known;
 }
 
 double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise, Eigen::Index d) {

@@ -8,7 +8,6 @@
 #include "identification/inference/apply.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/covariance.h"
-#include "identification/inference/hausman_test.h"
 #include "identification/linear/robust.h"
 #include "identification/physical_bounds.h"
 #include "identification/uncertainty/tails.h"
@@ -54,8 +53,7 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
     if (parameter.estimated) {
       const double quantile = StudentQuantile(known.Freedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
-      const bool tells = parameter.has_interval && inference.without_intervals.empty();
-      if (tells) one = KnownWithin(parameter, deviation, quantile);
+      if (parameter.has_interval) one = KnownWithin(parameter, deviation, quantile);
     }
     all.push_back(one);
   }
@@ -64,11 +62,9 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
 
 std::string MessageOf(const Fit& fit, const Inference& inference) {
   // without intervals, the reason stands in the place of the noise
-  if (!inference.without_intervals.empty()) {
-    return fmt::format("{}; {}{}", fit.summary, inference.without_intervals, fit.afterword);
-  }
+  if (DropIntervals(fit.causes)) return fit.summary;
   const std::string loss = fit.loss_bend ? DescribeLoss(fit.residual(), *fit.loss_bend) : "";
-  return fit.summary + loss + NoiseOf(inference.known) + fit.afterword;
+  return fit.summary + loss + NoiseOf(inference.known);
 }
 
 /// What noise alone says, whatever the bounds.
@@ -87,37 +83,32 @@ Inference ByNoise(const Fit& fit) {
     inference.message = "torque or velocity is too large to square";
     return inference;
   }
-  inference.without_intervals = fit.without_intervals;
-  if (fit.unmodelled_residual) ApplyHausmanTest(fit, inference);
   inference.parameters = IntervalsOf(fit, inference);
   inference.message = MessageOf(fit, inference);
-  inference.warnings.insert(inference.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   inference.gives_friction = true;
   return inference;
 }
 
-/// Why the numbers make no friction; empty where they do.
-std::vector<Cause> CausesOf(const Fit& fit, const Inference& by_noise) {
-  if (by_noise.status != Status::ok) return {};
-  if (fit.voided) {
-    return {
-        {.action = Action::refuse, .status = fit.voided->status, .sentence = fit.voided->message}};
-  }
-  const auto bound = BeyondBounds(fit, by_noise);
-  return bound ? std::vector{*bound} : std::vector<Cause>{};
-}
-
 }  // namespace
+
+bool HasIntervals(const Inference& inference) {
+  return std::ranges::any_of(inference.parameters, [](const ParameterInterval& one) {
+    return one.interval95.has_value();
+  });
+}
 
 Inference Infer(const Fit& fit) {
   Inference by_noise = ByNoise(fit);
-  std::vector<Cause> causes = CausesOf(fit, by_noise);
+  std::vector<Cause> causes = fit.causes;
+  if (by_noise.status == Status::ok && !IsRefused(causes)) {
+    if (auto bound = BeyondBounds(fit, by_noise)) causes.push_back(std::move(*bound));
+  }
   return Apply(std::move(by_noise), std::move(causes));
 }
 
 Fit AtBounds(Fit fit, const Measurements& measurements) {
-  if (fit.refusal || fit.voided || !LeavesBounds(fit.parameters)) return fit;
-  const Inference told = ByNoise(fit);
+  if (fit.refusal || IsRefused(fit.causes) || !LeavesBounds(fit.parameters)) return fit;
+  const Inference told = Apply(ByNoise(fit), fit.causes);
   if (told.status == Status::ok) HoldAtBounds(told, measurements, fit);
   return fit;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "identification/fit.h"
+#include "identification/inference/cause.h"
 
 namespace warmjoint {
 
@@ -30,12 +31,15 @@ struct Inference {
   std::string message;
   std::vector<std::string> warnings;
   Uncertainty known;
-  std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
   std::vector<ParameterInterval> parameters;  // [P] as the fit's table
+  std::vector<Cause> causes;                  // by which it became what it is
   bool gives_friction = false;                // whether the fit's friction may be used
   std::vector<Diagnostic> diagnostics;        // of the verdict, one for each test for lack of fit
   std::vector<Assumption> assumptions;
 };
+
+/// Whether any number has an interval.
+bool HasIntervals(const Inference& inference);
 
 /// Covariance, intervals with Student's quantile, and physical bounds (bounds.h). The interval of a row that is held
 /// at its bound is that of the fit without it, from the bound on; those of the others are, too.

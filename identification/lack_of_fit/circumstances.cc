@@ -1,16 +1,118 @@
 #include "identification/lack_of_fit/circumstances.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/thermal_filter.h"
+#include "identification/lack_of_fit/bins.h"
+#include "identification/lack_of_fit/fitted_model.h"
 #include "identification/linear/rigid_part.h"
 #include "models/foundation/four.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/sign.h"
 
 namespace warmjoint {
+
+namespace {
+
+/// dF/dc at c = 0 of frictions that hold c s g beside the fit's, s = sign(v): s g itself, and what its losses change of E
+/// (closed_loop.h); s g alone where no warming was estimated. levels(n, g): makes g of sample n, 4 F numbers in N.m or N;
+/// at_losses(n, g): makes of it the same at the velocity of the losses. Returns means over bins, [m x 4 F]. Part of a
+/// function for each processor (four.h).
+template <std::size_t F, typename Levels, typename AtLosses>
+inline Eigen::MatrixXd WithHeat(const FittedModel& model, const Eigen::VectorXd& velocity,
+                                const Bins& bins, const Levels& levels, const AtLosses& at_losses) {
+  if (!model.thermal) {
+    return MeansOfRows<F>(bins, [&](Eigen::Index n, Fours<F>& row) {
+      levels(n, row);
+      for (Four& four : row) four *= static_cast<double>(Sign(velocity[n]));
+    });
+  }
+  // by a force's own factor the loop is linear: its derivative is the same wherever the others are
+  const ClosedLoop& loop = *model.loop;
+  Eigen::MatrixXd means;
+  WithHolds(loop.intervals(), *model.thermal, [&](const auto& hold_after) {
+    Fours<F> S{};  // dE/dc
+    means = MeansOfRows<F>(bins, [&](Eigen::Index n, Fours<F>& row) {
+      Fours<F> g;
+      levels(n, g);
+      const double direction = loop.direction()[n];
+      for (std::size_t k = 0; k < F; ++k) row[k] = direction * (g[k] + S[k]);
+      // one step of Eq. (22); at rest nothing is lost
+      at_losses(n, g);
+      const auto [feedback, lambda] = FedBack(hold_after[n], loop.speed()[n]);
+      const double gain = feedback * std::abs(direction);
+      for (std::size_t k = 0; k < F; ++k) S[k] = lambda * S[k] + gain * g[k];
+    });
+  });
+  return means;
+}
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+// why: a drift that takes half the log to die away is still nearly even, one of an eighth is over before the
+// warming is; between them by halves
+constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
+
+/// exp(-rate t). t: [N] share of the log, from 0 to 1
+ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
+  const bool even = model.loop && model.loop->intervals().even();
+  if (!even) return (-rate * t).exp();
+
+  // of an even clock by products: what is known of it, later by as many steps, twice as much each time
+  const Index n = t.size();
+  const double step = rate / static_cast<double>(n - 1);
+  ArrayXd decay = ArrayXd::Ones(n);
+  for (Index known = 1; known < n; known *= 2) {
+    const Index more = std::min(known, n - known);
+    decay.segment(known, more) = std::exp(-step * static_cast<double>(known)) * decay.head(more);
+  }
+  return decay;
+}
+
+/// t: [N] share of the log; slowest: [N] what the slowest drift has left to do by then. [m x 8], drifts, level, bend, slope
+/// and zeros
+WARMJOINT_FOR_EACH_PROCESSOR
+MatrixXd Along(const FittedModel& model, const Measurements& m, const Bins& bins, const ArrayXd& t,
+               const ArrayXd& slowest) {
+  // the law's forces at a velocity beside that of the sample, whose direction they have
+  const auto by_speed = [&](Index n, double v, Four& g) {
+    const double along = Sign(m.velocity[n]) * v;
+    g = Four{1, along * std::abs(v), along * model.energy[n], 0};
+  };
+  // drifts that die away, each the square of the one before it, so that they end at 1
+  const double end = slowest[m.size() - 1], second_end = end * end;
+  const Four scale{1, 1 / (1 - end), 1 / (1 - second_end), 1 / (1 - second_end * second_end)};
+  const auto levels = [&](Index n, Fours<2>& g) {
+    const double first = slowest[n], second = first * first, third = second * second;
+    g[0] = scale * Four{t[n], 1 - first, 1 - second, 1 - third};
+    by_speed(n, m.velocity[n], g[1]);
+  };
+
+  // where the log tells the speed of the losses, theirs
+  if (!m.loss_velocity) {
+    return WithHeat<2>(model, m.velocity, bins, levels, [](Index, Fours<2>&) {});
+  }
+  return WithHeat<2>(model, m.velocity, bins, levels,
+                     [&](Index n, Fours<2>& g) { by_speed(n, (*m.loss_velocity)[n], g[1]); });
+}
+
+}  // namespace
+
+HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
+  const double share = 1 / (m.time[m.size() - 1] - m.time[0]);
+  const ArrayXd t = (m.time.array() - m.time[0]) * share;
+  const MatrixXd all = Along(model, m, bins, t, Decay(model, t, 1 / kSlowest));
+  return {all.leftCols(kCourses), all.col(kCourses), all.col(kCourses + 1),
+          all.middleCols(kCourses + 2, model.thermal ? 1 : 0)};
+}
+
 namespace {
 
 constexpr int kMemories = 6;  // time constants that are tried

@@ -1,26 +1,158 @@
 #include "identification/lack_of_fit/examine.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "identification/fit_data.h"
-#include "identification/lack_of_fit/bin_tests.h"
 #include "identification/lack_of_fit/error_level.h"
-#include "identification/lack_of_fit/fading.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
 #include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/sensitivity.h"
+#include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/undetected_bias.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 namespace {
+
+/// What tests over bins found.
+struct BinFindings {
+  std::vector<Finding> findings;  // one for each test that was asked, in the order of the table
+  Eigen::VectorXd explained;      // [m] what those rejected and the parameters take up, N.m or N
+};
+
+using Eigen::Index;
+
+constexpr Index kRowsAColumn = 3;
+
+/// The tests that are still open, with their features beside the present fit.
+struct Open {
+  std::vector<const LackOfFitTest*> tests;
+  std::vector<Finding*> findings;
+  std::vector<Features> features;
+
+  size_t size() const { return tests.size(); }
+  void Close(size_t i) {
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    tests.erase(tests.begin() + at);
+    findings.erase(findings.begin() + at);
+    features.erase(features.begin() + at);
+  }
+};
+
+/// The tests that there are rows for; the others say why not.
+Open Affordable(const std::vector<const LackOfFitTest*>& tests, const Bins& bins,
+                const Circumstances& known, const GrowingFit& fit, Index columns,
+                std::vector<Finding>& findings) {
+  Open open;
+  for (size_t i = 0; i < tests.size(); ++i) {
+    findings[i].test = tests[i];
+    Features features = tests[i]->features(bins, known, fit);
+    const Index more = features.columns.cols();
+    if (more == 0) {
+      findings[i].reason = tests[i]->absent;
+    } else if (kRowsAColumn * (columns + more) > bins.size()) {
+      findings[i].reason = fmt::format("{} samples or segments are too few for it", bins.size());
+    } else {
+      columns += more;
+      open.tests.push_back(tests[i]);
+      open.findings.push_back(&findings[i]);
+      open.features.push_back(std::move(features));
+    }
+  }
+  return open;
+}
+
+/// Makes a test beside the present fit.
+void Make(const Open& open, size_t i, const GrowingFit& fit, const ErrorLevel& level) {
+  Finding made = fit.Test(open.features[i]);
+  made.test = open.tests[i];
+  if (!made.made) made.reason = kHeldByTheFit;
+  made.p_adjusted = level.Adjusted(made.p);
+  *open.findings[i] = std::move(made);
+}
+
+/// Makes tests one after the other: of those that reject, the features of the largest gain join the
+/// fit, and the others are made again beside it, until none rejects. Too few rows for all features
+/// leave the last tests out: two rows in three are left to tell the noise.
+/// tests: rows of the table with features; residual: [m] mean tau - F of each bin; derivatives:
+/// [m x p] mean dF/dx.
+BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins& bins,
+                     const Eigen::VectorXd& residual, const Eigen::MatrixXd& derivatives,
+                     const Circumstances& known, ErrorLevel& level) {
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}};
+  GrowingFit fit(bins.weight, residual, derivatives, all);
+  BinFindings result;
+  result.findings.resize(tests.size());
+  Open open = Affordable(tests, bins, known, fit, derivatives.cols(), result.findings);
+  fit.LearnNoise(open.features);
+
+  while (open.size() > 0) {
+    // the test that rejects with the largest gain
+    size_t best = open.size();
+    for (size_t i = 0; i < open.size(); ++i) {
+      Make(open, i, fit, level);
+      const Finding& made = *open.findings[i];
+      if (!level.WouldReject(made.p) || made.explained <= 0) continue;
+      if (best == open.size() || made.gain > open.findings[best]->gain) best = i;
+    }
+    if (best == open.size()) break;
+
+    // joins the fit; scans look for their best candidate beside it
+    open.findings[best]->rejected = level.Rejects(open.findings[best]->p);
+    fit.Take(open.features[best]);
+    open.Close(best);
+    for (size_t i = 0; i < open.size(); ++i) {
+      if (open.features[i].candidates == 1) continue;
+      open.features[i] = open.tests[i]->features(bins, known, fit);
+    }
+  }
+  result.explained = fit.Explained();
+  return result;
+}
+
+/// Whether what the maps give goes with the energy, beside maps whose strength is free.
+/// residual: [N] tau - F; what is found is taken off it.
+Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLevel& level) {
+  Finding finding;
+  finding.test = FindLackOfFitTest("position_by_energy");
+  finding.reason = finding.test->absent;
+  if (!model.maps || !model.thermal) return finding;
+
+  // beside maps whose strength is free
+  const Selection& selection = model.selection;
+  const Eigen::MatrixXd maps = Kept(*model.maps, selection);
+  const Eigen::MatrixXd left = Kept(residual, selection);
+  const Features steady{maps}, fading{maps.cwiseProduct(Kept(model.energy, selection))};
+  GrowingFit fit(Eigen::VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection),
+                 selection);
+  fit.LearnNoise({steady, fading});
+  fit.Take(steady);
+  finding = fit.Test(fading);
+  finding.test = FindLackOfFitTest("position_by_energy");
+  finding.p_adjusted = level.Adjusted(finding.p);
+  if (finding.explained <= 0 || !level.Rejects(finding.p)) return finding;
+
+  // taken off the residual
+  finding.rejected = true;
+  fit.Take(fading);
+  const Eigen::VectorXd explained = fit.Explained();
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    if (selection.keep[i]) residual[i] -= explained[row++];
+  }
+  return finding;
+}
 
 using Eigen::Index;
 

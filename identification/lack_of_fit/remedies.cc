@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
+#include "identification/linear/command.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/linear/remedy_for_curve.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/expected_start.h"
 #include "models/friction/law_list.h"
@@ -23,36 +24,43 @@ constexpr size_t kMostSpeedKernels = 64;  // for each direction; why: most that 
 constexpr size_t kKernelsAPeriod = 3;     // why: a wave has two coefficients, and kernels overlap
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
-bool HoldsMap(const Advice& advice, MapQuantity quantity) {
+bool HasMap(const Advice& advice, MapQuantity quantity) {
   return std::ranges::any_of(advice.fit.friction.maps, [=](const FrictionMap& map) {
     return FindAxis(map, quantity) != nullptr;
   });
 }
-bool HoldsWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }
+bool HasWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }
 
-/// "try --identifier NAME ...", with the gravity and the lag of the torque that the fit has.
-std::string Try(const Advice& advice, const std::string& command) {
+/// "try --identifier NAME ...", with the gravity and the lag of the torque that the fit has, where that identifier can
+/// estimate them.
+std::string Try(const Advice& advice, const IdentifyCommand& command) {
   const bool sincos = advice.fit.gravity && advice.fit.gravity->kind == GravityKind::sincos;
-  const char* gravity = !advice.fit.gravity ? ""
-                        : sincos            ? " --gravity sincos"
-                                            : " --gravity paired";
-
-  // gravity where that identifier can tell it, the lag beside a law without map over position
-  const bool can = command.starts_with("energy-ml") || command.starts_with("nominal-ls") ||
-                   command.starts_with("position-ridge");
-  const bool lags = advice.fit.torque_lag && command.find("position") == std::string::npos &&
-                    (command.starts_with("energy-ml") || command.starts_with("nominal-ls"));
-  return fmt::format("try --identifier {}{}{}", command, can ? gravity : "",
+  const Options& options = FindIdentifier(command.identifier).options;
+  const char* gravity = !advice.fit.gravity || !options.Has("gravity") ? ""
+                        : sincos                                       ? " --gravity sincos"
+                                                                       : " --gravity paired";
+  // a lag beside a law without map over position
+  const bool lags = advice.fit.torque_lag && options.Has("torque_lag") && !command.Sets("position");
+  return fmt::format("try --identifier {}{}{}", command.Text(), gravity,
                      lags ? " --set torque_lag=estimated" : "");
 }
 
+/// Law and maps over position, or over the motor's angle, with the warming that the fit has.
+IdentifyCommand WithMap(const Advice& advice, MapQuantity quantity) {
+  const bool position = quantity == MapQuantity::position;
+  if (HasWarming(advice)) {
+    return IdentifyCommand{"energy-ml"}.With("position", position ? "map" : "motor");
+  }
+  return {position ? "position-ridge" : "motor-ridge"};
+}
+
 /// Whether the law has a curve over speed.
-bool HoldsCurve(const Advice& advice) {
+bool HasCurve(const Advice& advice) {
   return advice.fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
 }
 
 /// The warming that a fit holds, as an option's word.
-const char* WarmingOf(const Advice& advice) { return HoldsWarming(advice) ? "estimated" : "none"; }
+const char* WarmingOf(const Advice& advice) { return HasWarming(advice) ? "estimated" : "none"; }
 
 /// Kernels of the first axis over a quantity; 0 where there is none.
 size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
@@ -69,13 +77,7 @@ std::string Finer(const Advice& advice, MapQuantity quantity, const char* option
   const size_t kernels = 2 * KernelsOver(advice, quantity);
   if (kernels > most) return "no map of this program is finer: the joint ripples in another way";
 
-  // over position or the motor's angle, with the warming that the fit has
-  const bool position = quantity == MapQuantity::position;
-  const std::string name =
-      HoldsWarming(advice) ? fmt::format("energy-ml --set position={}", position ? "map" : "motor")
-      : position           ? "position-ridge"
-                           : "motor-ridge";
-  return Try(advice, fmt::format("{} --set {}={}", name, option, kernels));
+  return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
 }
 
 /// Whether gravity may be what acts alike in both directions: it turns once with the joint, so that
@@ -96,13 +98,14 @@ std::string RemedyForWarmStart(const Identifier& identifier) {
 
 std::string RemedyForWarming(const Advice& advice) {
   // no warming yet: one beside whatever else the fit holds
-  if (!HoldsWarming(advice)) {
-    if (HoldsMap(advice, MapQuantity::motor_position)) {
-      return Try(advice, "energy-ml --set position=motor");
+  if (!HasWarming(advice)) {
+    const IdentifyCommand warm{"energy-ml"};
+    if (HasMap(advice, MapQuantity::motor_position)) {
+      return Try(advice, warm.With("position", "motor"));
     }
-    if (HoldsMap(advice, MapQuantity::position)) return Try(advice, "energy-ml --set position=map");
-    if (HoldsCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
-    return Try(advice, "energy-ml");
+    if (HasMap(advice, MapQuantity::position)) return Try(advice, warm.With("position", "map"));
+    if (HasCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
+    return Try(advice, warm);
   }
 
   // a warming that is not enough: perhaps the start was warm
@@ -119,38 +122,37 @@ std::string RemedyForStart(const Advice& advice) {
 }
 
 std::string RemedyForSpeed(const Advice& advice) {
-  if (HoldsCurve(advice)) {
+  if (HasCurve(advice)) {
     return "the law has a curve over speed already, and the joint's is another one";
   }
-  if (HoldsMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
+  if (HasMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
     return "the map has kernels over speed already, and friction depends on it in another way";
   }
 
   // a map over position takes kernels over speed beside it, a law gets a curve
-  if (HoldsMap(advice, MapQuantity::position)) {
-    return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
-                                            : "position-ridge --set basis=velocity");
+  if (HasMap(advice, MapQuantity::position)) {
+    return Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"));
   }
   return Try(advice, CurveCommand(advice.fit.friction.law, WarmingOf(advice)));
 }
 
 std::string RemedyForWarmingSlope(const Advice& advice) {
-  if (HoldsMap(advice, MapQuantity::energy)) {
+  if (HasMap(advice, MapQuantity::energy)) {
     return "the map over energy does not follow it: record more than one warm-up";
   }
   // beside a map over position, the map over energy has to follow the slope too
-  return Try(advice, advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map");
+  return Try(advice, {advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map"});
 }
 
 /// What to try where a law with a curve misses something that turns with the direction.
 std::string RemedyForDirectionOfACurve(const Advice& advice) {
   const Friction& friction = advice.fit.friction;
-  if (TellsDirections(friction.law)) {
+  if (HasLevelForEachDirection(friction.law)) {
     const std::string differ =
         "the law has a level for each direction already: they differ in slope, or in how much more "
         "the joint bears at rest";
     // heat is common to both
-    if (HoldsWarming(advice)) return differ;
+    if (HasWarming(advice)) return differ;
     return differ +
            "; identify the samples of each direction as a recording of its own, by "
            "--identifier stribeck";
@@ -161,19 +163,21 @@ std::string RemedyForDirectionOfACurve(const Advice& advice) {
 
   // a law with a bristle keeps it, with the damping that it has or none
   const bool damped = friction.parameters.at(std::string(kBristleDampingRow.name)) != 0;
-  return Try(advice, fmt::format("lugre --set law={}{}", AsymmetricLuGre::name,
-                                 damped ? "" : " --set damping=none"));
+  const IdentifyCommand command = IdentifyCommand{"lugre"}.With("law", AsymmetricLuGre::name);
+  return Try(advice, damped ? command : command.With("damping", "none"));
 }
 
 std::string RemedyForDirection(const Advice& advice) {
-  if (HoldsCurve(advice)) return RemedyForDirectionOfACurve(advice);
+  if (HasCurve(advice)) return RemedyForDirectionOfACurve(advice);
 
   // first a law with a level for each direction, where the identifier has one
   const bool can = advice.identifier.options.Has("law");
-  const bool mapped = HoldsMap(advice, MapQuantity::position);
-  const std::string map = mapped && HoldsWarming(advice) ? " --set position=map" : "";
+  const bool mapped = HasMap(advice, MapQuantity::position);
   if (can && advice.fit.friction.law != "asymmetric" && !advice.fit.gravity) {
-    return Try(advice, fmt::format("{} --set law=asymmetric{}", advice.identifier.name, map));
+    const IdentifyCommand command =
+        IdentifyCommand{advice.identifier.name}.With("law", "asymmetric");
+    const bool warm_map = mapped && HasWarming(advice);
+    return Try(advice, warm_map ? command.With("position", "map") : command);
   }
 
   // then whatever pushes in one direction, which paired gravity takes up
@@ -181,23 +185,22 @@ std::string RemedyForDirection(const Advice& advice) {
     return fmt::format(
         "something pushes in one direction, as a load or an offset of the sensor "
         "does: try --identifier {} --gravity paired",
-        HoldsWarming(advice) ? "energy-ml" : "nominal-ls");
+        HasWarming(advice) ? "energy-ml" : "nominal-ls");
   }
-  if (HoldsMap(advice, MapQuantity::velocity)) {
+  if (HasMap(advice, MapQuantity::velocity)) {
     return "the map tells the directions apart already, and they differ in another way";
   }
 
   // else the slopes differ, which kernels over speed can follow
-  const char* warm = HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
-                                          : "position-ridge --set basis=velocity";
-  return "friction differs in slope between the directions: " + Try(advice, warm);
+  return "friction differs in slope between the directions: " +
+         Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"));
 }
 
 std::string RemedyForLoad(const Advice& advice) {
-  if (HoldsMap(advice, MapQuantity::load)) {
+  if (HasMap(advice, MapQuantity::load)) {
     return "the map over load does not follow it: friction depends on more than the load";
   }
-  return Try(advice, "load-map");
+  return Try(advice, {"load-map"});
 }
 
 std::string RemedyForTemperature(const Advice&) { return "record it at a steady temperature"; }
@@ -231,22 +234,20 @@ std::string RemedyForLag(const Advice& advice) {
   if (!can || asked || advice.fit.torque_lag) {
     return "is the torque filtered or late? shift it against the velocity, or log both alike";
   }
-  const bool by_default = law.name == "viscous_coulomb";
-  return "is the torque filtered or late? " +
-         Try(advice, fmt::format("{}{}{} --set torque_lag=estimated",
-                                 HoldsWarming(advice) ? "energy-ml" : "nominal-ls",
-                                 by_default ? "" : " --set law=", by_default ? "" : law.name));
+  IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
+  if (law.name != "viscous_coulomb") command = command.With("law", law.name);
+  return "is the torque filtered or late? " + Try(advice, command.With("torque_lag", "estimated"));
 }
 
 std::string RemedyForFading(const Advice& advice) {
-  if (HoldsMap(advice, MapQuantity::energy)) {
+  if (HasMap(advice, MapQuantity::energy)) {
     return "the map over energy does not follow it: record more than one warm-up";
   }
-  return Try(advice, "energy-map");
+  return Try(advice, {"energy-map"});
 }
 
 std::string RemedyForPosition(const Advice& advice) {
-  const bool warm = HoldsWarming(advice);
+  const bool warm = HasWarming(advice);
   const bool alike = advice.finding.alike > 0.8;
   const std::string how = alike ? "it acts alike in both directions, as " : "";
   if (alike && MayBeGravity(advice)) {
@@ -269,36 +270,34 @@ std::string RemedyForPosition(const Advice& advice) {
   }
 
   // a finer map, or the first one
-  if (HoldsMap(advice, MapQuantity::position)) {
+  if (HasMap(advice, MapQuantity::position)) {
     return Finer(advice, MapQuantity::position, "kernels", kMostKernels);
   }
-  const std::string map = warm ? "energy-ml --set position=map" : "position-ridge";
+  const IdentifyCommand map = WithMap(advice, MapQuantity::position);
   if (!alike) return Try(advice, map);
   return how +
-         "a load does that depends on position: " + Try(advice, map + " --set basis=position");
+         "a load does that depends on position: " + Try(advice, map.With("basis", "position"));
 }
 
 std::string RemedyForMotorAngle(const Advice& advice) {
-  if (HoldsMap(advice, MapQuantity::motor_position)) {
+  if (HasMap(advice, MapQuantity::motor_position)) {
     return Finer(advice, MapQuantity::motor_position, "motor_kernels", kMostKernels);
   }
-  return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=motor" : "motor-ridge");
+  return Try(advice, WithMap(advice, MapQuantity::motor_position));
 }
 
 std::string RemedyForAngleBySpeed(const Advice& advice) {
-  const bool motor = HoldsMap(advice, MapQuantity::motor_position);
-  std::string command = HoldsWarming(advice)
-                            ? fmt::format("energy-ml --set position={}", motor ? "motor" : "map")
-                        : motor ? "motor-ridge"
-                                : "position-ridge";
-  if (!motor) command += " --set basis=velocity";
+  const bool motor = HasMap(advice, MapQuantity::motor_position);
+  IdentifyCommand command =
+      WithMap(advice, motor ? MapQuantity::motor_position : MapQuantity::position);
+  if (!motor) command = command.With("basis", "velocity");
   // a map that tells directions alone gets kernels over speed, one that has some twice as many for each direction
   const size_t kernels = KernelsOver(advice, MapQuantity::velocity);
   if (kernels <= 2) return Try(advice, command);
   if (kernels > kMostSpeedKernels) {
     return "no map of this program is finer over speed: record fewer speeds, each for longer";
   }
-  return Try(advice, fmt::format("{} --set velocity_kernels={}", command, kernels));
+  return Try(advice, command.With("velocity_kernels", std::to_string(kernels)));
 }
 
 }  // namespace warmjoint

@@ -31,6 +31,9 @@ enum class HeatRelation { independent, confounded, starts };
 /// a lag. Of a direction its own size, by which the friction of either direction is off.
 enum class Harm { of_moves, of_effect, of_direction, of_either, of_either_twice };
 
+/// Over what residuals show what a test looks for.
+enum class SeenOver { time, position, velocity, energy, motor_angle };
+
 /// Why a test is not made whose features the fit takes up whole.
 inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
 
@@ -41,6 +44,7 @@ struct LackOfFitTest {
   Turn turn = Turn::first;
   HeatRelation warming = HeatRelation::independent;
   Harm harm = Harm::of_moves;
+  SeenOver over = SeenOver::time;
   /// Features over the bins, the best of several candidates beside the fit; of a test that looks
   /// at samples (lag.h, fading.h, ripple.h): none.
   Features (*features)(const Bins& bins, const Circumstances& known,

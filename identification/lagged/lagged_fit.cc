@@ -60,7 +60,7 @@ VectorXd ByLogarithm(const LaggedRows& rows, const VectorXd& torque, const Vecto
   constexpr double step = 1e-5;
   const auto at = [&](double lag) -> VectorXd {
     const LaggedRows other(rows.runs(), lag);
-    return other.Lagged(torque) + other.Dying(held);
+    return other.Lagged(torque) + other.Decaying(held);
   };
   return (at(rows.lag() * std::exp(step)) - at(rows.lag() * std::exp(-step))) / (2 * step);
 }
@@ -126,12 +126,12 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   const VectorXd torque = AtKept(model, runs);
   const VectorXd measured = AtKept(m.torque, runs);
   const VectorXd lagged = rows->Lagged(torque);
-  const VectorXd held = rows->HeldBy(measured - lagged).col(0);
+  const VectorXd held = rows->InitialStates(measured - lagged).col(0);
 
   // the model behind the lag
   Append({TorqueLagParameter(rows->lag(), m)}, fit);
   fit.torque = measured;
-  fit.fitted = lagged + rows->Dying(held);
+  fit.fitted = lagged + rows->Decaying(held);
   fit.torque_lag = FittedLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};
 
   // how all estimated values move it together, what runs begin with left out
@@ -139,7 +139,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
     const KeptRuns& kept = *rows->runs();
     MatrixXd columns =
         ConcatColumns(rows->Lagged(AtKept(of_model(), kept)), ByLogarithm(*rows, torque, held));
-    columns -= rows->Dying(rows->HeldBy(columns));
+    columns -= rows->Decaying(rows->InitialStates(columns));
     return AtSamples(columns, kept, all);
   };
 

@@ -42,13 +42,13 @@ bool AsksForLag(const Options& options);
 std::optional<std::string> WhyNoLag(const IdentifierInput& input);
 
 /// A model fitted at one time constant of the lag.
-struct ModelBehindLag {
+struct LaggedModel {
   double squares = kInfinity;  // of its mapped rows
   Eigen::VectorXd torque;      // [N] of the model, without the lag; empty where there is no fit
 };
 
 /// Fits a model to rows of the lag.
-using FitAtLag = std::function<ModelBehindLag(const LaggedRows& rows)>;
+using FitAtLag = std::function<LaggedModel(const LaggedRows& rows)>;
 
 /// The rows of the best lag, the noise of white colour or, where that would be wrong beyond doubt
 /// (IsSurelyColoured), of the likelier of two: the one that the residual shows, and that of white
@@ -67,8 +67,8 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd
             const Measurements& measurements, Fit& fit);
 
 /// What the message of a fit adds that was asked for a lag and sees none.
-inline constexpr const char* kNoLagSeen = "; the torque shows no lag, so that none is fitted";
+inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none is fitted";
 /// What its summary says where it has one.
-inline constexpr const char* kBehindLag = " behind a lag of the torque";
+inline constexpr const char* kWithLag = " behind a lag of the torque";
 
 }  // namespace warmjoint

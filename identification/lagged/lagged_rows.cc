@@ -66,7 +66,7 @@ void LaggedRows::Apply(Rows& rows) const {
   }
 }
 
-VectorXd LaggedRows::Unlagged(const VectorXd& torque) const {
+VectorXd LaggedRows::BeforeLag(const VectorXd& torque) const {
   VectorXd before = torque;
   for (const KeptRun& run : runs_->runs) {
     // the step of the lag, solved for the torque that it followed
@@ -83,7 +83,7 @@ MatrixXd LaggedRows::Lagged(const MatrixXd& rows) const {
   return lagged;
 }
 
-MatrixXd LaggedRows::HeldBy(const MatrixXd& rows) const {
+MatrixXd LaggedRows::InitialStates(const MatrixXd& rows) const {
   const MatrixXd white = whitening_ ? whitening_->Of(rows) : rows;
 
   // least squares of each run on the whitened course of d
@@ -96,7 +96,7 @@ MatrixXd LaggedRows::HeldBy(const MatrixXd& rows) const {
   return held;
 }
 
-MatrixXd LaggedRows::Dying(const MatrixXd& held) const {
+MatrixXd LaggedRows::Decaying(const MatrixXd& held) const {
   MatrixXd dying(size(), held.cols());
   for (Index r = 0; r < held.rows(); ++r) {
     const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
@@ -107,7 +107,7 @@ MatrixXd LaggedRows::Dying(const MatrixXd& held) const {
 
 VectorXd LaggedRows::FittedTo(const VectorXd& measured, const VectorXd& torque) const {
   const VectorXd lagged = Lagged(torque);
-  return lagged + Dying(HeldBy(measured - lagged));
+  return lagged + Decaying(InitialStates(measured - lagged));
 }
 
 std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const KeptRuns& runs) {

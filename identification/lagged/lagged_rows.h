@@ -31,13 +31,13 @@ class LaggedRows final : public RowTransform {
 
   /// The torque whose L is the one given, so that a fit may subtract its model before Apply. The two
   /// may differ by some d exp(-(t - t0) / T). torque: [n]
-  Eigen::VectorXd Unlagged(const Eigen::VectorXd& torque) const;
+  Eigen::VectorXd BeforeLag(const Eigen::VectorXd& torque) const;
   /// L rows. [n x q]
   Eigen::MatrixXd Lagged(const Eigen::MatrixXd& rows) const;
   /// The d that explain most of the rows, by the noise's colour. rows: [n x q]; returns [R x q].
-  Eigen::MatrixXd HeldBy(const Eigen::MatrixXd& rows) const;
+  Eigen::MatrixXd InitialStates(const Eigen::MatrixXd& rows) const;
   /// d exp(-(t - t0) / T). held: [R x q]; returns [n x q].
-  Eigen::MatrixXd Dying(const Eigen::MatrixXd& held) const;
+  Eigen::MatrixXd Decaying(const Eigen::MatrixXd& held) const;
   /// L f + d exp(-(t - t0) / T) with the d of what L f leaves: f as the log would show it. torque: f;
   /// measured: [n]
   Eigen::VectorXd FittedTo(const Eigen::VectorXd& measured, const Eigen::VectorXd& torque) const;

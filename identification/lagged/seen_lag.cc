@@ -17,7 +17,7 @@ constexpr int kFewestRuns = 4;
 SeenLag LookForLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
                    const Eigen::VectorXd& residual) {
   const KeptRuns& all = *rows.runs();
-  const Eigen::VectorXd held = rows.HeldBy(residual).col(0);
+  const Eigen::VectorXd held = rows.InitialStates(residual).col(0);
 
   // each run that follows another one closely
   std::vector<double> drops, begins;

@@ -45,8 +45,8 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
   return FitMapModel(identifier, input, ModelOf(input));
 }
 
-std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& given,
-                                         const Eigen::VectorXd& energy) {
+std::optional<ChosenMap> MapGivenEnergy(const IdentifierInput& given,
+                                        const Eigen::VectorXd& energy) {
   const RigidPart rigid = PrepareRigid(given);
   if (rigid.why) return std::nullopt;
   const IdentifierInput input = rigid.Of(given);

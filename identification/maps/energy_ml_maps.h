@@ -48,7 +48,7 @@ struct ChosenMap {
 
 /// The maps that the option `position` names, with the kernels that suit the log beside a warming that is known;
 /// nothing where none can be chosen. energy: [N] E, N.m or N, or empty: 0.
-std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& input,
-                                         const Eigen::VectorXd& energy);
+std::optional<ChosenMap> MapGivenEnergy(const IdentifierInput& input,
+                                        const Eigen::VectorXd& energy);
 
 }  // namespace warmjoint

@@ -16,7 +16,6 @@
 #include "identification/maps/finer_maps.h"
 #include "identification/maps/friction_at_speeds.h"
 #include "identification/maps/holes.h"
-#include "identification/maps/imitated_columns.h"
 #include "identification/maps/make_bands.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/physical_bounds.h"
@@ -87,15 +86,15 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
   }
   for (const FitParameter& row : fit.parameters) {
     if (!row.has_interval || row.value != row.lower) continue;
-    fit.warnings.push_back(fmt::format("noise puts {} beyond its bound {}, so it is set to that",
-                                       row.name, row.lower));
+    fit.causes.push_back(Remark(fmt::format(
+        "noise puts {} beyond its bound {}, so it is set to that", row.name, row.lower)));
   }
   if (imitated.empty()) return;
-  fit.warnings.push_back(fmt::format(
+  fit.causes.push_back(Remark(fmt::format(
       "the data cannot separate {} from the map; use total friction (at the speeds given, and "
       "bands), "
       "not {}",
-      fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers"));
+      fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers")));
 }
 
 /// The samples that law and maps are fitted to; without maps.
@@ -109,7 +108,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
                      Kept(columns, input.selection),
                      Kept(input.measurements.torque, input.selection),
                      input.selection};
-  problem.torque -= TakenByEnergy(input, task.energy);
+  problem.torque -= TorqueOfEnergy(input, task.energy);
   // bounds of the law's parameters; gravity and inertia have none
   for (const ParameterInfo& info : law.parameters) problem.lower.push_back(info.lower);
   problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
@@ -122,7 +121,7 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   const Law& law = *task.law;
   MapProblem finer = ProblemOf(input, task);
   const std::optional<FinerFit> twice = FitFiner(finer, maps, known.noise);
-  fit.bands = MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr);
+  MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr, fit);
   const bool shares = std::ranges::any_of(
       fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
   std::vector<FrictionAtSpeed> friction_at_speeds =
@@ -131,13 +130,13 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   const auto drives = std::ranges::find_if(
       friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
   if (drives != friction_at_speeds.end()) {
-    fit.voided = Refusal{
+    fit.causes.push_back(Voids(
         Status::inadequate_model,
         fmt::format(
             "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; does the torque hold "
             "gravity (--gravity sincos), or is its sign reversed (--scale torque=-1)?",
             drives->speed, kVelocityUnit.For(input.measurements.joint), drives->value,
-            input.measurements.torque_unit)};
+            input.measurements.torque_unit)));
   }
   if (shares) fit.friction_at_speeds = std::move(friction_at_speeds);
 }
@@ -177,7 +176,7 @@ MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifi
   return begin;
 }
 
-Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy) {
+Eigen::VectorXd TorqueOfEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy) {
   const Measurements& m = input.measurements;
   if (energy.size() == 0) return Eigen::VectorXd::Zero(input.selection.count());
   const Eigen::VectorXd direction =
@@ -282,7 +281,7 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
   // how well they fit
   fit.used = input.selection;
   fit.torque = Kept(m.torque, fit.used);
-  fit.fitted = maps.fitted + TakenByEnergy(input, task.energy);
+  fit.fitted = maps.fitted + TorqueOfEnergy(input, task.energy);
   fit.count = static_cast<int>(maps.x.size());
   fit.effective_parameters = maps.effective;
   fit.summary = fmt::format(
@@ -290,18 +289,19 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
       "effective parameters",
       law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
   if (HoldsGravity(input, task, maps)) {
-    fit.voided = {Status::inadequate_model,
-                  "the map holds what acts alike in both directions, as gravity does, which is no "
-                  "friction; add "
-                  "--gravity sincos"};
+    fit.causes.push_back(
+        Voids(Status::inadequate_model,
+              "the map holds what acts alike in both directions, as gravity does, which is no "
+              "friction; add "
+              "--gravity sincos"));
   }
   // places without data
   const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
   if (!holes.empty()) {
-    fit.warnings.push_back(
-        fmt::format("the map has no data at {}: it follows its neighbours there, and its bands are "
-                    "wide",
-                    fmt::join(holes, ", ")));
+    fit.causes.push_back(
+        Remark(fmt::format("the map has no data at {}: it follows its neighbours there, and its "
+                           "bands are wide",
+                           fmt::join(holes, ", "))));
   }
   return fit;
 }

@@ -70,7 +70,7 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
 MapTask Settled(MapTask task, const MapWeights& fit);
 
 /// sign(v) E at the kept samples, [n] N.m or N; 0 for an empty energy. energy: [N].
-Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy);
+Eigen::VectorXd TorqueOfEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy);
 
 /// Why there is no fit where the normal equations cannot be solved: bad_data.
 Refusal Unsolvable();

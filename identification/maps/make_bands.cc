@@ -161,32 +161,32 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
 
 }  // namespace
 
-std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept, const FinerFit* finer) {
+void MakeBands(const Law& law, const MapFit& maps, const Uncertainty& known, const MapPoints& kept,
+               const FinerFit* finer, Fit& fit) {
   // typical speed, covariance of law and weights, and reach of the interval
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
-  const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
+  const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(maps.x.size(), maps.x.size());
   const double reach = StudentQuantile(known.freedom, kIntervalLevel);
-  const MeanRows means(fit.maps, kept);
+  const MeanRows means(maps.maps, kept);
   const std::optional<MeanRows> finer_means =
       finer ? std::optional<MeanRows>(std::in_place, finer->twice.maps, kept) : std::nullopt;
-  std::vector<MapBand> bands;
   size_t first = 0;
-  for (size_t which = 0; which < fit.maps.size(); ++which) {
-    const FrictionMap& map = fit.maps[which];
-    MapBand& band = bands.emplace_back();
+  for (size_t which = 0; which < maps.maps.size(); ++which) {
+    const FrictionMap& map = maps.maps[which];
+    MapBand& band = fit.bands.emplace_back();
     const MapPoints places = PlacesOfBand(map, speed, kept, band);
-    const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, means);
+    const Eigen::MatrixXd rows = RowsAt(law, maps, which, places, means);
+    fit.bands_by_law.push_back(rows.leftCols(static_cast<Index>(law.parameters.size())));
     // friction at each place, and its variance by the errors of law and weights
-    const Eigen::VectorXd value = rows * fit.x;
+    const Eigen::VectorXd value = rows * maps.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
     if (finer) {
       const Eigen::MatrixXd more = RowsAt(law, finer->twice, which, places, *finer_means);
       Eigen::VectorXd missed = value - more * finer->twice.x;
       // where one of them has no data it follows nothing, and the neighbours tell
       for (Index i = 0; i < missed.size(); ++i) {
-        const bool blind = fit.unseen[first + static_cast<size_t>(i)];
+        const bool blind = maps.unseen[first + static_cast<size_t>(i)];
         if (blind || ShareOfUnseen(more.row(i), finer->twice) > kBlind) {
           missed[i] = std::numeric_limits<double>::quiet_NaN();
         }
@@ -195,7 +195,7 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
       variance += AlongFirstAxis(map, missed.cwiseAbs2() - by_noise);
     }
     const std::vector<double> doubt =
-        DoubtOfHoles(map, first, fit.unseen, fit.x.tail(fit.x.size() - fit.free));
+        DoubtOfHoles(map, first, maps.unseen, maps.x.tail(maps.x.size() - maps.free));
     first += map.size();
     for (Index i = 0; i < places.rows(); ++i) {
       // where the map has no data it may be as far off as it varies elsewhere
@@ -205,7 +205,6 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
       band.interval95.push_back({value[i] - reach * deviation, value[i] + reach * deviation});
     }
   }
-  return bands;
 }
 
 }  // namespace warmjoint

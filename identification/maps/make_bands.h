@@ -4,6 +4,7 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
 
+#include "identification/fit.h"
 #include "identification/maps/finer_maps.h"
 
 namespace warmjoint {
@@ -22,7 +23,8 @@ namespace warmjoint {
 /// of which the second part is known from draws of noise and taken off. What is left, averaged over two neighbours on
 /// each side along the first axis and at least 0, joins the variance.
 /// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
-std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept, const FinerFit* finer = nullptr);
+/// Sets the fit's bands and bands_by_law.
+void MakeBands(const Law& law, const MapFit& maps, const Uncertainty& known, const MapPoints& kept,
+               const FinerFit* finer, Fit& fit);
 
 }  // namespace warmjoint

@@ -34,7 +34,7 @@ MapBlock::MapBlock(const IdentifierInput& input, MapTask task)
   all_rows_ = KernelRows::Kept(only, everywhere_, 1);
 }
 
-bool MapBlock::ChooseBeside(const Eigen::VectorXd& energy) {
+bool MapBlock::ChooseGiven(const Eigen::VectorXd& energy) {
   task_.energy = energy;
   chosen_ = Choose(input_, task_);
   if (!chosen_) return false;
@@ -46,12 +46,12 @@ bool MapBlock::ChooseBeside(const Eigen::VectorXd& energy) {
   return fit_.has_value();
 }
 
-bool MapBlock::FitBeside(const Eigen::VectorXd& energy) {
+bool MapBlock::FitGiven(const Eigen::VectorXd& energy) {
   task_.energy = energy;
   MapProblem& problem = chosen_->problem;
   if (!problem.rows) problem.rows = KernelRows::Kept(problem.maps, problem.points, 1);
   torque_ =
-      Kept(input_.measurements.torque, input_.selection).col(0) - TakenByEnergy(input_, energy);
+      Kept(input_.measurements.torque, input_.selection).col(0) - TorqueOfEnergy(input_, energy);
   fit_ = repeated_->To(torque_);
   return fit_.has_value();
 }
@@ -75,7 +75,7 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
       gaps_(FindGaps(input.measurements)),
       kept_(WithoutRest(input.selection, input.measurements).keep.cast<double>()) {}
 
-bool WarmingBlock::FitBeside(const MapBlock& maps) {
+bool WarmingBlock::FitGiven(const MapBlock& maps) {
   const Measurements& m = input_.measurements;
   const ClosedLoop loop = LoopOf(m, *task_.law, maps);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);

@@ -19,9 +19,9 @@ class MapBlock {
 
   /// Chooses shape and strength beside E, and fits. energy: [N] N.m or N, or empty: 0. False where nothing
   /// can be solved.
-  bool ChooseBeside(const Eigen::VectorXd& energy);
+  bool ChooseGiven(const Eigen::VectorXd& energy);
   /// Fits once more with the shape and strength that were chosen last.
-  bool FitBeside(const Eigen::VectorXd& energy);
+  bool FitGiven(const Eigen::VectorXd& energy);
 
   const MapWeights& fit() const { return *fit_; }
   /// Of the residual over the kept samples.
@@ -54,7 +54,7 @@ class WarmingBlock {
 
   /// Fits beside the maps' latest, from the warming that was found last, or from a scan. False where
   /// it does not converge.
-  bool FitBeside(const MapBlock& maps);
+  bool FitGiven(const MapBlock& maps);
 
   const ThermalFit& fit() const { return *fit_; }
   const Eigen::VectorXd& energy() const { return energy_; }  // [N] E, N.m or N

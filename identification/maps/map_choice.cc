@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "identification/maps/imitated_columns.h"
 #include "identification/ridge/local_ridge.h"
 #include "identification/ridge/ridge.h"
 
@@ -36,9 +35,9 @@ std::vector<double> Strengths(const NormalEquations& normal, Eigen::Index free) 
 }
 
 /// Of the parameters, in the fit to all rows.
-class Bounds {
+class LowerBounds {
  public:
-  Bounds(const NormalEquations& all, Eigen::Index free, const std::vector<double>& lower)
+  LowerBounds(const NormalEquations& all, Eigen::Index free, const std::vector<double>& lower)
       : lower_(lower) {
     const auto bounds = [](double bound) { return std::isfinite(bound); };
     if (std::ranges::any_of(lower, bounds)) ridge_.emplace(all, free);
@@ -100,7 +99,7 @@ class Curve {
 
  private:
   std::vector<double> strengths_;
-  Bounds bounds_;
+  LowerBounds bounds_;
   std::vector<HeldOutPart> parts_;
   std::map<int, StrengthTrial> trials_;
 };

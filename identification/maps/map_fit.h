@@ -1,15 +1,95 @@
 // Law and maps fitted together, and how sure the fit is.
 #pragma once
 
+#include <warmjoint/friction.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "identification/maps/map_system.h"
-#include "identification/ridge/kernel_rows.h"
+#include "identification/ridge/local_rows.h"
+#include "identification/ridge/ridge.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
+
+/// Columns of the law, or others without a prior, that the kernels can imitate, to a thousandth of their squares: the
+/// prior alone tells these apart from a map. gram: [d x d] A^T A of `free` such columns and the kernels; ascending.
+std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::Index free);
+
+/// Those of them that have a bound, which is the law's mark. lower: [free] or empty: none.
+std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index free,
+                                      const std::vector<double>& lower);
+
+/// Linear conditions on the unknowns: rows x = values.
+struct Conditions {
+  Eigen::MatrixXd rows;    // [k x d], independent of each other
+  Eigen::VectorXd values;  // [k]
+
+  bool operator==(const Conditions& other) const {
+    return rows == other.rows && values == other.values;
+  }
+};
+
+/// gram x = product under conditions, by the projection onto what they leave.
+class Conditioned {
+ public:
+  /// gram: [d x d]
+  Conditioned(const Eigen::MatrixXd& gram, Conditions conditions);
+
+  /// False where there is nothing to solve.
+  bool works() const { return held_.info() == Eigen::Success; }
+  const Conditions& conditions() const { return conditions_; }
+
+  /// product: [d]; returns x, [d]
+  Eigen::VectorXd Solve(const Eigen::VectorXd& product) const;
+  /// [d x d] of rank d - k.
+  Eigen::MatrixXd Inverse() const;
+
+ private:
+  Conditions conditions_;
+  double firm_;
+  Eigen::LLT<Eigen::MatrixXd> held_;
+  Eigen::MatrixXd along_;               // [d x k]
+  Eigen::LDLT<Eigen::MatrixXd> small_;  // [k x k]
+};
+
+/// (A^T A + s P) x = A^T y of FitMaps (map_fit.h) on the same rows A for any y: what depends on the rows
+/// alone is made once, and the latest conditions that a torque asked for are kept.
+class MapSystem {
+ public:
+  /// maps: their weights are not read; gram: [d x d] A^T A of p columns of the law and others and the
+  /// kernels; unseen: [q] kernels without data; lower: [p] bounds, or empty: none.
+  MapSystem(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram, Eigen::Index free,
+            double strength, const std::vector<bool>& unseen, std::vector<double> lower);
+
+  /// [d] x for the torque in `normal`, whose Gram matrix is that of the rows; nothing where the system is
+  /// singular to rounding or overflows.
+  std::optional<Eigen::VectorXd> Solve(const NormalEquations& normal);
+
+  /// [d x d] (A^T A + s P)^-1 under the conditions of the latest x, but for the bounds of columns that the
+  /// data tell: how sure these are is a matter of the fit without.
+  Eigen::MatrixXd Inverse() const;
+
+ private:
+  /// The conditions of `deviating_`, but with the bounds that hold for this torque, those of columns that the maps
+  /// cannot be last; and these columns.
+  struct Bounds {
+    Conditions conditions;
+    std::vector<Eigen::Index> columns;
+  };
+  Bounds Bounded(const NormalEquations& normal) const;
+
+  Eigen::MatrixXd gram_;                          // [d x d] with the prior
+  std::vector<double> lower_;                     // [p] or empty
+  std::vector<Eigen::Index> shared_;              // columns that law and maps both can be
+  std::shared_ptr<const Conditioned> plain_;      // without conditions
+  std::shared_ptr<const Conditioned> deviating_;  // the maps are what deviates from the law
+  std::shared_ptr<const Conditioned> latest_;
+};
 
 /// A law that is linear in its parameters, and kernels with a Gaussian prior N(0, s_w^2) on their
 /// weights alone, on the n samples that a selection keeps:
@@ -45,7 +125,7 @@ struct MapFit : MapWeights {
 };
 
 /// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h). How much of a column x_j of the law that kernels can imitate
-/// (imitated_columns.h) stands in the law and how much in the maps is no matter of the data. The maps are what
+/// (ImitatedColumns) stands in the law and how much in the maps is no matter of the data. The maps are what
 /// deviates from the law there, x_j^T (kernels w) = 0 over the samples, as smooth terms of additive models are
 /// centred (Wood 2017, 5.4.1); where that puts the parameter below its bound and the data know no better, it is held
 /// there. Nothing where the system is singular to rounding or overflows.

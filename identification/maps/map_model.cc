@@ -31,9 +31,9 @@ std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& 
   const ParameterInterval found = Infer(fit).parameters[row];
   if (!found.std) return std::nullopt;
   // whether both E(0) contradict each other
-  const std::string unlike = UnlikeBefore(expected, found.value, *found.std);
+  const std::string unlike = ContradictsExpected(expected, found.value, *found.std);
   if (unlike.empty()) return std::nullopt;
-  fit.warnings.push_back(unlike);
+  fit.causes.push_back(Remark(unlike));
   return fit;
 }
 
@@ -69,7 +69,9 @@ Fit FitMapModel(const std::string& name, const IdentifierInput& given, const Map
   if (!model.over_energy || (!warms && model.heat == MapHeat::estimated)) return warm;
   // then maps over that E too
   Fit fit = IdentifyOverEnergy(input, begin.task, warms ? &warm : nullptr, model.over_energy);
-  if (!warms && GivesFriction(fit)) fit.afterword += "; without warming: " + Infer(warm).message;
+  if (!warms && GivesFriction(fit)) {
+    fit.causes.push_back(Remark("without warming: " + Infer(warm).message, SentenceIn::message));
+  }
   return fit;
 }
 

@@ -126,13 +126,15 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
       found.push_back(fmt::format("{:.3g} {} at {} a turn", harmonic.amplitude,
                                   measurements.torque_unit, harmonic.multiple));
     }
-    fit.afterword += fmt::format(
-        "; motor ripple for v {} 0: {}", direction ? ">" : "<",
-        found.empty() ? "none above the noise" : fmt::format("{}", fmt::join(found, ", ")));
+    fit.causes.push_back(
+        Remark(fmt::format("motor ripple for v {} 0: {}", direction ? ">" : "<",
+                           found.empty() ? "none above the noise"
+                                         : fmt::format("{}", fmt::join(found, ", "))),
+               SentenceIn::message));
   }
   if (!KnowsMotorAngle(measurements)) {
-    fit.warnings.emplace_back(
-        "the motor is taken to turn with the joint: give --gear, or log motor_position");
+    fit.causes.push_back(
+        Remark("the motor is taken to turn with the joint: give --gear, or log motor_position"));
   }
 }
 

@@ -33,7 +33,7 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
                                                 const MapOptions& settings, JointKind joint,
                                                 const MapPoints& points);
 
-/// Appends to the fit's afterword what was found in the motor's map: "; motor ripple for v > 0: 0.052 N.m
+/// Notes with the fit what was found in the motor's map: "motor ripple for v > 0: 0.052 N.m
 /// at 2 a turn" and so on; and a warning where the motor's angle is not known.
 /// covariance: of the map's weights, [q x q].
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,

@@ -58,11 +58,13 @@ Fit Complete(const Fit& warm, int rounds, const Measurements& m, Fit fit) {
   fit.fitted = Kept(prediction.force, fit.used);
   fit.count += static_cast<int>(heat.size());
   fit.effective_parameters += static_cast<double>(heat.size());
-  fit.afterword += fmt::format(
-      "; the energy state is consistent with the losses of the fit after {} rounds; thermal_gain "
-      "and thermal_time_constant have no interval, since maps over the energy absorb part of their "
-      "effect",
-      rounds);
+  fit.causes.push_back(Remark(
+      fmt::format(
+          "the energy state is consistent with the losses of the fit after {} rounds; thermal_gain "
+          "and thermal_time_constant have no interval, since maps over the energy absorb part of "
+          "their effect",
+          rounds),
+      SentenceIn::message));
   return fit;
 }
 

@@ -223,8 +223,10 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements&
   fit.errors.known = WithoutWeights(known, warm.fit);
   fit.count += static_cast<int>(rows.size());
   fit.effective_parameters += static_cast<double>(rows.size());
-  fit.afterword = fmt::format("; warming beside them in {} rounds", warm.rounds) + fit.afterword;
-  if (!warm.gaps.empty()) fit.warnings.push_back(LossesInGaps(warm.gaps, measurements));
+  fit.causes.insert(
+      fit.causes.begin(),
+      Remark(fmt::format("warming beside them in {} rounds", warm.rounds), SentenceIn::message));
+  if (!warm.gaps.empty()) fit.causes.push_back(Remark(LossesInGaps(warm.gaps, measurements)));
 }
 
 }  // namespace
@@ -233,7 +235,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
                                     const InitialEnergy& initial) {
   // maps as if nothing warmed, then warming and maps in turns, each beside the other
   MapBlock block(input, task);
-  if (!block.ChooseBeside({})) return std::nullopt;
+  if (!block.ChooseGiven({})) return std::nullopt;
   WarmingBlock warming(input, task, initial);
   Visibility visibility(block.Squares(), Kept(input.measurements.torque, input.selection));
 
@@ -243,7 +245,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
   Eigen::VectorXd energy;  // [N] beside which law and maps are fitted, N.m or N
   AndersonMixing mixing;
   for (warm.rounds = 1; warm.rounds <= kMostRounds; ++warm.rounds) {
-    if (!warming.FitBeside(block)) break;
+    if (!warming.FitGiven(block)) break;
     // at rest: the warming of this round is that of the last
     const Thermal thermal = warming.fit().thermal();
     warm.converged = before && HasConverged(*before, thermal);
@@ -252,12 +254,12 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
 
     // shape and strength are chosen once more where a warming is seen, now that E is known, then kept
     energy = warm.rounds < 3 ? warming.energy() : mixing.Next(energy, warming.energy());
-    if (!block.FitBeside(energy)) return std::nullopt;
+    if (!block.FitGiven(energy)) return std::nullopt;
     visibility.Follow(block.Squares());
     if (warm.rounds != 2) continue;
     warm.visible = visibility.latest();
     if (visibility.StaysUnseen()) return warm;
-    if (!block.ChooseBeside(energy)) return std::nullopt;
+    if (!block.ChooseGiven(energy)) return std::nullopt;
   }
   // the last round, and how much less it leaves than maps alone
   warm.warming = warming.fit();
@@ -284,7 +286,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
 
   // law and maps, as sure as the warming beside them leaves them
   const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
-                                   TakenByEnergy(input, warm.task.energy);
+                                   TorqueOfEnergy(input, warm.task.energy);
   const JointUncertainty joint = JointCovariance(input, warm, residual);
   const Uncertainty& known = joint.known;
   Fit fit = AsFit(input, warm.task, warm.fit, known);

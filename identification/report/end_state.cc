@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "identification/fit.h"
+#include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
@@ -98,13 +99,17 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
                             const Eigen::MatrixXd& slopes) {
   FigureErrors errors{slopes * inference.known.covariance * slopes.transpose(),
-                      Eigen::VectorXd::Zero(slopes.rows()), inference.without_intervals.empty()};
+                      Eigen::VectorXd::Zero(slopes.rows()), true};
+  Eigen::MatrixXd by_value = Eigen::MatrixXd::Zero(slopes.rows(), std::ssize(inference.parameters));
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
     const ParameterInterval& known = inference.parameters[at.row];
     errors.told = errors.told && known.interval95;
-    // what the verdict widened is a move of the value, not of its coordinate
-    const double by_value = 1 / ValueByCoordinate(fit.parameters[at.row], known.value);
-    errors.widened += slopes.col(at.column).cwiseAbs() * std::abs(by_value) * known.widened;
+    // causes change the value, not its coordinate
+    by_value.col(static_cast<Eigen::Index>(at.row)) =
+        slopes.col(at.column) / ValueByCoordinate(fit.parameters[at.row], known.value);
+  }
+  for (Eigen::Index i = 0; i < by_value.rows(); ++i) {
+    errors.widened[i] = ChangeOf(inference.causes, by_value.row(i)).reach;
   }
   return errors;
 }
@@ -150,7 +155,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
     // from the fit where its table does not hold all that E depends on, else from the parameters
     const double deviation =
         fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
-    const bool told = fit.end_energy_std ? inference.without_intervals.empty() : errors.told;
+    const bool told = fit.end_energy_std ? HasIntervals(inference) : errors.told;
     if (told && std::isfinite(deviation)) {
       one.std = deviation;
       const double half = reach * deviation + errors.widened[stage];

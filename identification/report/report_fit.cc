@@ -4,14 +4,18 @@
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/preparation/check.h"
 #include "identification/report/end_state.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/sign.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
@@ -155,6 +159,39 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   return of;
 }
 
+/// Moves a figure by what the causes did to the law's parameters. by_law: [d] its derivatives by these, which come first in
+/// the table
+void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double& value,
+           std::array<double, 2>& interval) {
+  Eigen::VectorXd derivatives = Eigen::VectorXd::Zero(std::ssize(inference.parameters));
+  derivatives.head(by_law.size()) = by_law;
+  const auto [shift, reach] = ChangeOf(inference.causes, derivatives);
+  value += shift;
+  interval = {interval[0] + shift - reach, interval[1] + shift + reach};
+}
+
+/// Bands along maps, and friction at speeds, by the law that is reported.
+void AddMapFigures(const Fit& fit, const Inference& inference, const Measurements& measurements,
+                   Estimate& estimate) {
+  estimate.bands = fit.bands;
+  for (size_t b = 0; b < estimate.bands.size(); ++b) {
+    MapBand& band = estimate.bands[b];
+    for (size_t g = 0; g < band.value.size(); ++g) {
+      Carry(inference, fit.bands_by_law[b].row(static_cast<Eigen::Index>(g)), band.value[g],
+            band.interval95[g]);
+    }
+  }
+  estimate.friction_at_speeds = fit.friction_at_speeds;
+  for (FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    // resistance is the force times the direction
+    const Eigen::MatrixXd columns =
+        LawColumns(*FindLaw(fit.friction.law), Eigen::VectorXd::Constant(1, one.speed));
+    Carry(inference, Sign(one.speed) * columns.row(0), one.value, one.interval95);
+    one.speed_unit = kVelocityUnit.For(measurements.joint);
+    one.unit = measurements.torque_unit;
+  }
+}
+
 }  // namespace
 
 Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements) {
@@ -188,14 +225,10 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   // and what can be used elsewhere
   estimate.friction = FrictionOf(fit, inference);
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
-  estimate.bands = fit.bands;
-  estimate.friction_at_speeds = fit.friction_at_speeds;
-  for (FrictionAtSpeed& one : estimate.friction_at_speeds) {
-    one.speed_unit = kVelocityUnit.For(measurements.joint);
-    one.unit = measurements.torque_unit;
-  }
+  AddMapFigures(fit, inference, measurements, estimate);
   // without intervals there is no covariance either
-  if (inference.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
+  ParameterCovariance covariance = CovarianceOfValues(fit, inference);
+  if (!covariance.parameters.empty()) estimate.covariance = std::move(covariance);
   return estimate;
 }
 

@@ -2,10 +2,356 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
+
+#include "models/friction/evaluate_map.h"
+#include "models/friction/prepared_map.h"
 
 namespace warmjoint {
+
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kMostValues = 1 << 24;  // 128 MiB, if every kernel counted at every sample
+
+}  // namespace
+
+KernelRows::KernelRows(const std::vector<FrictionMap>& maps, const MapPoints& points, Index spans)
+    : samples_(points.rows()), kernels_(KernelCount(maps)) {
+  for (Index i = 0; i < spans; ++i) {
+    groups_.push_back(GroupRows(maps, points, i * samples_ / spans, (i + 1) * samples_ / spans));
+  }
+}
+
+bool KernelRows::Fit(const std::vector<FrictionMap>& maps, Index samples) {
+  return samples * KernelCount(maps) <= kMostValues;
+}
+
+std::shared_ptr<const KernelRows> KernelRows::Kept(const std::vector<FrictionMap>& maps,
+                                                   const MapPoints& points, Index spans) {
+  if (!Fit(maps, points.rows())) return nullptr;
+  return std::make_shared<const KernelRows>(maps, points, spans);
+}
+
+NormalEquations KernelRows::Normal(Index span, const Eigen::MatrixXd& free,
+                                   const Eigen::VectorXd& y) const {
+  NormalEquations normal(free.cols() + kernels_);
+  AddGroups(groups_[static_cast<size_t>(span)], free, y, normal);
+  return normal;
+}
+
+NormalEquations KernelRows::Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const {
+  NormalEquations normal(free.cols() + kernels_);
+  for (const std::vector<RowGroup>& span : groups_) AddGroups(span, free, y, normal);
+  return normal;
+}
+
+Eigen::MatrixXd KernelRows::Products(const Eigen::Ref<const Eigen::MatrixXd>& y) const {
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(kernels_, y.cols());
+  for (const std::vector<RowGroup>& span : groups_) AddProducts(span, y, products);
+  return products;
+}
+
+Eigen::VectorXd KernelRows::Times(const Eigen::VectorXd& weights) const {
+  Eigen::VectorXd values(samples_);
+  for (const std::vector<RowGroup>& span : groups_) {
+    for (const RowGroup& group : span) {
+      values(group.samples) = group.values * weights(group.kernels);
+    }
+  }
+  return values;
+}
+
+namespace {
+
+/// The kernels of one axis that count: neighbours, on a circle across its end.
+struct Window {
+  std::uint16_t first = 0;
+  std::uint16_t count = 0;
+  auto operator<=>(const Window&) const = default;
+};
+
+/// Kernels of one axis, each at the place of its centre.
+class AxisRow {
+ public:
+  AxisRow(const GaussianAxis& axis, KernelKind kind) : axis_(axis, kind), places_(axis_.Row()) {}
+
+  /// The kernels that count at x, into phi [axis.size()]; others are not written.
+  Window Fill(double x, double* phi) {
+    axis_.Kernels(x, active_);
+    const double* value = active_.value.data() + active_.begin;
+    const int* place = places_.data() + active_.first;
+    const auto counts = [&](int i) { return place[i] >= 0 && value[i] > 0; };
+    // the window leaves out kernels at its ends that are 0 or absent
+    int first = 0, last = active_.count;
+    while (first < last && !counts(first)) ++first;
+    while (first < last && !counts(last - 1)) --last;
+    if (first == last) return {};
+    for (int i = first; i < last; ++i) phi[place[i]] = value[i] / active_.sum;
+    return {static_cast<std::uint16_t>(place[first]), static_cast<std::uint16_t>(last - first)};
+  }
+
+ private:
+  PreparedAxis axis_;
+  std::vector<int> places_;
+  ActiveKernels active_{};
+};
+
+/// Kernels of every axis of every map at some samples, each axis by itself.
+class AxisTable {
+ public:
+  AxisTable(const std::vector<FrictionMap>& maps, const MapPoints& points, Eigen::Index first,
+            Eigen::Index last)
+      : maps_(maps), first_(first) {
+    for (const FrictionMap& map : maps) {
+      for (const MapAxis& axis : map.axes) {
+        rows_.emplace_back(axis.kernels, map.kernels);
+        width_ += static_cast<Eigen::Index>(axis.kernels.size());
+      }
+      axes_ += static_cast<Eigen::Index>(map.axes.size());
+    }
+    phi_.resize(last - first, width_);
+    factors_.resize(last - first, static_cast<Eigen::Index>(maps.size()));
+    windows_.resize(static_cast<size_t>((last - first) * axes_));
+    for (Eigen::Index i = first; i < last; ++i) Fill(points, i);
+  }
+
+  /// Order of the samples in which those with the same windows are neighbours.
+  std::vector<Eigen::Index> Sorted() const {
+    std::vector<Eigen::Index> order(static_cast<size_t>(phi_.rows()));
+    std::iota(order.begin(), order.end(), first_);
+    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return std::lexicographical_compare(WindowsOf(a), WindowsOf(a) + axes_, WindowsOf(b),
+                                          WindowsOf(b) + axes_);
+    });
+    return order;
+  }
+
+  bool SameWindows(Eigen::Index a, Eigen::Index b) const {
+    return std::equal(WindowsOf(a), WindowsOf(a) + axes_, WindowsOf(b));
+  }
+
+  /// Appends the indices of the kernels in the windows of a sample.
+  void AppendKernels(Eigen::Index sample, std::vector<Eigen::Index>& kernels) const {
+    const Window* window = WindowsOf(sample);
+    Eigen::Index offset = 0;
+    for (const FrictionMap& map : maps_) {
+      const size_t begin = kernels.size();
+      kernels.push_back(0);
+      for (const MapAxis& axis : map.axes) {
+        // each product so far times each kernel in the window of one more axis
+        const size_t before = kernels.size() - begin, size = axis.kernels.size();
+        const size_t count = window->count;
+        kernels.resize(begin + before * count);
+        // from the back, so that none is overwritten before its turn
+        for (size_t i = before; i-- > 0;) {
+          const Eigen::Index base = kernels[begin + i] * static_cast<Eigen::Index>(size);
+          for (size_t k = count; k-- > 0;) {
+            kernels[begin + i * count + k] =
+                base + static_cast<Eigen::Index>((window->first + k) % size);
+          }
+        }
+        ++window;
+      }
+      for (size_t i = begin; i < kernels.size(); ++i) kernels[i] += offset;
+      offset += static_cast<Eigen::Index>(map.size());
+    }
+  }
+
+  /// Their values at that sample, in the same order.
+  void Values(Eigen::Index sample, double* row) const {
+    const Window* windows = WindowsOf(sample);
+    const double* phi = phi_.row(sample - first_).data();
+    Eigen::Index m = 0;
+    for (const FrictionMap& map : maps_) {
+      // one empty window leaves no product
+      const auto axes = static_cast<Eigen::Index>(map.axes.size());
+      const bool any = std::all_of(windows, windows + axes,
+                                   [](const Window& window) { return window.count > 0; });
+      const double factor = factors_(sample - first_, m++);
+      Eigen::Index count = any ? 1 : 0;
+      if (any) row[0] = factor;
+      for (const MapAxis& axis : map.axes) {
+        count = Multiply(phi, *windows++, axis.kernels.size(), row, count);
+        phi += axis.kernels.size();
+      }
+      row += count;
+    }
+  }
+
+ private:
+  /// Multiplies `count` products in place by the kernels of one more axis; returns their number.
+  static Eigen::Index Multiply(const double* phi, Window window, size_t size, double* row,
+                               Eigen::Index count) {
+    const Eigen::Index kernels = window.count;
+    const auto to_end = std::min(kernels, static_cast<Eigen::Index>(size) - window.first);
+    for (Eigen::Index before = count - 1; before >= 0; --before) {
+      const double product = row[before];
+      double* const products = row + before * kernels;
+      // behind the circle's end first: those in front may take the place of the product
+      for (Eigen::Index k = kernels; k-- > to_end;) products[k] = product * phi[k - to_end];
+      for (Eigen::Index k = to_end; k-- > 0;) products[k] = product * phi[window.first + k];
+    }
+    return count * kernels;
+  }
+
+  void Fill(const MapPoints& points, Eigen::Index sample) {
+    const Eigen::Index row = sample - first_;
+    double* phi = phi_.row(row).data();
+    Window* window = windows_.data() + row * axes_;
+    auto axis_row = rows_.begin();
+    const double v = points(sample, static_cast<int>(MapQuantity::velocity));
+    for (size_t m = 0; m < maps_.size(); ++m) {
+      factors_(row, static_cast<Eigen::Index>(m)) = EvaluateFactor(maps_[m].factor, v);
+      for (const MapAxis& axis : maps_[m].axes) {
+        *window++ = (axis_row++)->Fill(points(sample, static_cast<int>(axis.quantity)), phi);
+        phi += axis.kernels.size();
+      }
+    }
+  }
+
+  const Window* WindowsOf(Eigen::Index sample) const {
+    return windows_.data() + (sample - first_) * axes_;
+  }
+
+  const std::vector<FrictionMap>& maps_;
+  Eigen::Index first_;
+  std::vector<AxisRow> rows_;    // of all axes
+  Eigen::Index width_ = 0;       // kernels of all axes
+  Eigen::Index axes_ = 0;        // of all maps
+  RowGroup::Rows phi_;           // [samples x width]
+  RowGroup::Rows factors_;       // [samples x maps]
+  std::vector<Window> windows_;  // [samples x axes]
+};
+
+/// What it costs to add a group's products to those of all kernels, in samples; why 8: it moves the time alone,
+/// no answer.
+constexpr double kAdding = 8;
+
+using Samples = std::vector<Eigen::Index>::const_iterator;
+
+/// Makes groups of runs of samples with the same windows: one of neighbours that have few kernels apart.
+class GroupMaker {
+ public:
+  GroupMaker(const AxisTable& table, Eigen::Index kernels)
+      : table_(table), column_(static_cast<size_t>(kernels), kNone) {}
+
+  /// The next run: samples from begin to before end.
+  void Add(Samples begin, Samples end) {
+    Run run{begin, end, {}};
+    table_.AppendKernels(*begin, run.kernels);
+    if (!runs_.empty() && !Suits(run)) Finish();
+    for (const Eigen::Index kernel : run.kernels) {
+      if (std::exchange(column_[kernel], kSome) == kNone) kernels_.push_back(kernel);
+    }
+    samples_ += end - begin;
+    runs_.push_back(std::move(run));
+  }
+
+  std::vector<RowGroup> Groups() && {
+    if (!runs_.empty()) Finish();
+    return std::move(groups_);
+  }
+
+ private:
+  static constexpr Eigen::Index kNone = -1, kSome = 0;
+
+  struct Run {
+    Samples begin, end;
+    std::vector<Eigen::Index> kernels;  // in the order of AxisTable::Values
+  };
+
+  /// What a group costs whose products with each other are summed.
+  static double Cost(Eigen::Index samples, size_t kernels) {
+    const auto m = static_cast<double>(kernels);
+    return (static_cast<double>(samples) + kAdding) * m * m;
+  }
+
+  /// Whether one group costs no more than two.
+  bool Suits(const Run& run) const {
+    const auto more = [&](Eigen::Index kernel) { return column_[kernel] == kNone; };
+    const auto added = static_cast<size_t>(std::ranges::count_if(run.kernels, more));
+    const Eigen::Index samples = run.end - run.begin;
+    return Cost(samples_ + samples, kernels_.size() + added) <=
+           Cost(samples_, kernels_.size()) + Cost(samples, run.kernels.size());
+  }
+
+  void Finish() {
+    // kernels of the group in ascending order, and the column of each
+    RowGroup& group = groups_.emplace_back();
+    group.kernels = std::move(kernels_);
+    std::ranges::sort(group.kernels);
+    const auto count = static_cast<Eigen::Index>(group.kernels.size());
+    for (Eigen::Index i = 0; i < count; ++i) column_[group.kernels[i]] = i;
+
+    // values of all samples of its runs
+    group.values.setZero(samples_, count);
+    std::vector<double> values(group.kernels.size());
+    double* row = group.values.data();
+    for (const Run& run : runs_) {
+      for (auto sample = run.begin; sample != run.end; ++sample, row += count) {
+        group.samples.push_back(*sample);
+        table_.Values(*sample, values.data());
+        for (size_t i = 0; i < run.kernels.size(); ++i) row[column_[run.kernels[i]]] = values[i];
+      }
+    }
+    // nothing of it stays for the next group
+    for (const Eigen::Index kernel : group.kernels) column_[kernel] = kNone;
+    runs_.clear();
+    kernels_.clear();
+    samples_ = 0;
+  }
+
+  const AxisTable& table_;
+  std::vector<RowGroup> groups_;
+
+  // of the next group
+  std::vector<Run> runs_;
+  std::vector<Eigen::Index> kernels_;
+  Eigen::Index samples_ = 0;
+  std::vector<Eigen::Index> column_;  // of each kernel in the group
+};
+
+}  // namespace
+
+Eigen::Index KernelCount(const std::vector<FrictionMap>& maps) {
+  Eigen::Index count = 0;
+  for (const FrictionMap& map : maps) count += static_cast<Eigen::Index>(map.size());
+  return count;
+}
+
+std::vector<RowGroup> GroupRows(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                                Eigen::Index first, Eigen::Index last) {
+  const AxisTable table(maps, points, first, last);
+  const std::vector<Eigen::Index> order = table.Sorted();
+  GroupMaker maker(table, KernelCount(maps));
+  // runs of samples in the same windows of all axes
+  for (auto begin = order.begin(); begin != order.end();) {
+    const auto end = std::find_if_not(begin, order.end(),
+                                      [&](Eigen::Index i) { return table.SameWindows(*begin, i); });
+    maker.Add(begin, end);
+    begin = end;
+  }
+  return std::move(maker).Groups();
+}
+
+Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                             Eigen::Index first, Eigen::Index last) {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(last - first, KernelCount(maps));
+  for (const RowGroup& group : GroupRows(maps, points, first, last)) {
+    for (size_t i = 0; i < group.samples.size(); ++i) {
+      for (size_t k = 0; k < group.kernels.size(); ++k) {
+        rows(group.samples[i] - first, group.kernels[k]) = group.values(i, k);
+      }
+    }
+  }
+  return rows;
+}
+
 namespace {
 
 constexpr Eigen::Index kChunk = 16384;  // samples whose rows are held at once

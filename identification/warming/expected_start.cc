@@ -23,7 +23,7 @@ InitialEnergy InitialEnergyOf(const Options& options) {
   return {start.expected_energy, std::max(start.expected_energy_std, InitialEnergy::kExact)};
 }
 
-std::string UnlikeBefore(const InitialEnergy& expected, double found, double deviation) {
+std::string ContradictsExpected(const InitialEnergy& expected, double found, double deviation) {
   const double off = found - expected.mean;
   if (std::abs(off) <= kBeyondDoubt * std::hypot(deviation, expected.spread)) return "";
   return fmt::format(

@@ -47,6 +47,6 @@ InitialEnergy InitialEnergyOf(const Options& options);
 
 /// The sentence that the log itself contradicts what was expected, by more than four deviations of both;
 /// empty where it does not. found: E(0) in a fit that knows nothing of it, deviation: of that, N.m or N.
-std::string UnlikeBefore(const InitialEnergy& expected, double found, double deviation);
+std::string ContradictsExpected(const InitialEnergy& expected, double found, double deviation);
 
 }  // namespace warmjoint

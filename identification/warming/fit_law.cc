@@ -11,6 +11,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/inference/hausman_test.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
@@ -63,7 +64,7 @@ std::string AddHeat(LawFit& law) {
 
   // what was known of E(0), weighed by the noise that this fit leaves
   const ThermalRows rows = problem.WarmRows(law.fit.initial, law.rows.scale);
-  const std::string unlike_before = WeighStart(
+  const std::string contradiction = RefitStart(
       rows,
       [&](const ThermalFit& alone) {
         return problem.CovarianceOf(alone).Deviation(alone.layout.start.begin);
@@ -77,7 +78,7 @@ std::string AddHeat(LawFit& law) {
     problem.TakeJumps(gaps, spread);
   }
   law.rows.scale = std::sqrt(law.fit.squares / static_cast<double>(law.rows.torque.size()));
-  return unlike_before;
+  return contradiction;
 }
 
 constexpr int kMostHuberRounds = 100;
@@ -163,9 +164,9 @@ std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<Initial
   const Eigen::VectorXd measured = Kept(law.measurements().torque, selection);
   const auto runs = std::make_shared<const KeptRuns>(FindRuns(law.measurements(), selection));
   FitAtOneLag latest;
-  const auto fit_at = [&](const LaggedRows& at) -> ModelBehindLag {
+  const auto fit_at = [&](const LaggedRows& at) -> LaggedModel {
     latest = {};
-    RowTreatment rows{.torque = at.Unlagged(measured),
+    RowTreatment rows{.torque = at.BeforeLag(measured),
                       .transform = {std::shared_ptr<void>(), &at},
                       .scale = law.rows.scale};
     ThermalFit next =
@@ -186,7 +187,7 @@ std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<Initial
 
 /// Where a search for the lag may begin if the fit without one went astray: from the torque less what the lag of a law
 /// without heat adds; nothing where that shows no lag.
-std::optional<InitialGuess> StartBehindLag(const LawFit& law) {
+std::optional<InitialGuess> StartWithLag(const LawFit& law) {
   const auto found = FitAtBestLag(law, std::nullopt, {});
   if (!found) return std::nullopt;
   // without what the lag adds to the model the scan sees friction alone
@@ -209,7 +210,7 @@ void AddTorqueLag(LawFit& law) {
     if (!response.feeds_itself) without = Kept(response.torque, law.input().selection);
     if (law.fit.has_heat()) start = StartFrom(law.fit);
   } else {
-    start = StartBehindLag(law);
+    start = StartWithLag(law);
     if (!start) return;
   }
   auto found = FitAtBestLag(law, std::move(start), without);
@@ -297,7 +298,7 @@ ErrorModel ErrorsOf(const LawFit& law, const Eigen::VectorXd& residual) {
 std::string Summary(const LawFit& law) {
   const std::string motion = law.measurements().acceleration ? kOfAnyMotion : "";
   const std::string rows = fmt::format("{} samples{}{}{}", law.input().selection.count(), motion,
-                                       law.lag ? kBehindLag : "", law.whitening ? kWhitened : "");
+                                       law.lag ? kWithLag : "", law.whitening ? kWhitened : "");
   return law.fit.has_heat()
              ? fmt::format("maximum likelihood on {}, refined in {} iterations", rows,
                            law.fit.trace.size() - 1)
@@ -331,7 +332,6 @@ Fit Conclude(LawFit law) {
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(response.torque, fit.used);
   fit.errors = ErrorsOf(law, fit.residual());
-  if (law.unwhitened) fit.unmodelled_residual = {*law.unwhitened, Kept(response.force, fit.used)};
   fit.count = static_cast<int>(found.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(law.threshold)) fit.loss_bend = law.threshold;
@@ -349,9 +349,11 @@ Fit Conclude(LawFit law) {
     };
     fit.end_energy = [loop, found] { return WarmEnd(*loop, found); };
     const std::vector<LogGap>& gaps = law.problem.gaps();
-    if (!gaps.empty()) fit.warnings.push_back(LossesInGaps(gaps, m));
+    if (!gaps.empty()) fit.causes.push_back(Remark(LossesInGaps(gaps, m)));
   }
 
+  // structure in the residual
+  if (law.unwhitened) AddStructure(*law.unwhitened, Kept(response.force, fit.used), fit);
   // the lag, which the model of law and heat does not know
   if (law.lag) AddLag(law.lag, response.torque, m, fit);
   return fit;
@@ -378,7 +380,7 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
   }
   LawFit law{.name = name, .problem = std::move(problem), .rows = measured, .fit = std::move(cold)};
   law.nominal_squares = law.fit.squares;
-  const std::string unlike_before = warms ? AddHeat(law) : "";
+  const std::string contradiction = warms ? AddHeat(law) : "";
 
   // behind a lag; else by the passes that outliers and the colour of the noise ask for
   if (AsksForLag(input.options)) AddTorqueLag(law);
@@ -391,8 +393,8 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
   }
   const bool lacks_lag = AsksForLag(input.options) && !law.lag;
   Fit fit = Conclude(std::move(law));
-  if (lacks_lag && !fit.refusal) fit.afterword = kNoLagSeen;
-  if (!unlike_before.empty()) fit.warnings.push_back(unlike_before);
+  if (lacks_lag) fit.causes.push_back(Remark(kNoLagSeen, SentenceIn::message));
+  if (!contradiction.empty()) fit.causes.push_back(Remark(contradiction));
   return fit;
 }
 

@@ -53,7 +53,7 @@ Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gap
   return freed_rows.jump_spread;
 }
 
-std::string WeighStart(const ThermalRows& rows,
+std::string RefitStart(const ThermalRows& rows,
                        const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit) {
   const InitialEnergy initial = fit.initial;
   if (!initial.is_expected()) return "";
@@ -61,7 +61,8 @@ std::string WeighStart(const ThermalRows& rows,
   // the log alone, which says what its noise is, too
   const ThermalFit alone = Again(rows, InitialEnergy::estimated, fit);
   if (alone.converged) {
-    const std::string unlike = UnlikeBefore(initial, alone.initial_energy(), deviation(alone));
+    const std::string unlike =
+        ContradictsExpected(initial, alone.initial_energy(), deviation(alone));
     if (!unlike.empty()) {
       fit = alone;
       return unlike;

@@ -18,10 +18,10 @@ Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gap
                          const InitialGuess& scanned, ThermalFit& fit);
 
 /// Fits once more where E(0) was expected, by the noise that the fit leaves: the fit before it knew no
-/// noise to weigh the expectation by. Where the log contradicts what was expected (UnlikeBefore), E(0) is
+/// noise to weigh the expectation by. Where the log contradicts what was expected (ContradictsExpected), E(0) is
 /// estimated from the log alone. fit: takes the place of the one given. deviation: of E(0) in a fit that knows
 /// nothing of it, N.m or N. Returns the clause that tells of a contradiction, else an empty text.
-std::string WeighStart(const ThermalRows& rows,
+std::string RefitStart(const ThermalRows& rows,
                        const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit);
 
 }  // namespace warmjoint

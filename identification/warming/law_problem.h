@@ -15,7 +15,7 @@ namespace warmjoint {
 
 /// What a fit by squares makes of the kept samples.
 struct RowTreatment {
-  Eigen::VectorXd torque;     // [n] N.m or N, that is fitted; behind a lag LaggedRows::Unlagged
+  Eigen::VectorXd torque;     // [n] N.m or N, that is fitted; behind a lag LaggedRows::BeforeLag
   Eigen::VectorXd weights{};  // [n] of the squares; or empty: 1
   std::shared_ptr<const RowTransform> transform{};  // of columns and torque; or none
   double scale = 1;  // about the standard deviation of what is left, N.m or N

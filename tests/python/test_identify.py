@@ -132,7 +132,7 @@ def test_friction_is_the_formula(columns):
     value, lower, upper = estimate.friction(0.5, band=True)
     matrix = np.array(estimate.data["covariance"]["matrix"])
     rows = [estimate.data["covariance"]["parameters"].index(name) for name in ("viscous", "coulomb")]
-    std = np.array([estimate[name].std for name in ("viscous", "coulomb")])
+    std = np.array([np.ptp(estimate[name].ci95) / (2 * 1.96) for name in ("viscous", "coulomb")])
     part = matrix[np.ix_(rows, rows)]
     part *= np.outer(std, std) / np.sqrt(np.outer(np.diag(part), np.diag(part)))
     direction = np.array([0.5, 1])

@@ -56,50 +56,39 @@ std::string Finding(const FitView& view) {
 }
 
 /// What the residual is looked at against to see what a test for lack of fit found.
-Against AgainstOf(const std::string& test, const FitView& view) {
-  static const std::map<std::string, Against> kByTest{
-      {"direction", Against::velocity},
-      {"speed", Against::velocity},
-      {"energy", Against::energy},
-      {"initial_energy", Against::energy},
-      {"speed_by_energy", Against::energy},
-      {"position_by_energy", Against::position},
-      {"position", Against::position},
-      {"motor_angle", Against::motor_angle},
-      {"position_by_speed", Against::position},
-      {"motor_angle_by_speed", Against::motor_angle}};
-  const auto found = kByTest.find(test);
-  const Against against = found == kByTest.end() ? Against::time : found->second;
-  if (against == Against::energy && !view.warms()) return Against::time;
-  return against;
+SeenOver OverOf(const Diagnostic& diagnostic, const FitView& view) {
+  // of a test that this program does not know: time
+  const LackOfFitTest* test = FindLackOfFitTest(diagnostic.test);
+  const SeenOver over = test ? test->over : SeenOver::time;
+  return over == SeenOver::energy && !view.warms() ? SeenOver::time : over;
 }
 
 /// Tests that found something, by the panel that shows it.
-std::map<Against, std::vector<std::string>> Deciding(const FitView& view) {
-  std::map<Against, std::vector<std::string>> deciding;
+std::map<SeenOver, std::vector<std::string>> Deciding(const FitView& view) {
+  std::map<SeenOver, std::vector<std::string>> deciding;
   for (const Diagnostic& diagnostic : view.estimate.diagnostics) {
     if (diagnostic.rejected) {
-      deciding[AgainstOf(diagnostic.test, view)].push_back(diagnostic.test);
+      deciding[OverOf(diagnostic, view)].push_back(diagnostic.test);
     }
   }
   return deciding;
 }
 
 /// Where the test shows that found the most; nothing where none found anything.
-std::optional<Against> Strongest(const FitView& view) {
-  std::optional<Against> strongest;
+std::optional<SeenOver> Strongest(const FitView& view) {
+  std::optional<SeenOver> strongest;
   double largest = -1;
   for (const Diagnostic& diagnostic : view.estimate.diagnostics) {
     if (!diagnostic.rejected || diagnostic.effect <= largest) continue;
     largest = diagnostic.effect;
-    strongest = AgainstOf(diagnostic.test, view);
+    strongest = OverOf(diagnostic, view);
   }
   return strongest;
 }
 
 /// A panel of residuals that names the tests which found something in it; the one that found the most
 /// is framed.
-void AddResiduals(Page& page, const FitView& view, Against against, const char* title, int column,
+void AddResiduals(Page& page, const FitView& view, SeenOver against, const char* title, int column,
                   int span) {
   const auto deciding = Deciding(view);
   const auto found = deciding.find(against);
@@ -120,19 +109,19 @@ void AddResiduals(Page& page, const FitView& view, Against against, const char* 
 void AddEvidence(Page& page, const FitView& view) {
   // in time: whether residuals drift, and how long they stay alike
   page.Row(kPlotRow);
-  AddResiduals(page, view, Against::time, "Residuals over time, with their median", 0, 3);
+  AddResiduals(page, view, SeenOver::time, "Residuals over time, with their median", 0, 3);
   page.Add("Correlation of residuals over lag; within the dashed lines if white",
            ResidualMemory(view), 3, 3);
   // over what the joint does: its place, its speed, its warmth
   page.Row(kPlotRow);
   const int span = view.warms() ? 2 : 3;
-  AddResiduals(page, view, Against::position, "Residuals over position", 0, span);
-  AddResiduals(page, view, Against::velocity, "Residuals over velocity", span, span);
-  if (view.warms()) AddResiduals(page, view, Against::energy, "Residuals over warmth", 4, 2);
+  AddResiduals(page, view, SeenOver::position, "Residuals over position", 0, span);
+  AddResiduals(page, view, SeenOver::velocity, "Residuals over velocity", span, span);
+  if (view.warms()) AddResiduals(page, view, SeenOver::energy, "Residuals over warmth", 4, 2);
   // over the motor's angle only where a test found something there
-  if (Deciding(view).contains(Against::motor_angle) && view.motor_angle.size() > 0) {
+  if (Deciding(view).contains(SeenOver::motor_angle) && view.motor_angle.size() > 0) {
     page.Row(kPlotRow);
-    AddResiduals(page, view, Against::motor_angle, "Residuals over motor angle", 0, kColumns);
+    AddResiduals(page, view, SeenOver::motor_angle, "Residuals over motor angle", 0, kColumns);
   }
 }
 

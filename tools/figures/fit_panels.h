@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "identification/lack_of_fit/table.h"
 #include "tools/figures/figure.h"
 #include "tools/figures/fit_view.h"
 
@@ -37,11 +38,8 @@ Plot FrictionCurve(const FitView& view);
 /// E over time with its 95 % band, over what the samples say of it, Eq. (23).
 Plot WarmUpCurve(const FitView& view);
 
-/// What residuals are looked at against.
-enum class Against { time, position, velocity, energy, motor_angle };
-
 /// Residuals over one of these with their median in 40 bins: flat where the model is complete.
-Plot ResidualsOver(const FitView& view, Against what);
+Plot ResidualsOver(const FitView& view, SeenOver what);
 
 /// Correlation of residuals with those one sample later and more, over a logarithmic axis; within
 /// the dashed lines where white.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/uncertainty/tails.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/friction_spread.h"
@@ -12,7 +13,6 @@ namespace {
 constexpr int kPoints = 60;
 constexpr std::size_t kPlaces = 300;
 constexpr double kThinnestBand = 0.008;  // of the axis: about a line's width
-constexpr double kNormal95 = 1.96;       // standard deviations of a 95 % interval
 
 /// The force of steady sliding at an energy and the mean speed of some samples: its mean over their places.
 Eigen::Vector2d MeanOfMaps(const FitView& view, const std::vector<Eigen::Index>& samples,

@@ -1,8 +1,10 @@
 #include "tools/figures/friction_spread.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "identification/fit_parameters.h"
+#include "identification/uncertainty/tails.h"
 
 namespace warmjoint::figures {
 namespace {
@@ -37,7 +39,17 @@ FrictionSpread SpreadOf(const Estimate& estimate) {
     places.push_back(i);
     spread.names.push_back(name);
   }
-  spread.covariance = matrix(places, places);
+  // intervals reach as far as the covariance and what was found beside the noise
+  Eigen::VectorXd scale(static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    const Eigen::Index at = places[static_cast<std::size_t>(i)];
+    const EstimatedParameter* known = estimate.Find(spread.names[static_cast<std::size_t>(i)]);
+    const bool tells = known && known->interval95 && matrix(at, at) > 0;
+    scale[i] = tells ? 0.5 * ((*known->interval95)[1] - (*known->interval95)[0]) /
+                           (kNormal95 * std::sqrt(matrix(at, at)))
+                     : 1;
+  }
+  spread.covariance = scale.asDiagonal() * matrix(places, places).eval() * scale.asDiagonal();
   return spread;
 }
 

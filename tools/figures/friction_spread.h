@@ -10,7 +10,7 @@
 
 namespace warmjoint::figures {
 
-/// Covariance of those of the estimate's values that its friction has.
+/// Covariance of those of the estimate's values that its friction has, as wide as their intervals.
 struct FrictionSpread {
   std::vector<std::string> names;  // [d] parameters of friction, as in the estimate
   Eigen::MatrixXd covariance;      // [d x d]; empty where the estimate has none

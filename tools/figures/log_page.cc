@@ -228,9 +228,9 @@ std::vector<Figure> FiguresOf(const FitView& view) {
   residuals.height = 0;
   residuals.rows = {200, 200};
   residuals.columns = {1, 1};
-  residuals.panels = {{"Over time", ResidualsOver(view, Against::time), 0, 0},
-                      {"Over velocity", ResidualsOver(view, Against::velocity), 0, 1},
-                      {"Over position", ResidualsOver(view, Against::position), 1, 0},
+  residuals.panels = {{"Over time", ResidualsOver(view, SeenOver::time), 0, 0},
+                      {"Over velocity", ResidualsOver(view, SeenOver::velocity), 0, 1},
+                      {"Over position", ResidualsOver(view, SeenOver::position), 1, 0},
                       {"Correlation over lag", ResidualMemory(view), 1, 1}};
   figures.push_back(residuals);
   if (auto predicted = MakePredicted(view)) figures.push_back(*std::move(predicted));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/fit_panels.h"
@@ -9,25 +10,24 @@ namespace warmjoint::figures {
 namespace {
 
 constexpr int kBins = 40;
-constexpr int kLags = 40;           // of the correlation
-constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
+constexpr int kLags = 40;  // of the correlation
 
 struct Abscissa {
   Eigen::VectorXd values;  // [n], kept samples
   std::string label;
 };
 
-Abscissa AbscissaOf(const FitView& view, Against what) {
+Abscissa AbscissaOf(const FitView& view, SeenOver what) {
   switch (what) {
-    case Against::time:
+    case SeenOver::time:
       return {KeptOf(view, view.time) / TimeUnit(view), TimeLabel(view)};
-    case Against::position:
+    case SeenOver::position:
       return {KeptOf(view, view.position), PositionLabel(view)};
-    case Against::velocity:
+    case SeenOver::velocity:
       return {KeptOf(view, view.velocity), SpeedLabel(view)};
-    case Against::energy:
+    case SeenOver::energy:
       return {KeptOf(view, view.energy), TorqueLabel(view, "E")};
-    case Against::motor_angle:
+    case SeenOver::motor_angle:
       return {KeptOf(view, view.motor_angle), "motor angle (rad)"};
   }
   return {};
@@ -61,7 +61,7 @@ std::vector<Eigen::Index> LagsTo(Eigen::Index longest) {
 
 }  // namespace
 
-Plot ResidualsOver(const FitView& view, Against what) {
+Plot ResidualsOver(const FitView& view, SeenOver what) {
   const Abscissa across = AbscissaOf(view, what);
   const Eigen::VectorXd residuals = Residuals(view);
   Plot plot;

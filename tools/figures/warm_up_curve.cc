@@ -1,12 +1,12 @@
 #include <cmath>
 
+#include "identification/uncertainty/tails.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/fit_panels.h"
 
 namespace warmjoint::figures {
 namespace {
 
-constexpr double kNormal95 = 1.96;       // standard deviations of a 95 % interval
 constexpr double kOutermost = 0.01;      // share of the samples, at either end
 constexpr double kThinnestBand = 0.008;  // of the axis: about a line's width
 

@@ -115,23 +115,23 @@ Disagreement MovedBy(double difference) {
   return {0, difference, 9, Eigen::VectorXd::Constant(1, difference)};
 }
 
-TEST(ApplyHausmanTest, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
+TEST(AddStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
   Fit fit = LevelFit();
   const double before = CovarianceOf(fit).covariance(0, 0);
-  fit.unmodelled_residual = {MovedBy(0.2), fit.fitted};
+  AddStructure(MovedBy(0.2), fit.fitted, fit);
   const Inference inference = Infer(fit);
-  EXPECT_TRUE(inference.without_intervals.empty());
+  EXPECT_TRUE(HasIntervals(inference));
   EXPECT_EQ(inference.warnings.size(), 1u);
   EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before + 0.04);
 }
 
-TEST(ApplyHausmanTest, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
+TEST(AddStructure, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
   // J d is 1.55 N.m of 15 everywhere, 10.3 %
   Fit fit = LevelFit();
   const double before = CovarianceOf(fit).covariance(0, 0);
-  fit.unmodelled_residual = {MovedBy(1.55), fit.fitted};
+  AddStructure(MovedBy(1.55), fit.fitted, fit);
   const Inference inference = Infer(fit);
-  EXPECT_FALSE(inference.without_intervals.empty());
+  EXPECT_FALSE(HasIntervals(inference));
   EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before);
 }
 

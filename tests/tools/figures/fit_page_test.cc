@@ -128,9 +128,14 @@ TEST(FrictionSpread, HasTheFrictionsShareOfTheCovariance) {
   Eigen::Matrix3d matrix;
   matrix << 4, 0.5, 1, 0.5, 9, 2, 1, 2, 16;
   warm.estimate.covariance = ParameterCovariance{{"coulomb", "gravity_sine", "viscous"}, matrix};
+  // the interval of coulomb reaches as far as noise has it, that of viscous twice as far
+  for (EstimatedParameter& one : warm.estimate.parameters) {
+    const double half = 1.96 * (one.name == "coulomb" ? 2 : 2 * 4);
+    one.interval95 = {{one.value - half, one.value + half}};
+  }
   const FrictionSpread spread = SpreadOf(warm.estimate);
   ASSERT_EQ(spread.names, (std::vector<std::string>{"coulomb", "viscous"}));
-  EXPECT_EQ(spread.covariance, (Eigen::Matrix2d{{4, 1}, {1, 16}}));
+  EXPECT_TRUE(spread.covariance.isApprox(Eigen::Matrix2d{{4, 2}, {2, 64}}));
 
   // the deviation of F at v = 0.5
   const auto predict = [](const Friction& friction) {

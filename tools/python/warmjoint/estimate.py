@@ -198,16 +198,18 @@ class Estimate:
 
     def _deviation(self, fitted: Friction, *place: npt.ArrayLike) -> Array:
         """Standard deviation of the friction at places: sqrt(d^T C d), d its derivatives by the parameters, C their correlations
-        with the deviations that the estimate gives them."""
+        with deviations as wide as the intervals that the estimate gives them."""
         known = self.data.get("covariance")
         if not known:
             raise Rejected("the estimate has no covariance, so its friction has no band")
-        # intervals may be wider than noise alone makes them
-        names = [name for name in known["parameters"] if name in self.parameters and self.parameters[name].std]
+        # intervals reach as far as the covariance and what was found beside the noise
+        intervals = {name: self.parameters[name].ci95 for name in known["parameters"] if name in self.parameters}
+        half = {name: (ends[1] - ends[0]) / 2 for name, ends in intervals.items() if ends}
+        names = list(half)
         rows = [known["parameters"].index(name) for name in names]
         covariance = np.asarray(known["matrix"], dtype=np.float64)[np.ix_(rows, rows)]
         by_noise = np.sqrt(np.diag(covariance))
-        std = np.array([self.parameters[name].std for name in names])
+        std = np.array(list(half.values())) / 1.96
         covariance = covariance * np.outer(std / by_noise, std / by_noise)
         derivatives = []
         for name, deviation in zip(names, std, strict=True):

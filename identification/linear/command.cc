@@ -1,0 +1,47 @@
+#include "identification/linear/command.h"
+
+#include <fmt/format.h>
+#include <warmjoint/friction.h>
+
+#include <algorithm>
+
+#include "models/friction/asymmetric.h"
+#include "models/friction/asymmetric_stribeck.h"
+
+namespace warmjoint {
+
+IdentifyCommand IdentifyCommand::With(std::string_view key, std::string_view value) const {
+  IdentifyCommand more = *this;
+  more.settings.emplace_back(key, value);
+  return more;
+}
+
+bool IdentifyCommand::Sets(std::string_view key) const {
+  return std::ranges::find(settings, key, &std::pair<std::string, std::string>::first) !=
+         settings.end();
+}
+
+std::string IdentifyCommand::Text() const {
+  std::string text = identifier;
+  for (const auto& [key, value] : settings) text += fmt::format(" --set {}={}", key, value);
+  return text;
+}
+
+bool HasLevelForEachDirection(std::string_view law) {
+  return std::ranges::any_of(FindLaw(law)->parameters, [](const ParameterInfo& info) {
+    return info.name == kCoulombNegativeRow.name;
+  });
+}
+
+IdentifyCommand CurveCommand(std::string_view law, std::string_view warming) {
+  IdentifyCommand command{"stribeck"};
+  if (HasLevelForEachDirection(law)) command = command.With("law", AsymmetricStribeck::name);
+  return warming == "none" ? command : command.With("warming", warming);
+}
+
+IdentifyCommand LinearCommand(std::string_view identifier, std::string_view law) {
+  const IdentifyCommand command{std::string(identifier)};
+  return HasLevelForEachDirection(law) ? command.With("law", Asymmetric::name) : command;
+}
+
+}  // namespace warmjoint
