@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,33 +14,25 @@ namespace warmjoint {
 inline constexpr int kDeepestGroup = 16;
 inline constexpr std::size_t kMostObjects = 10'000;
 
-/// What a file holds under a name, before its values are read.
-struct FileObject {
-  std::string path;  // names of its groups or structs and its own, with '/' or '.' between
-  std::vector<Eigen::Index> shape;  // as the file's own tools show it
-  bool numbers = true;              // an array of real numbers
-  std::string unit{};               // as the file says; empty where it does not
-};
-
-/// The objects of a file, and what it says of itself.
-struct FileTree {
-  std::string joint{};           // "rotary" or "linear"; empty where the file does not say
-  std::optional<double> gear{};  // the same
-  std::vector<FileObject> objects{};
-};
-
 /// One column of an array: its N numbers lie along one dimension, at `index` of the dimension `across`.
 struct ArrayColumn {
   std::size_t along = 0, across = 0;  // the same for a vector, with index 0
   Eigen::Index count = 0, index = 0;
 };
 
-/// Reads the columns that the layout asks for, and these alone. A column's name is the path of a vector (N, N x 1, 1 x N), or
-/// "path[3]" of a matrix, counted from 0. A matrix is N x k or k x N by the length of a vector of the file, else by the larger.
-/// '.' and '/' separate alike, and groups that all arrays lie in may be left out. Throws BadInput where a column is not there,
-/// with all that is, and where `read` gives other than N numbers. place: the file.
-FileContent TakeColumns(
-    const FileTree& tree, const ReadSettings& layout, const Place& place,
-    const std::function<Eigen::VectorXd(const FileObject&, const ArrayColumn&)>& read);
+/// What a file holds under a name, before its values are read.
+struct FileObject {
+  std::string path;  // names of its groups or structs and its own, with '/' or '.' between
+  std::vector<Eigen::Index> shape;  // as the file's own tools show it
+  std::function<Eigen::VectorXd(const ArrayColumn&)>
+      read{};  // [N], or fewer where it is damaged; none where it is no array of real numbers
+  std::string unit{};  // as the file says; empty where it does not
+};
+
+/// Reads the columns that the layout asks for, and these alone, into what the file says of itself. A column's name is the path
+/// of a vector (N, N x 1, 1 x N), or "path[3]" of a matrix, counted from 0. A matrix is N x k or k x N by the length of a vector
+/// of the file, else by the larger. Throws BadInput where a column is not there, with all that is, and where one is damaged.
+FileContent TakeColumns(FileContent content, const std::vector<FileObject>& objects,
+                        const ReadSettings& layout, const Place& place);
 
 }  // namespace warmjoint

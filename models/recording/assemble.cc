@@ -25,15 +25,17 @@ constexpr double kSlow = 2;                        // s, from which milliseconds
 constexpr double kFast =
     30;  // rad/s on average: no joint of a robot turns so fast, in degrees many do
 
-void CheckValues(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
-  // NaN fails the comparison too
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (std::abs(values[i]) <= kLargest) continue;
-    Refuse(
-        raw.At(i),
-        "{} of sample {} is {}; it must be a finite number of size {} at most. Cut the log there "
-        "or repair it",
-        column, i + 1, values[i], kLargest);
+void CheckValues(const RawColumns& raw) {
+  for (const ColumnSource& one : raw.columns) {
+    // NaN fails the comparison too
+    for (Eigen::Index i = 0; i < one.values.size(); ++i) {
+      if (std::abs(one.values[i]) <= kLargest) continue;
+      Refuse(
+          raw.At(i),
+          "{} of sample {} is {}; it must be a finite number of size {} at most. Cut the log there "
+          "or repair it",
+          one.column->name, i + 1, one.values[i], kLargest);
+    }
   }
 }
 
@@ -71,11 +73,7 @@ void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurement
 }
 
 /// Says that a joint turns as one does whose degrees were taken for radians.
-void NoteSpeed(const std::vector<ColumnSource>& sources, Measurements& measurements) {
-  const auto is_assumed = [](const ColumnSource& one) {
-    return one.column->name == "position" && one.unit_from == UnitFrom::usual;
-  };
-  if (measurements.joint != JointKind::rotary || std::ranges::none_of(sources, is_assumed)) return;
+void NoteSpeed(Measurements& measurements) {
   const Eigen::VectorXd &time = measurements.time, &position = measurements.position;
   const Eigen::Index n = time.size();
   const double way = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
@@ -123,12 +121,6 @@ void IntegrateVelocity(Measurements& measurements) {
   measurements.notes.emplace_back(kNoPositions);
 }
 
-/// The factor on a column, 1 where none is given.
-double ScaleOf(const std::string& column, const ReadSettings& layout) {
-  const auto given = layout.scale.find(column);
-  return given == layout.scale.end() ? 1 : given->second;
-}
-
 /// Position without the jumps of a sensor that starts its turn, or its range, again. range: rad or
 /// m; 0: a turn, of a rotary joint.
 void Unwrap(double range, Measurements& measurements) {
@@ -146,42 +138,48 @@ void Unwrap(double range, Measurements& measurements) {
                 : fmt::format("position jumps by a turn {} times; unwrapped", jumps));
 }
 
-/// Keeps the samples for which `keep` holds.
+/// The first source of a column of ours; nullptr where there is none.
+const ColumnSource* SourceOf(const RawColumns& raw, std::string_view name) {
+  const auto found =
+      std::ranges::find(raw.columns, name, [](const auto& one) { return one.column->name; });
+  return found == raw.columns.end() ? nullptr : &*found;
+}
+
+/// Keeps the samples for which `keep` holds: [N].
 void Keep(const std::vector<bool>& keep, RawColumns& raw) {
-  Eigen::Index kept = 0;
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (!keep[i]) continue;
-    for (Eigen::VectorXd& values : raw.values) values[kept] = values[static_cast<Eigen::Index>(i)];
-    if (!raw.line.empty()) raw.line[static_cast<std::size_t>(kept)] = raw.line[i];
-    ++kept;
-  }
-  for (Eigen::VectorXd& values : raw.values) values.conservativeResize(kept);
-  if (!raw.line.empty()) raw.line.resize(static_cast<std::size_t>(kept));
+  const auto keep_in = [&keep](auto& values) {
+    // each behind those that were kept before
+    auto value = values.begin(), next = value;
+    for (const bool kept : keep) {
+      if (kept) *next++ = *value;
+      ++value;
+    }
+    return next - values.begin();
+  };
+  for (ColumnSource& one : raw.columns) one.values.conservativeResize(keep_in(one.values));
+  if (!raw.line.empty()) raw.line.resize(static_cast<std::size_t>(keep_in(raw.line)));
 }
 
 /// Leaves out optional columns that lack more numbers than they have: that loses less than the samples would.
-void LeaveOutColumns(RawColumns& raw, std::vector<ColumnSource>& sources) {
-  for (std::size_t k = sources.size(); k-- > 0;) {
-    const RecordingColumn& column = *sources[k].column;
-    const Eigen::Index lacking = raw.values[k].array().isNaN().count();
-    if (column.required || 2 * lacking <= raw.values[k].size() || lacking == 0) continue;
+void LeaveOutColumns(RawColumns& raw) {
+  std::erase_if(raw.columns, [&](const ColumnSource& one) {
+    const Eigen::Index lacking = one.values.array().isNaN().count();
+    if (one.column->required || 2 * lacking <= one.values.size()) return false;
     raw.notes.push_back(fmt::format("{} is left out: it has no number in {} of {} rows",
-                                    column.name, lacking, raw.values[k].size()));
-    raw.values.erase(raw.values.begin() + static_cast<std::ptrdiff_t>(k));
-    sources.erase(sources.begin() + static_cast<std::ptrdiff_t>(k));
-  }
+                                    one.column->name, lacking, one.values.size()));
+    return true;
+  });
 }
 
 /// Leaves out the samples that lack a number.
-void LeaveOutRows(RawColumns& raw, const std::vector<ColumnSource>& sources) {
-  std::vector<bool> keep(static_cast<std::size_t>(raw.values.front().size()), true);
+void LeaveOutRows(RawColumns& raw) {
+  std::vector<bool> keep(static_cast<std::size_t>(raw.columns.front().values.size()), true);
   std::vector<std::string> lacking;
-  for (std::size_t k = 0; k < raw.values.size(); ++k) {
-    const Eigen::VectorXd& values = raw.values[k];
-    if (!values.array().isNaN().any()) continue;
-    lacking.push_back(sources[k].column->name);
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      if (std::isnan(values[i])) keep[static_cast<std::size_t>(i)] = false;
+  for (const ColumnSource& one : raw.columns) {
+    if (!one.values.array().isNaN().any()) continue;
+    lacking.push_back(one.column->name);
+    for (Eigen::Index i = 0; i < one.values.size(); ++i) {
+      if (std::isnan(one.values[i])) keep[static_cast<std::size_t>(i)] = false;
     }
   }
   if (lacking.empty()) return;
@@ -199,63 +197,62 @@ void LeaveOutRows(RawColumns& raw, const std::vector<ColumnSource>& sources) {
 }
 
 /// Makes the first source the time in s, of a rate or of one or two columns. Whether nobody says its unit.
-bool TakeTime(RawColumns& raw, std::vector<ColumnSource>& sources, const ReadSettings& layout) {
-  ColumnSource& source = sources.front();
-  Eigen::VectorXd& time = raw.values.front();
+bool TakeTime(const ReadSettings& layout, RawColumns& raw) {
+  ColumnSource& first = raw.columns.front();
   bool is_assumed =
-      source.unit_from == UnitFrom::usual && !raw.stamps && !layout.scale.contains("time");
-  const auto to_seconds = [&](const ColumnSource& one) { return raw.stamps ? 1 : one.unit.factor; };
-  time *= to_seconds(source);
-  if (sources[1].is_added) {
-    if (sources[1].unit_from == UnitFrom::usual && !raw.stamps) {
+      first.unit_from == UnitFrom::nobody && !raw.stamps && !layout.scale.contains("time");
+  // stamps were read as s
+  for (ColumnSource& one : raw.columns) {
+    if (one.column == first.column && !raw.stamps) one.values *= one.unit.factor;
+  }
+  first.unit = *MeantUnit("s");
+  if (const auto second = raw.columns.begin() + 1; second->is_added) {
+    if (second->unit_from == UnitFrom::nobody && !raw.stamps) {
       Refuse(
           {raw.file},
           "--map time=A+B: the name of the second column must tell its unit, as nsecs or stamp_ns");
     }
-    time += to_seconds(sources[1]) * raw.values[1];
-    raw.values.erase(raw.values.begin() + 1);
-    sources.erase(sources.begin() + 1);
+    first.values += second->values;
+    raw.columns.erase(second);
     is_assumed = false;
   }
-  if (const auto unit = is_assumed ? EpochUnit(time) : std::nullopt) {
-    time *= unit->factor;
-    if (unit->name != "s") {
-      raw.notes.push_back(fmt::format("time counts {} since 1970 by its size", unit->name));
-    }
-    is_assumed = false;
+  const auto unit = is_assumed ? EpochUnit(first.values) : std::nullopt;
+  if (!unit) return is_assumed;
+  first.values *= unit->factor;
+  if (unit->name != "s") {
+    raw.notes.push_back(fmt::format("time counts {} since 1970 by its size", unit->name));
   }
-  sources.front().unit = FindUnit("s", {"s"}, "time", {raw.file});
-  return is_assumed;
+  return false;
 }
 
 /// Makes time increase where the clock is coarse or made a slip.
 void TakeClock(RawColumns& raw) {
-  const MendedClock mended = MendClock(raw.values[1], raw.stamps, raw.values.front());
+  const ColumnSource* const position = SourceOf(raw, "position");
+  const MendedClock mended = MendClock(position ? position->values : Eigen::VectorXd(), raw.stamps,
+                                       raw.columns.front().values);
   if (!mended.note.empty()) raw.notes.push_back(mended.note);
-  if (mended.left_out.empty()) return;
-  std::vector<bool> keep(static_cast<std::size_t>(raw.values.front().size()), true);
-  for (const Eigen::Index i : mended.left_out) keep[static_cast<std::size_t>(i)] = false;
-  Keep(keep, raw);
+  if (!mended.keep.empty()) Keep(mended.keep, raw);
 }
 
-/// Says which units the file tells: those of a row, and those of names that are not the usual ones.
-void NoteUnits(const std::vector<ColumnSource>& sources, const ReadSettings& layout,
-               RawColumns& raw) {
+/// Says which units the file tells: those that are not the usual ones, and all of a row of units.
+void NoteUnits(const ReadSettings& layout, RawColumns& raw) {
   std::vector<std::string> told;
-  for (const auto& [column, index, unit, from, found_as, is_added] : sources) {
-    const bool is_usual = unit.name == column->Units(layout.joint).front();
-    const bool is_told = from == UnitFrom::given || (from == UnitFrom::name && !is_usual);
-    const bool is_said = layout.unit.contains(column->name) || is_added || !found_as.empty();
-    if (is_told && !is_said) told.push_back(fmt::format("{} {}", column->name, unit.name));
+  for (const ColumnSource& one : raw.columns) {
+    const std::string& name = one.column->name;
+    const bool is_row = one.unit_from == UnitFrom::file && !raw.line.empty();
+    const bool is_usual = one.unit.name == one.column->Units(layout.joint).front();
+    const bool is_said = layout.unit.contains(name) || one.is_added || !one.found_as.empty();
+    if ((is_row || !is_usual) && !is_said)
+      told.push_back(fmt::format("{} {}", name, one.unit.name));
   }
-  if (!told.empty())
+  if (!told.empty()) {
     raw.notes.push_back(fmt::format("units of the file: {}", fmt::join(told, ", ")));
+  }
 }
 
 }  // namespace
 
-Measurements AssembleMeasurements(RawColumns raw, std::vector<ColumnSource> sources,
-                                  const ReadSettings& layout) {
+Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
   // what is known beside the columns
   CheckReadSettings(layout);
   Measurements measurements;
@@ -264,39 +261,36 @@ Measurements AssembleMeasurements(RawColumns raw, std::vector<ColumnSource> sour
   measurements.source = raw.file;
 
   // the samples that have all numbers, and their time
-  NoteUnits(sources, layout, raw);
-  LeaveOutColumns(raw, sources);
+  NoteUnits(layout, raw);
+  LeaveOutColumns(raw);
   if (layout.rate > 0) {
-    const Eigen::Index n = raw.values.front().size();
-    sources.insert(sources.begin(), {&RecordingColumns().front(), 0, {"s", "s"}, UnitFrom::given});
-    raw.values.insert(raw.values.begin(),
-                      Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1)) / layout.rate);
+    const Eigen::Index n = raw.columns.front().values.size();
+    ColumnSource time{.column = &RecordingColumns().front(), .unit_from = UnitFrom::option};
+    time.unit = *MeantUnit("s");
+    time.values = Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1)) / layout.rate;
+    raw.columns.insert(raw.columns.begin(), std::move(time));
   }
-  LeaveOutRows(raw, sources);
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    CheckValues(raw, sources[k].column->name, raw.values[k]);
-  }
-  const bool is_assumed = TakeTime(raw, sources, layout);
+  LeaveOutRows(raw);
+  CheckValues(raw);
+  const bool is_assumed = TakeTime(layout, raw);
   TakeClock(raw);
 
   // to SI
   double range = 0;  // after which the position sensor starts again, rad or m
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    const ColumnSource& source = sources[k];
-    const RecordingColumn* const column = source.column;
-    const Unit& unit = source.unit;
-    Eigen::VectorXd values = std::move(raw.values[k]);
-    const double scale = ScaleOf(column->name, layout);
-    if (unit.factor != 1 || unit.offset != 0 || scale != 1) {
-      values = unit.factor * scale * values.array() + unit.offset;
+  for (ColumnSource& one : raw.columns) {
+    const std::string& name = one.column->name;
+    const auto scale = layout.scale.find(name);
+    const double factor = one.unit.factor * (scale == layout.scale.end() ? 1 : scale->second);
+    if (factor != 1 || one.unit.offset != 0) {
+      one.values = factor * one.values.array() + one.unit.offset;
     }
     // the range of the sensor, in the unit of the position
-    if (column->name == "position") range = std::abs(unit.factor * scale) * layout.wrap;
-    if (column->name == "torque") measurements.torque_unit = unit.base;
-    column->set(measurements, std::move(values));
-    if (!source.found_as.empty()) {
+    if (name == "position") range = std::abs(factor) * layout.wrap;
+    if (name == "torque") measurements.torque_unit = one.unit.base;
+    one.column->set(measurements, std::move(one.values));
+    if (!one.found_as.empty()) {
       measurements.notes.push_back(
-          fmt::format("{} from the column '{}'", column->name, Excerpt(source.found_as)));
+          fmt::format("{} from the column '{}'", name, Excerpt(one.found_as)));
     }
   }
 
@@ -308,47 +302,34 @@ Measurements AssembleMeasurements(RawColumns raw, std::vector<ColumnSource> sour
   }
   if (measurements.position.size() == 0) {
     IntegrateVelocity(measurements);
-  } else {
-    Unwrap(range, measurements);
-    NoteSpeed(sources, measurements);
+    return measurements;
   }
+  Unwrap(range, measurements);
+  const bool is_usual = SourceOf(raw, "position")->unit_from == UnitFrom::nobody;
+  if (is_usual && layout.joint == JointKind::rotary) NoteSpeed(measurements);
   return measurements;
 }
 
-std::vector<std::string> NamesOf(const FileContent& content) {
-  std::vector<std::string> names;
-  for (const FileColumn& column : content.columns) names.push_back(column.name);
-  return names;
-}
-
-ReadSettings WithAttributes(ReadSettings layout, const FileContent& content, const Place& place) {
-  // what the file says of itself, where nobody says otherwise
+ReadSettings WithJointOf(const FileContent& content, ReadSettings layout) {
   if (content.joint == "linear") layout.joint = JointKind::linear;
   if (layout.gear == 1 && content.gear) layout.gear = *content.gear;
-  const std::vector<std::string> names = NamesOf(content);
-  for (const RecordingColumn& column : RecordingColumns()) {
-    const std::size_t found = FindColumn(column, names, layout, place);
-    if (found == names.size() || content.columns[found].unit.empty()) continue;
-    layout.unit.emplace(column.name, content.columns[found].unit);
-  }
   return layout;
 }
 
-Measurements AssembleContent(const FileContent& content, const std::string& path,
+Measurements AssembleContent(FileContent content, const std::string& path,
                              const ReadSettings& given) {
-  const ReadSettings layout = WithAttributes(given, content);
-  const std::vector<ColumnSource> sources = FindColumns(NamesOf(content), layout, {path});
+  const ReadSettings layout = WithJointOf(content, given);
   // the columns that are asked for, all of one length
-  RawColumns raw;
-  raw.file = path;
-  for (const ColumnSource& source : sources) {
-    raw.values.push_back(content.columns[source.index].values);
-    if (raw.values.back().size() == raw.values.front().size()) continue;
-    Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length",
-           content.columns[source.index].name, raw.values.back().size(),
-           content.columns[sources.front().index].name, raw.values.front().size());
+  RawColumns raw{path, FindColumns(content.columns, layout, {path})};
+  const auto& first = content.columns[raw.columns.front().index];
+  for (ColumnSource& one : raw.columns) {
+    const auto& [name, unit, values] = content.columns[one.index];
+    one.values = values;
+    if (values.size() == first.values.size()) continue;
+    Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length", name,
+           values.size(), first.name, first.values.size());
   }
-  return AssembleMeasurements(std::move(raw), sources, layout);
+  return AssembleMeasurements(std::move(raw), layout);
 }
 
 }  // namespace warmjoint

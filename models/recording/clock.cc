@@ -166,7 +166,6 @@ std::optional<Unit> EpochUnit(const Eigen::VectorXd& time) {
 
 MendedClock MendClock(const Eigen::VectorXd& position, bool is_stamp, Eigen::VectorXd& time) {
   const Eigen::Index n = time.size();
-  MendedClock mended;
   // a time of day begins again at midnight
   double midnight = 0;  // s
   for (Eigen::Index i = 1; is_stamp && i < n; ++i) {
@@ -174,29 +173,28 @@ MendedClock MendClock(const Eigen::VectorXd& position, bool is_stamp, Eigen::Vec
     if (back < -kDay / 2 && back > -kDay) midnight += kDay;
     time[i] += midnight;
   }
-  if (n < 2 || (time.tail(n - 1).array() > time.head(n - 1).array()).all()) return mended;
+  if (n < 2 || (time.tail(n - 1).array() > time.head(n - 1).array()).all()) return {};
 
   // samples that are no later than one before them
-  Eigen::Index repeats = 0;
+  Eigen::Index repeats = 0, late = 0;
   double latest = time[0];
+  std::vector<bool> keep(static_cast<std::size_t>(n), true);
   for (Eigen::Index i = 1; i < n; ++i) {
     repeats += time[i] == time[i - 1];
-    if (time[i] <= latest) mended.left_out.push_back(i);
+    late += time[i] <= latest;
+    keep[static_cast<std::size_t>(i)] = time[i] > latest;
     latest = std::max(latest, time[i]);
   }
-  const auto late = static_cast<Eigen::Index>(mended.left_out.size());
   if (late <= n / kFewInAll) {
-    mended.note = fmt::format(
-        "{} samples whose time is not after that of the sample before are left out", late);
-    return mended;
+    return {std::move(keep),
+            fmt::format("{} samples whose time is not after that of the sample before are left out",
+                        late)};
   }
-  mended.left_out.clear();
 
   // many that repeat, and none that steps back: ticks
   const std::vector<Eigen::Index> begin = TicksOf(time);
   const bool ticks = late == repeats && begin.size() > kFewestTicks && !AreSeveral(position, begin);
-  if (ticks) mended.note = SpreadTicks(begin, time);
-  return mended;
+  return {{}, ticks ? SpreadTicks(begin, time) : ""};
 }
 
 }  // namespace warmjoint

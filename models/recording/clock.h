@@ -22,8 +22,8 @@ std::optional<Unit> EpochUnit(const Eigen::VectorXd& time);
 
 /// What was made of a clock.
 struct MendedClock {
-  std::vector<Eigen::Index>
-      left_out;      // samples whose stamp is that of the one before, or earlier; few
+  std::vector<bool>
+      keep;  // [N] false for few samples whose stamp is that of the one before, or earlier; empty: all
   std::string note;  // what was done; empty where nothing was
 };
 

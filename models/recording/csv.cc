@@ -28,70 +28,50 @@ namespace {
          has_comma ? "; write decimals with a point and thousands without a mark" : "");
 }
 
-/// Reads rows into columns.
+/// Reads rows into the sources of `raw`.
 class TableReader {
  public:
-  TableReader(const TableFormat& table, const std::string& file,
-              const std::vector<ColumnSource>& sources)
-      : table_(table),
-        file_(file),
-        sources_(sources),
-        times_(static_cast<std::size_t>(std::ranges::count_if(
-            sources, [](const ColumnSource& one) { return one.column->name == "time"; }))) {}
+  TableReader(const TableFormat& table, RawColumns& raw) : table_(table), raw_(raw) {}
 
-  /// The numbers of the sources, NaN where a field holds none; other columns may hold anything. Leaves out headers that stand
-  /// again among the rows, and a last row that was cut. Throws BadInput for other rows that lack fields or have too many, and
-  /// for text in a number.
-  RawColumns Read(std::string_view rows);
+  /// NaN where a field holds no number; other columns may hold anything. Leaves out headers that stand again among the rows,
+  /// and a last row that was cut. Throws BadInput for other rows that lack fields or have too many, and for text in a number.
+  void Read(std::string_view rows);
 
  private:
-  /// Reads the fields of one row into sample `sample`; the source whose field holds no number, or -1.
-  std::ptrdiff_t ReadRow(Eigen::Index sample, RawColumns& raw);
+  /// Reads the fields of one row into sample `sample`; the source whose field holds no number, or nullptr.
+  const ColumnSource* ReadRow(Eigen::Index sample);
 
-  [[noreturn]] void RefuseRow(int line, std::size_t count, std::ptrdiff_t bad) const;
-
+  const RecordingColumn* const time_ = &RecordingColumns().front();
   const TableFormat& table_;
-  const std::string& file_;
-  const std::vector<ColumnSource>& sources_;
-  const std::size_t times_;       // of the sources, which come first
-  std::optional<bool> in_words_;  // whether they are stamps, once one was read
+  RawColumns& raw_;
+  std::optional<bool> in_words_;  // whether times are stamps, once one was read
   std::vector<std::string_view> fields_;
 };
 
-std::ptrdiff_t TableReader::ReadRow(Eigen::Index sample, RawColumns& raw) {
-  for (std::size_t k = 0; k < sources_.size(); ++k) {
-    const std::string_view field = fields_[sources_[k].index];
+const ColumnSource* TableReader::ReadRow(Eigen::Index sample) {
+  for (ColumnSource& source : raw_.columns) {
+    const std::string_view field = fields_[source.index];
     std::optional<double> value = ReadCell(field, table_.decimal_mark);
-    if (k < times_ && !(value && std::isnan(*value))) {
+    if (source.column == time_ && !(value && std::isnan(*value))) {
       // stamps in words are no numbers, all of them or none
       const bool is_stamp = !value;
       if (is_stamp) value = ReadStamp(field);
       if (in_words_.value_or(is_stamp) != is_stamp) value.reset();
       if (value) in_words_ = is_stamp;
     }
-    if (!value) return static_cast<std::ptrdiff_t>(k);
-    raw.values[k][sample] = *value;
+    if (!value) return &source;
+    source.values[sample] = *value;
   }
-  return -1;
+  return nullptr;
 }
 
-void TableReader::RefuseRow(int line, std::size_t count, std::ptrdiff_t bad) const {
-  if (bad < 0) {
-    Refuse({file_, line}, "has {} fields where the {} {}; complete or drop the row", count,
-           table_.header_line > 0 ? "header has" : "rows before have", table_.columns);
-  }
-  const ColumnSource& source = sources_[static_cast<std::size_t>(bad)];
-  RefuseText({file_, line}, source, table_.names[source.index], fields_[source.index]);
-}
-
-RawColumns TableReader::Read(std::string_view rows) {
+void TableReader::Read(std::string_view rows) {
   // a row has a separator or an end for each field, and digits for each that is read: blank lines take no room
   const auto lines = static_cast<std::size_t>(1 + std::count(rows.begin(), rows.end(), '\n'));
-  const std::size_t most = std::min(lines, 1 + rows.size() / (table_.columns + sources_.size()));
-  RawColumns raw;
-  raw.file = file_;
-  raw.values.assign(sources_.size(), Eigen::VectorXd(static_cast<Eigen::Index>(most)));
-  raw.line.reserve(most);
+  const auto most = static_cast<Eigen::Index>(
+      std::min(lines, 1 + rows.size() / (table_.columns + raw_.columns.size())));
+  for (ColumnSource& source : raw_.columns) source.values.resize(most);
+  raw_.line.reserve(static_cast<std::size_t>(most));
 
   // one sample for each row
   int repeated = 0;  // headers among the rows
@@ -103,30 +83,32 @@ RawColumns TableReader::Read(std::string_view rows) {
     const bool has_more = count == table_.columns + 1 && fields_.back().empty();
     const bool has_less = count + 1 == table_.columns && table_.names.back().empty();
     const bool fits = count == table_.columns || has_more || has_less;
-    const auto sample = static_cast<Eigen::Index>(raw.line.size());
-    const std::ptrdiff_t bad = fits ? ReadRow(sample, raw) : -1;
-    if (fits && bad < 0) {
-      raw.line.push_back(line);
+    const auto sample = static_cast<Eigen::Index>(raw_.line.size());
+    const ColumnSource* const bad = fits ? ReadRow(sample) : nullptr;
+    if (fits && !bad) {
+      raw_.line.push_back(line);
     } else if (row == table_.header) {
       ++repeated;
-    } else if (raw.line.empty() ||
-               rows.find_first_not_of(std::string_view(" \t\r\n\0", 5)) != std::string_view::npos) {
-      RefuseRow(line, count, bad);
-    } else {
-      raw.notes.push_back(fmt::format("line {}, the last, is no whole row and is left out", line));
+    } else if (sample > 0 &&
+               rows.find_first_not_of(std::string_view(" \t\r\n\0", 5)) == std::string_view::npos) {
+      raw_.notes.push_back(fmt::format("line {}, the last, is no whole row and is left out", line));
       break;
+    } else if (bad) {
+      RefuseText({raw_.file, line}, *bad, table_.names[bad->index], fields_[bad->index]);
+    } else {
+      Refuse({raw_.file, line}, "has {} fields where the {} {}; complete or drop the row", count,
+             table_.header_line > 0 ? "header has" : "rows before have", table_.columns);
     }
   }
   if (repeated > 0) {
-    raw.notes.push_back(fmt::format("{} more headers among the rows are left out", repeated));
+    raw_.notes.push_back(fmt::format("{} more headers among the rows are left out", repeated));
   }
 
-  raw.stamps = in_words_.value_or(false);
+  raw_.stamps = in_words_.value_or(false);
   // no longer than the rows that were there
-  for (Eigen::VectorXd& values : raw.values) {
-    values.conservativeResize(static_cast<Eigen::Index>(raw.line.size()));
+  for (ColumnSource& source : raw_.columns) {
+    source.values.conservativeResize(static_cast<Eigen::Index>(raw_.line.size()));
   }
-  return raw;
 }
 
 /// The names that are given, one for each column.
@@ -151,17 +133,13 @@ Measurements ParseCsv(std::string_view text, const std::string& name, const Read
   TableFormat table = FindTable(text, name, !layout.columns.empty());
   TakeNames(layout.columns, name, table);
 
-  // a row of units says what --unit does not
-  FileContent content;
-  for (std::size_t k = 0; k < table.names.size(); ++k) {
-    content.columns.push_back({table.names[k], table.units.empty() ? "" : table.units[k], {}});
-  }
-  const Place header{name, std::max(1, table.header_line)};
-  const ReadSettings completed = WithAttributes(layout, content, header);
-  const std::vector<ColumnSource> sources = FindColumns(table.names, completed, header);
+  std::vector<FileColumn> columns;
+  for (const std::string& column : table.names) columns.push_back({column});
+  for (std::size_t k = 0; k < table.units.size(); ++k) columns[k].unit = table.units[k];
 
-  return AssembleMeasurements(TableReader(table, name, sources).Read(text.substr(table.data)),
-                              sources, layout);
+  RawColumns raw{name, FindColumns(columns, layout, {name, std::max(1, table.header_line)})};
+  TableReader(table, raw).Read(text.substr(table.data));
+  return AssembleMeasurements(std::move(raw), layout);
 }
 
 std::string RecordingToCsv(const Measurements& measurements) {

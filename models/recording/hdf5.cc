@@ -78,42 +78,13 @@ std::string ReadTextAttribute(const H5::H5Object& object, const std::string& nam
   return value.substr(0, value.find('\0'));
 }
 
-/// Adds a dataset of numbers, or one that tools/convert reads.
-void AddDataSet(const H5::DataSet& data, const std::string& path, FileTree& tree) {
-  const H5T_class_t type = data.getTypeClass();
-  const bool numbers = type == H5T_FLOAT || type == H5T_INTEGER;
-  if (!numbers && type != H5T_COMPOUND && type != H5T_REFERENCE) return;
-  std::vector<hsize_t> shape(static_cast<std::size_t>(data.getSpace().getSimpleExtentNdims()));
-  if (shape.empty()) return;
-  data.getSpace().getSimpleExtentDims(shape.data());
-  tree.objects.push_back(
-      {path, {shape.begin(), shape.end()}, numbers, ReadTextAttribute(data, "unit")});
-}
-
-/// Adds what a group holds, groups in it included. left: objects that may still be looked at.
-void AddGroup(const H5::Group& group, const std::string& path, int depth, std::size_t& left,
-              FileTree& tree) {
-  for (hsize_t i = 0; i < group.getNumObjs() && left > 0; ++i, --left) {
-    const std::string name = group.getObjnameByIdx(i);
-    // a link to what is not there is no reason to refuse the rest
-    try {
-      const H5O_type_t type = group.childObjType(name);
-      if (type == H5O_TYPE_DATASET) AddDataSet(group.openDataSet(name), path + name, tree);
-      if (type != H5O_TYPE_GROUP || depth == kDeepestGroup) continue;
-      AddGroup(group.openGroup(name), path + name + "/", depth + 1, left, tree);
-    } catch (const H5::Exception&) {
-      continue;
-    }
-  }
-}
-
 /// One column, without the rest of its array.
-Eigen::VectorXd ReadValues(const H5::DataSet& data, const FileObject& array,
-                           const ArrayColumn& column) {
-  std::vector<hsize_t> start(array.shape.size(), 0), count(array.shape.size(), 1);
+Eigen::VectorXd ReadValues(const H5::DataSet& data, const ArrayColumn& column) {
+  H5::DataSpace space = data.getSpace();
+  const auto rank = static_cast<std::size_t>(space.getSimpleExtentNdims());
+  std::vector<hsize_t> start(rank, 0), count(rank, 1);
   start[column.across] = static_cast<hsize_t>(column.index);
   count[column.along] = static_cast<hsize_t>(column.count);
-  H5::DataSpace space = data.getSpace();
   space.selectHyperslab(H5S_SELECT_SET, count.data(), start.data());
   Eigen::VectorXd values(column.count);
   data.read(values.data(), H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &count[column.along]),
@@ -121,21 +92,36 @@ Eigen::VectorXd ReadValues(const H5::DataSet& data, const FileObject& array,
   return values;
 }
 
-FileContent ReadColumns(const std::string& path, const ReadSettings& layout) {
-  const H5::H5File file(path, H5F_ACC_RDONLY);
-  const H5::Group root = file.openGroup("/");
-  // what the file says of itself, without any values yet
-  FileTree tree;
-  tree.joint = ReadTextAttribute(root, "joint");
-  if (root.attrExists("gear")) {
-    tree.gear.emplace();
-    root.openAttribute("gear").read(H5::PredType::NATIVE_DOUBLE, &*tree.gear);
+/// Adds a dataset of numbers, or one that tools/convert reads.
+void AddDataSet(const H5::DataSet& data, const std::string& path,
+                std::vector<FileObject>& objects) {
+  const H5T_class_t type = data.getTypeClass();
+  const bool numbers = type == H5T_FLOAT || type == H5T_INTEGER;
+  if (!numbers && type != H5T_COMPOUND && type != H5T_REFERENCE) return;
+  std::vector<hsize_t> shape(static_cast<std::size_t>(data.getSpace().getSimpleExtentNdims()));
+  if (shape.empty()) return;
+  data.getSpace().getSimpleExtentDims(shape.data());
+  objects.push_back({path, {shape.begin(), shape.end()}});
+  if (!numbers) return;
+  objects.back().read = [data](const ArrayColumn& column) { return ReadValues(data, column); };
+  objects.back().unit = ReadTextAttribute(data, "unit");
+}
+
+/// Adds what a group holds, groups in it included. left: objects that may still be looked at.
+void AddGroup(const H5::Group& group, const std::string& path, int depth, std::size_t& left,
+              std::vector<FileObject>& objects) {
+  for (hsize_t i = 0; i < group.getNumObjs() && left > 0; ++i, --left) {
+    const std::string name = group.getObjnameByIdx(i);
+    // a link to what is not there is no reason to refuse the rest
+    try {
+      const H5O_type_t type = group.childObjType(name);
+      if (type == H5O_TYPE_DATASET) AddDataSet(group.openDataSet(name), path + name, objects);
+      if (type != H5O_TYPE_GROUP || depth == kDeepestGroup) continue;
+      AddGroup(group.openGroup(name), path + name + "/", depth + 1, left, objects);
+    } catch (const H5::Exception&) {
+      continue;
+    }
   }
-  std::size_t left = kMostObjects;
-  AddGroup(root, "", 0, left, tree);
-  return TakeColumns(tree, layout, {path}, [&](const FileObject& array, const ArrayColumn& column) {
-    return ReadValues(root.openDataSet(array.path), array, column);
-  });
 }
 
 }  // namespace
@@ -143,7 +129,17 @@ FileContent ReadColumns(const std::string& path, const ReadSettings& layout) {
 FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout) {
   H5::Exception::dontPrint();
   try {
-    return ReadColumns(path, layout);
+    const H5::H5File file(path, H5F_ACC_RDONLY);
+    const H5::Group root = file.openGroup("/");
+    // what the file says of itself, without any values yet
+    FileContent content{.joint = ReadTextAttribute(root, "joint")};
+    if (root.attrExists("gear")) {
+      root.openAttribute("gear").read(H5::PredType::NATIVE_DOUBLE, &content.gear.emplace());
+    }
+    std::vector<FileObject> objects;
+    std::size_t left = kMostObjects;
+    AddGroup(root, "", 0, left, objects);
+    return TakeColumns(std::move(content), objects, layout, {path});
   } catch (const H5::Exception& error) {
     Refuse({path}, "cannot be read as HDF5: {}", Excerpt(error.getDetailMsg(), kLongestComplaint));
   }

@@ -7,7 +7,8 @@
 #include <functional>
 #include <memory>
 #include <numeric>
-#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "models/foundation/bad_input.h"
 #include "models/recording/arrays.h"
@@ -64,8 +65,13 @@ Eigen::VectorXd Numbers(const matvar_t& variable, Eigen::Index first, Eigen::Ind
       .template cast<double>();
 }
 
-/// One column of a variable that was read, whose first dimension runs fastest; empty where the library read less or
-/// other than it stated.
+/// By the type that the file has, in the order of the library's classes from MAT_C_DOUBLE on.
+constexpr decltype(&Numbers<double>) kNumbers[]{
+    Numbers<double>,       Numbers<float>,         Numbers<std::int8_t>,  Numbers<std::uint8_t>,
+    Numbers<std::int16_t>, Numbers<std::uint16_t>, Numbers<std::int32_t>, Numbers<std::uint32_t>,
+    Numbers<std::int64_t>, Numbers<std::uint64_t>};
+
+/// One column of a variable of numbers, whose first dimension runs fastest; empty where the file holds less than it states.
 Eigen::VectorXd ValuesOf(const matvar_t& variable, const ArrayColumn& column) {
   const std::size_t all = CountOf(variable);
   const auto size = static_cast<std::size_t>(std::max(variable.data_size, 0));
@@ -76,35 +82,11 @@ Eigen::VectorXd ValuesOf(const matvar_t& variable, const ArrayColumn& column) {
                                                      std::size_t{1}, std::multiplies<>()));
   };
   const auto rank = static_cast<std::size_t>(variable.rank);
-  if (column.along >= rank || column.across >= rank) return {};
+  if (column.along >= rank || column.across >= rank || !IsNumber(variable)) return {};
   const Eigen::Index step = distance(column.along), first = column.index * distance(column.across);
   const Eigen::Index count = column.count;
   if (count < 1 || first + (count - 1) * step >= static_cast<Eigen::Index>(all)) return {};
-  // by the type that the file has
-  switch (variable.class_type) {
-    case MAT_C_DOUBLE:
-      return Numbers<double>(variable, first, step, count);
-    case MAT_C_SINGLE:
-      return Numbers<float>(variable, first, step, count);
-    case MAT_C_INT8:
-      return Numbers<std::int8_t>(variable, first, step, count);
-    case MAT_C_UINT8:
-      return Numbers<std::uint8_t>(variable, first, step, count);
-    case MAT_C_INT16:
-      return Numbers<std::int16_t>(variable, first, step, count);
-    case MAT_C_UINT16:
-      return Numbers<std::uint16_t>(variable, first, step, count);
-    case MAT_C_INT32:
-      return Numbers<std::int32_t>(variable, first, step, count);
-    case MAT_C_UINT32:
-      return Numbers<std::uint32_t>(variable, first, step, count);
-    case MAT_C_INT64:
-      return Numbers<std::int64_t>(variable, first, step, count);
-    case MAT_C_UINT64:
-      return Numbers<std::uint64_t>(variable, first, step, count);
-    default:
-      return {};
-  }
+  return kNumbers[variable.class_type - MAT_C_DOUBLE](variable, first, step, count);
 }
 
 /// A text of plain characters; empty where it is none.
@@ -123,54 +105,36 @@ std::string TextOf(const matvar_t& variable) {
   return text;
 }
 
-/// Adds a variable, and the fields of structs in it, but no texts and scalars.
-void AddVariable(matvar_t& variable, const std::string& path, int depth, FileTree& tree) {
-  if (tree.objects.size() >= kMostObjects || depth > kDeepestGroup) return;
+/// Adds a variable, and the fields of structs in it, but no texts and scalars. read: reads all of it.
+void AddVariable(matvar_t& variable, const std::string& path, int depth,
+                 const std::function<void()>& read, std::vector<FileObject>& objects) {
+  if (objects.size() >= kMostObjects || depth > kDeepestGroup) return;
   if (IsStruct(variable)) {
     ForEachField(variable, [&](const std::string& field, matvar_t& value) {
-      AddVariable(value, path + "." + field, depth + 1, tree);
+      AddVariable(value, path + "." + field, depth + 1, read, objects);
     });
     return;
   }
   const bool numbers = IsNumber(variable);
   if (variable.class_type == MAT_C_CHAR || (numbers && CountOf(variable) < 2)) return;
   const auto* dims = variable.dims;
-  tree.objects.push_back({path, {dims, dims + (dims ? variable.rank : 0)}, numbers});
+  objects.push_back({path, {dims, dims + (dims ? variable.rank : 0)}});
+  if (!numbers) return;
+  objects.back().read = [&variable, read](const ArrayColumn& column) {
+    if (!variable.data) read();
+    return ValuesOf(variable, column);
+  };
 }
 
-/// joint, gear and units, as far as the file holds them.
-void ReadAttributes(mat_t* file, FileTree& tree) {
-  if (const Variable joint{Mat_VarRead(file, "joint")}) tree.joint = TextOf(*joint);
-  const Variable gear{Mat_VarRead(file, "gear")};
-  if (gear && IsNumber(*gear) && CountOf(*gear) == 1) {
-    const Eigen::VectorXd values = ValuesOf(*gear, {.count = 1});
-    if (values.size() == 1) tree.gear = values[0];
-  }
-  // units by the last names of paths
+/// Takes units by the last names of paths.
+void TakeUnits(mat_t* file, std::vector<FileObject>& objects) {
   const Variable units{Mat_VarRead(file, "unit")};
   if (!units || !IsStruct(*units)) return;
   ForEachField(*units, [&](const std::string& name, const matvar_t& value) {
-    for (FileObject& object : tree.objects) {
+    for (FileObject& object : objects) {
       if (object.path.substr(object.path.rfind('.') + 1) == name) object.unit = TextOf(value);
     }
   });
-}
-
-/// The column of the variable or field of a path; empty where that is not as it was.
-Eigen::VectorXd ReadColumn(mat_t* file, const FileObject& array, const ArrayColumn& column) {
-  std::string_view rest = array.path;
-  const auto take = [&rest] {
-    const std::string_view name = rest.substr(0, rest.find('.'));
-    rest.remove_prefix(std::min(rest.size(), name.size() + 1));
-    return std::string(name);
-  };
-  const Variable variable{Mat_VarRead(file, take().c_str())};
-  matvar_t* found = variable.get();
-  // field by field
-  while (found && !rest.empty()) {
-    found = IsStruct(*found) ? Mat_VarGetStructFieldByName(found, take().c_str(), 0) : nullptr;
-  }
-  return found && IsNumber(*found) ? ValuesOf(*found, column) : Eigen::VectorXd();
 }
 
 }  // namespace
@@ -181,14 +145,24 @@ FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layou
     Refuse({path}, "cannot be read as a MATLAB file: it is damaged, or of another format");
   }
   // what the file holds, without any values yet
-  FileTree tree;
-  while (const Variable variable{Mat_VarReadNextInfo(file.get())}) {
-    if (variable->name) AddVariable(*variable, variable->name, 0, tree);
+  std::vector<Variable> variables;
+  std::vector<FileObject> objects;
+  while (Variable variable{Mat_VarReadNextInfo(file.get())}) {
+    variables.push_back(std::move(variable));
+    matvar_t& kept = *variables.back();
+    const auto read = [&file, &kept] { Mat_VarReadDataAll(file.get(), &kept); };
+    if (kept.name) AddVariable(kept, kept.name, 0, read, objects);
   }
-  ReadAttributes(file.get(), tree);
-  return TakeColumns(tree, layout, {path}, [&](const FileObject& array, const ArrayColumn& column) {
-    return ReadColumn(file.get(), array, column);
-  });
+  TakeUnits(file.get(), objects);
+  // what it says of itself
+  FileContent content;
+  if (const Variable joint{Mat_VarRead(file.get(), "joint")}) content.joint = TextOf(*joint);
+  const Variable gear{Mat_VarRead(file.get(), "gear")};
+  if (gear && CountOf(*gear) == 1) {
+    const Eigen::VectorXd values = ValuesOf(*gear, {.count = 1});
+    if (values.size() == 1) content.gear = values[0];
+  }
+  return TakeColumns(std::move(content), objects, layout, {path});
 }
 
 }  // namespace warmjoint

@@ -97,7 +97,7 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
                                Eigen::Map<const Eigen::VectorXd>(
                                    values.data(), static_cast<Eigen::Index>(values.size()))});
   }
-  Measurements made = AssembleContent(content, name, settings);
+  Measurements made = AssembleContent(std::move(content), name, settings);
   TakeTorqueConstant(settings.torque_constant, made);
   return made;
 }

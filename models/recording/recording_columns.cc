@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "models/foundation/excerpt.h"
@@ -20,6 +20,18 @@ using Values = Eigen::VectorXd;
 
 constexpr const char* kTemperature = "temperature";
 constexpr const char* kPosition = "position";
+
+/// Parts of the names that foreign files give to columns, in lower case, the likeliest first.
+const std::map<std::string, std::vector<std::string>> kHints{
+    {"time", {"time", "stamp", "zeit", "duration", "x_value", "t"}},
+    {"position", {"pos", "angle", "winkel", "q", "theta"}},
+    {"velocity", {"vel", "speed", "drehzahl", "geschwindigkeit", "qd", "dq"}},
+    {"torque",
+     {"torque", "tau", "force", "effort", "moment", "current", "strom", "trq", "load", "i"}},
+    {"motor_position", {"motor"}},
+    {"load", {"load"}},
+    {"temperature", {"temp"}},
+};
 
 template <auto member>
 const Values* Get(const Measurements& measurements) {
@@ -61,8 +73,8 @@ void CheckNames(const Columns& given, std::string_view option, const Place& plac
 /// A name in the file that looks like `column`.
 std::optional<std::string> LikelyName(const RecordingColumn& column,
                                       const std::vector<std::string>& names) {
-  // hints from the likeliest on, of which the first that fits counts
-  for (const std::string& hint : column.other_names) {
+  // the first hint that fits counts
+  for (const std::string& hint : kHints.at(column.name)) {
     for (const std::string& name : names) {
       const std::string lower = Lowercase(name);
       const bool is_letter = hint.size() == 1;  // "t" fits t, t_s, t [s], but not torque
@@ -96,19 +108,60 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
          lacks(kPosition) ? "; where only a velocity was logged, --map position=" : "");
 }
 
-/// Index of `theirs`, or the number of names where it is not there.
-std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& names,
-                    const Place& place) {
-  const auto found = std::find(names.begin(), names.end(), theirs);
-  if (found != names.end() && std::find(found + 1, names.end(), theirs) != names.end()) {
-    Refuse(place, "has column '{}' twice; rename one", Excerpt(theirs));
+/// Length of the groups that all of several columns lie in, with their separators.
+std::size_t LengthOfGroups(const std::vector<FileColumn>& columns) {
+  std::string common = columns.size() < 2 ? "" : columns.front().name;
+  for (const FileColumn& one : columns) {
+    // as far as both are alike, and no further than a group
+    common.erase(std::ranges::mismatch(common, one.name).in1, common.end());
+    common.erase(common.find_last_of("./") + 1);
   }
-  return static_cast<std::size_t>(found - names.begin());
+  return common.size();
 }
 
-/// Name and unit of a temperature; no unit where the name tells none. K may be anything, as F and C: the rest must speak of a temperature.
-NameAndUnit SplitTemperature(const std::string& name) {
-  NameAndUnit split = SplitUnit(name, {"degC"});
+/// A name whose separators are dots.
+std::string Plain(std::string name) {
+  std::ranges::replace(name, '/', '.');
+  return name.starts_with('.') ? name.substr(1) : name;
+}
+
+/// What is searched for our columns.
+struct Header {
+  const std::vector<FileColumn>& columns;
+  const ReadSettings& layout;
+  const Place& place;
+  std::vector<std::string> names{};  // of the columns, without groups that all lie in
+};
+
+/// Indices of the columns for which `fits` holds.
+template <typename Fits>
+std::vector<std::size_t> Where(const Header& header, Fits&& fits) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < header.names.size(); ++i) {
+    if (fits(i)) found.push_back(i);
+  }
+  return found;
+}
+
+/// The column that a user calls so, or none.
+std::vector<std::size_t> Named(const Header& header, const std::string& name) {
+  const auto& [columns, layout, place, names] = header;
+  const auto exact =
+      Where(header, [&](std::size_t i) { return names[i] == name || columns[i].name == name; });
+  if (exact.size() > 1) Refuse(place, "has column '{}' twice; rename one", Excerpt(name));
+  if (exact.size() == 1) return exact;
+  const std::string plain = Plain(name);
+  const auto alike = Where(header, [&](std::size_t i) {
+    return Plain(names[i]) == plain || Plain(columns[i].name) == plain;
+  });
+  return alike.size() == 1 ? alike : exact;
+}
+
+/// Name and unit of a file's column that is one of ours.
+NameAndUnit Split(const RecordingColumn& column, const std::string& name, JointKind joint) {
+  NameAndUnit split = SplitUnit(name, column.Units(joint));
+  if (column.name != kTemperature) return split;
+  // K may be anything, as F and C: the rest must speak of a temperature
   const std::string stem = Lowercase(split.stem);
   const bool speaks = stem.find("temp") != std::string::npos || stem == "t" ||
                       stem.starts_with("t_") || stem.starts_with("t ");
@@ -118,118 +171,100 @@ NameAndUnit SplitTemperature(const std::string& name) {
   return split;
 }
 
-/// Name and unit of a file's column that is one of ours.
-NameAndUnit Split(const RecordingColumn& column, const std::string& name, JointKind joint) {
-  return column.name == kTemperature ? SplitTemperature(name)
-                                     : SplitUnit(name, column.Units(joint));
+/// The column that `map` says; two whose sum is the time, as time=secs+nsecs; none for an empty name.
+std::vector<std::size_t> FindMapped(const Header& header, const std::string& column,
+                                    const std::string& theirs) {
+  if (theirs.empty()) return {};
+  std::vector<std::size_t> found = Named(header, theirs);
+  for (std::size_t plus = 0; found.empty() && column == "time"; ++plus) {
+    plus = theirs.find('+', plus);
+    if (plus == std::string::npos) break;
+    const auto first = Named(header, theirs.substr(0, plus)),
+               second = Named(header, theirs.substr(plus + 1));
+    if (!first.empty() && !second.empty()) found = {first[0], second[0]};
+  }
+  if (!found.empty()) return found;
+  Refuse(header.place, "has no column '{}' (for {}){}", Excerpt(theirs), column,
+         Suggestion(theirs, header.names));
 }
 
-/// The one name for which `fits` holds; the number of names where there is none, or several.
-template <typename Fits>
-std::size_t OnlyOne(const std::vector<std::string>& names, Fits&& fits) {
-  const auto found = std::ranges::find_if(names, fits);
-  if (found == names.end() || std::find_if(found + 1, names.end(), fits) != names.end()) {
-    return names.size();
+/// The columns of a file that are one of ours.
+std::vector<std::size_t> Find(const Header& header, const RecordingColumn& column) {
+  const auto mapped = header.layout.map.find(column.name);
+  if (mapped != header.layout.map.end()) return FindMapped(header, column.name, mapped->second);
+  std::vector<std::size_t> found = Named(header, column.name);
+  if (!found.empty()) return found;
+  // our name in other letters or with a unit; a temperature by its unit alone
+  const auto split = [&](std::size_t i) {
+    return Split(column, header.names[i], header.layout.joint);
+  };
+  found = Where(header, [&](std::size_t i) { return Lowercase(split(i).stem) == column.name; });
+  if (found.size() != 1 && column.name == kTemperature) {
+    found = Where(header, [&](std::size_t i) { return split(i).unit.has_value(); });
   }
-  return static_cast<std::size_t>(found - names.begin());
+  return found.size() == 1 ? found : std::vector<std::size_t>();
 }
 
 /// The unit of a column, and who says so: an option, the file beside the name, or the name.
-void TakeUnit(const std::string& name, const ReadSettings& layout, const Place& place,
-              ColumnSource& source) {
+void TakeUnit(const Header& header, ColumnSource& source) {
   const RecordingColumn& column = *source.column;
-  const std::vector<std::string>& bases = column.Units(layout.joint);
-  const auto given = layout.unit.find(column.name);
+  const std::string& name = header.names[source.index];
+  const std::vector<std::string>& bases = column.Units(header.layout.joint);
+  const auto take = [&](std::string_view unit, UnitFrom from) {
+    source.unit = FindUnit(unit, bases, column.name, header.place);
+    source.unit_from = from;
+  };
+  const auto given = header.layout.unit.find(column.name);
   const NameAndUnit any = SplitUnit(name);
-  if (given != layout.unit.end()) {
-    source.unit = FindUnit(given->second, bases, column.name, place);
-    source.unit_from = UnitFrom::given;
-  } else if (const auto unit = Split(column, name, layout.joint).unit) {
-    source.unit = *unit;
-    source.unit_from = UnitFrom::name;
-  } else if (any.is_sure) {
-    source.unit = FindUnit(any.unit->name, bases, column.name, place);
+  const auto behind = Split(column, name, header.layout.joint).unit;
+  // the name of a part of the time may be its unit, as nsecs
+  const auto in_name = source.is_added && !behind ? MeantUnit(name, bases) : behind;
+  if (given != header.layout.unit.end() && !source.is_added) {
+    take(given->second, UnitFrom::option);
+  } else if (const std::string& unit = header.columns[source.index].unit; !unit.empty()) {
+    take(unit, UnitFrom::file);
+  } else if (in_name || any.is_sure) {
+    take(in_name ? in_name->name : any.unit->name, UnitFrom::name);
+  } else {
+    take(bases.front(), UnitFrom::nobody);
   }
   // a count is of no size by itself
-  if (!source.unit.name.starts_with("counts") || layout.scale.contains(column.name)) return;
-  Refuse(place, "{} in counts needs the {} of one: --scale {}=FACTOR", column.name, bases.front(),
-         column.name);
-}
-
-/// Two columns whose sum is time: the index of each. time=secs+nsecs.
-std::optional<std::pair<std::size_t, std::size_t>> FindSum(const std::string& theirs,
-                                                           const std::vector<std::string>& names,
-                                                           const Place& place) {
-  for (std::size_t plus = 0; (plus = theirs.find('+', plus)) != std::string::npos; ++plus) {
-    const std::size_t first = IndexOf(theirs.substr(0, plus), names, place);
-    const std::size_t second = IndexOf(theirs.substr(plus + 1), names, place);
-    if (first < names.size() && second < names.size()) return std::pair{first, second};
-  }
-  return std::nullopt;
+  if (!source.unit.name.starts_with("counts") || header.layout.scale.contains(column.name)) return;
+  Refuse(header.place, "{} in counts needs the {} of one: --scale {}=FACTOR", column.name,
+         bases.front(), column.name);
 }
 
 /// Whether a log does without positions: its velocity tells them, and no other column may be meant, or none is wanted.
-bool DoWithout(const RecordingColumn& position, const std::vector<ColumnSource>& sources,
-               const std::vector<std::string>& names, const ReadSettings& layout) {
-  std::vector<std::string> others = names;
+bool DoWithout(const Header& header, const RecordingColumn& position,
+               const std::vector<ColumnSource>& sources) {
+  std::vector<std::string> others = header.names;
   bool has_velocity = false;
   for (const ColumnSource& source : sources) {
     others[source.index].clear();
     has_velocity = has_velocity || source.column->name == "velocity";
   }
-  return has_velocity && !layout.unit.contains(position.name) &&
-         (layout.map.contains(position.name) || !LikelyName(position, others));
+  return has_velocity && !header.layout.unit.contains(position.name) &&
+         (header.layout.map.contains(position.name) || !LikelyName(position, others));
 }
 
 }  // namespace
 
 const std::vector<RecordingColumn>& RecordingColumns() {
-  // name, whether it is needed, units of rotary and linear joints, other names, and where it lies
+  // name, whether it is needed, units of rotary and linear joints, and where it lies
   using M = Measurements;
   static const std::vector<RecordingColumn> columns{
-      {"time",
-       true,
-       {"s"},
-       {"s"},
-       {"time", "stamp", "zeit", "duration", "x_value", "t"},
-       Get<&M::time>,
-       Set<&M::time>},
-      {kPosition,
-       true,
-       {"rad"},
-       {"m"},
-       {"pos", "angle", "winkel", "q", "theta"},
-       LoggedPosition,
-       Set<&M::position>},
-      {"velocity",
-       false,
-       {"rad/s"},
-       {"m/s"},
-       {"vel", "speed", "drehzahl", "geschwindigkeit", "qd", "dq"},
-       Get<&M::velocity>,
-       Set<&M::velocity>},
+      {"time", true, {"s"}, {"s"}, Get<&M::time>, Set<&M::time>},
+      {kPosition, true, {"rad"}, {"m"}, LoggedPosition, Set<&M::position>},
+      {"velocity", false, {"rad/s"}, {"m/s"}, Get<&M::velocity>, Set<&M::velocity>},
       {"torque",
        true,
        {"N.m", "A", "V", "%", "raw"},
        {"N", "A", "V", "%", "raw"},
-       {"torque", "tau", "force", "effort", "moment", "current", "strom", "trq", "load", "i"},
        Get<&M::torque>,
        Set<&M::torque>},
-      {"motor_position",
-       false,
-       {"rad"},
-       {"rad"},
-       {"motor"},
-       Get<&M::motor_position>,
-       Set<&M::motor_position>},
-      {"load", false, {"N.m"}, {"N"}, {"load"}, Get<&M::load>, Set<&M::load>},
-      {kTemperature,
-       false,
-       {"degC"},
-       {"degC"},
-       {"temp"},
-       Get<&M::temperature>,
-       Set<&M::temperature>},
+      {"motor_position", false, {"rad"}, {"rad"}, Get<&M::motor_position>, Set<&M::motor_position>},
+      {"load", false, {"N.m"}, {"N"}, Get<&M::load>, Set<&M::load>},
+      {kTemperature, false, {"degC"}, {"degC"}, Get<&M::temperature>, Set<&M::temperature>},
   };
   return columns;
 }
@@ -239,72 +274,44 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
   return column.Units(measurements.joint).front();
 }
 
-std::size_t FindColumn(const RecordingColumn& column, const std::vector<std::string>& names,
-                       const ReadSettings& layout, const Place& place) {
-  // an empty name leaves an optional column out
-  const auto mapped = layout.map.find(column.name);
-  if (mapped != layout.map.end()) {
-    return mapped->second.empty() ? names.size() : IndexOf(mapped->second, names, place);
-  }
-  const std::size_t ours = IndexOf(column.name, names, place);
-  if (ours < names.size()) return ours;
-  // our name in other letters or with a unit; a temperature by its unit alone
-  const std::size_t alike = OnlyOne(names, [&](const std::string& name) {
-    return Lowercase(Split(column, name, layout.joint).stem) == column.name;
-  });
-  if (alike < names.size() || column.name != kTemperature) return alike;
-  return OnlyOne(names,
-                 [](const std::string& name) { return SplitTemperature(name).unit.has_value(); });
-}
-
-std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
+std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
                                       const ReadSettings& layout, const Place& place,
                                       const std::string& there) {
   // options that name no column of ours are mistakes, whatever the file holds
   CheckNames(layout.map, "--map", place);
   CheckNames(layout.unit, "--unit", place);
   CheckNames(layout.scale, "--scale", place);
+  Header header{columns, layout, place};
+  const std::size_t groups = LengthOfGroups(columns);
+  for (const FileColumn& one : columns) header.names.push_back(one.name.substr(groups));
 
   std::vector<ColumnSource> sources;
   std::vector<const RecordingColumn*> missing;
   for (const RecordingColumn& column : RecordingColumns()) {
     // a rate that is given makes the time
     if (column.name == "time" && layout.rate > 0) continue;
-    const auto mapped = layout.map.find(column.name);
-    const std::string theirs = mapped == layout.map.end() ? "" : mapped->second;
-    std::size_t index = FindColumn(column, names, layout, place), added = names.size();
-    const auto sum = column.name == "time" && index == names.size() ? FindSum(theirs, names, place)
-                                                                    : std::nullopt;
-    if (sum) std::tie(index, added) = *sum;
-
-    if (index < names.size()) {
-      const Unit usual = FindUnit(column.Units(layout.joint).front(), {}, column.name, place);
-      sources.push_back({&column, index, usual});
-      TakeUnit(names[index], layout, place, sources.back());
-      const bool is_found = mapped == layout.map.end() && column.name == kTemperature;
-      if (is_found && names[index] != column.name) sources.back().found_as = names[index];
-    } else if (!theirs.empty()) {
-      Refuse(place, "has no column '{}' (for {}){}", Excerpt(theirs), column.name,
-             Suggestion(theirs, names));
-    } else if (column.required) {
+    const std::vector<std::size_t> found = Find(header, column);
+    for (const std::size_t index : found) {
+      const bool is_added = !sources.empty() && sources.back().column == &column;
+      sources.push_back({.column = &column, .index = index, .is_added = is_added});
+      TakeUnit(header, sources.back());
+      const bool is_found = column.name == kTemperature && !layout.map.contains(column.name);
+      if (is_found && header.names[index] != column.name) {
+        sources.back().found_as = header.names[index];
+      }
+    }
+    const auto unit = layout.unit.find(column.name);
+    if (found.empty() && column.required) {
       missing.push_back(&column);
-    } else if (const auto unit = layout.unit.find(column.name); unit != layout.unit.end()) {
+    } else if (found.empty() && unit != layout.unit.end()) {
       Refuse(place, "--unit {}={}: the file has no {}; drop it or --map it", column.name,
              unit->second, column.name);
     }
-    // the unit of what is added stands in its name
-    if (added < names.size()) {
-      sources.push_back({&column, added, sources.back().unit});
-      sources.back().is_added = true;
-      const auto whole = MeantUnit(names[added], {"s"}), part = SplitUnit(names[added], {"s"}).unit;
-      if (whole || part) sources.back().unit = whole ? *whole : *part;
-      if (whole || part) sources.back().unit_from = UnitFrom::name;
-    }
   }
   std::erase_if(missing, [&](const RecordingColumn* column) {
-    return column->name == kPosition && DoWithout(*column, sources, names, layout);
+    return column->name == kPosition && DoWithout(header, *column, sources);
   });
-  if (!missing.empty()) RefuseMissing(missing, names, place, there);
+  if (!missing.empty()) RefuseMissing(missing, header.names, place, there);
   return sources;
 }
 

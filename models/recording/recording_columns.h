@@ -17,7 +17,6 @@ struct RecordingColumn {
   bool required = false;
   std::vector<std::string> rotary_units;  // base units that it can have; the first is the default
   std::vector<std::string> linear_units;
-  std::vector<std::string> other_names;  // parts of names that foreign files give it, lower case
 
   /// The column's values; nullptr where the measurements lack it.
   const Eigen::VectorXd* (*get)(const Measurements& measurements);
@@ -34,35 +33,40 @@ const std::vector<RecordingColumn>& RecordingColumns();
 /// Base unit of a column in these measurements, for example "rad" or, for torque, "A".
 std::string UnitOf(const RecordingColumn& column, const Measurements& measurements);
 
+/// A column of a file.
+struct FileColumn {
+  std::string name;          // behind its groups, as "robot/elbow/q"
+  std::string unit{};        // as the file says beside the name; empty where it does not
+  Eigen::VectorXd values{};  // [N]; empty where the layout does not ask for it
+};
+
 /// Who says in which unit a column is.
 enum class UnitFrom {
-  given,  // an option, or the file beside the name
-  name,   // the name, as Winkel_deg
-  usual,  // nobody
+  option,
+  file,    // beside the name
+  name,    // as Winkel_deg
+  nobody,  // it is the usual one
 };
 
 /// A column of ours and where a file has it.
 struct ColumnSource {
   const RecordingColumn* column;
-  std::size_t index;  // among the names of the file
-  Unit unit;          // in the file
-  UnitFrom unit_from = UnitFrom::usual;
+  std::size_t index = 0;  // among the columns of the file
+  Unit unit{};            // in the file
+  UnitFrom unit_from = UnitFrom::nobody;
   std::string
       found_as{};  // its name in the file, where the unit in that told what it is; else empty
-  bool is_added = false;  // to the source before it: the nanoseconds of secs+nsecs
+  bool is_added = false;     // to the source before it: the nanoseconds of secs+nsecs
+  Eigen::VectorXd values{};  // [N] as they stand in the file, once they are read; NaN: no number
 };
 
-/// The column of a file that is ours: the one that `map` names, the one of our name, or of our name and a unit, as "Position [deg]".
-/// The number of names where there is none.
-std::size_t FindColumn(const RecordingColumn& column, const std::vector<std::string>& names,
-                       const ReadSettings& layout, const Place& place);
-
-/// Finds our columns among the names that a file has. Throws BadInput for a missing column (naming
+/// Finds our columns in a file: the one that `map` names, the one of our name, or of our name and a unit, as "Position [deg]".
+/// Groups that all columns lie in may be left out, and '.' and '/' separate alike. Throws BadInput for a missing column (naming
 /// what is there and the --map that would help), one that stands there twice, and unknown names
 /// and units in the layout, and a unit of another quantity. A temperature that nothing names is found by its unit. Time, which --rate
 /// makes needless, comes first; `time=secs+nsecs` gives two sources, whose sum it is.
 /// place: of the header. there: what the file has, for messages; by default the names.
-std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
+std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
                                       const ReadSettings& layout, const Place& place,
                                       const std::string& there = "");
 
