@@ -13,11 +13,12 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -27,98 +28,69 @@ namespace {
 
 constexpr std::size_t kMemory = std::size_t{8} << 30;       // bytes, of the child alone
 constexpr std::size_t kLongestText = std::size_t{1} << 20;  // bytes of a name, unit or refusal
-constexpr std::uint64_t kMostColumns = 100'000;
+constexpr std::size_t kMostColumns = 100'000;
 constexpr char kContent = 'c', kRefusal = 'r';
 
-/// Bytes of an answer: first kContent or kRefusal, then numbers and texts as they come.
-class Answer {
- public:
-  void Put(std::uint64_t number) { Put(&number, sizeof number); }
-  void Put(const std::string& text) {
-    Put(std::uint64_t{text.size()});
-    Put(text.data(), text.size());
+/// Puts an answer together: first kContent or kRefusal, then sizes and what has them.
+struct Packer {
+  std::size_t Size(std::size_t size, std::size_t /*most*/) {
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    return size;
   }
-  void Put(const Eigen::VectorXd& values) {
-    Put(static_cast<std::uint64_t>(values.size()));
-    Put(values.data(), static_cast<std::size_t>(values.size()) * sizeof(double));
-  }
-  void Put(const void* data, std::size_t size) {
-    bytes.append(static_cast<const char*>(data), size);
+  template <typename Range>
+  void Put(Range& range, std::size_t most) {
+    const std::size_t size = Size(static_cast<std::size_t>(range.size()), most);
+    bytes.append(reinterpret_cast<const char*>(range.data()), size * sizeof(*range.data()));
   }
 
   std::string bytes;
 };
 
-/// Takes an answer apart. A child that a file took over may have sent anything: every length is
-/// checked before it is believed.
-class AnswerReader {
- public:
-  AnswerReader(std::string_view bytes, const char* format, const Place& place)
-      : rest_(bytes), format_(format), place_(place) {}
-
-  std::uint64_t Number(std::uint64_t most) {
-    std::uint64_t number = 0;
-    std::memcpy(&number, Take(sizeof number).data(), sizeof number);
-    if (number > most) RefuseAnswer();
-    return number;
+/// Takes it apart. A child that a file took over may have sent anything: every size is checked before it is believed.
+struct Unpacker {
+  std::size_t Size(std::size_t /*ours*/, std::size_t most) {
+    std::size_t size = 0;
+    std::memcpy(&size, Take(sizeof size).data(), sizeof size);
+    if (size > most) RefuseAnswer();
+    return size;
   }
-  std::string Text() { return std::string(Take(Number(kLongestText))); }
-  Eigen::VectorXd Values() {
-    const std::uint64_t count = Number(kMostSamples);
-    const std::string_view bytes = Take(count * sizeof(double));
-    Eigen::VectorXd values(static_cast<Eigen::Index>(count));
-    if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
+  template <typename Range>
+  void Put(Range& range, std::size_t most) {
+    const std::size_t size = Size(0, most);
+    const std::string_view bytes = Take(size * sizeof(*range.data()));
+    range.resize(static_cast<decltype(range.size())>(size));
+    if (size > 0) std::memcpy(range.data(), bytes.data(), bytes.size());
   }
   std::string_view Take(std::size_t size) {
-    if (size > rest_.size()) RefuseAnswer();
-    const std::string_view taken = rest_.substr(0, size);
-    rest_.remove_prefix(size);
+    if (size > rest.size()) RefuseAnswer();
+    const std::string_view taken = rest.substr(0, size);
+    rest.remove_prefix(size);
     return taken;
   }
-
- private:
   [[noreturn]] void RefuseAnswer() const {
-    Refuse(place_, "cannot be read as {}: its reader broke off; the file is damaged", format_);
+    Refuse(place, "cannot be read as {}: its reader broke off; the file is damaged", format);
   }
 
-  std::string_view rest_;
-  const char* format_;
-  const Place& place_;
+  std::string_view rest;
+  const char* format;
+  const Place& place;
 };
 
-std::string Packed(const FileContent& content) {
-  Answer answer;
-  answer.Put(&kContent, 1);
-  answer.Put(content.joint);
+/// What a file holds, part by part, at either end of the pipe.
+template <typename End>
+void Exchange(End& end, FileContent& content) {
+  end.Put(content.joint, kLongestText);
   // the gear, whether there is one or not
-  answer.Put(std::uint64_t{content.gear.has_value()});
-  const double gear = content.gear.value_or(0);
-  answer.Put(&gear, sizeof gear);
-  answer.Put(std::uint64_t{content.columns.size()});
-  for (const FileColumn& column : content.columns) {
-    answer.Put(column.name);
-    answer.Put(column.unit);
-    answer.Put(column.values);
-  }
-  return std::move(answer.bytes);
-}
-
-FileContent Unpacked(AnswerReader& reader) {
-  // in the order in which they were packed
-  FileContent content;
-  content.joint = reader.Text();
-  const bool has_gear = reader.Number(1) == 1;
-  double gear = 0;
-  std::memcpy(&gear, reader.Take(sizeof gear).data(), sizeof gear);
-  if (has_gear) content.gear = gear;
-  content.columns.resize(reader.Number(kMostColumns));
+  std::vector<double> gear;
+  if (content.gear) gear.push_back(*content.gear);
+  end.Put(gear, 1);
+  if (!gear.empty()) content.gear = gear[0];
+  content.columns.resize(end.Size(content.columns.size(), kMostColumns));
   for (FileColumn& column : content.columns) {
-    column.name = reader.Text();
-    column.unit = reader.Text();
-    column.values = reader.Values();
+    end.Put(column.name, kLongestText);
+    end.Put(column.unit, kLongestText);
+    end.Put(column.values, kMostSamples);
   }
-  return content;
 }
 
 /// Bytes of address space that this process has.
@@ -152,7 +124,10 @@ void Limit(int resource, rlim_t value) {
   // what was read, or why nothing was
   std::string answer;
   try {
-    answer = Packed(format.read(path, layout));
+    FileContent content = format.read(path, layout);
+    Packer packer{std::string(1, kContent)};
+    Exchange(packer, content);
+    answer = std::move(packer.bytes);
   } catch (const BadInput& refusal) {
     answer = kRefusal + std::string(refusal.what());
   } catch (const std::exception& error) {
@@ -223,10 +198,11 @@ FileContent ReadApart(const FileFormat& format, const std::string& path, const R
            format.name, WTERMSIG(status));
   }
   // the answer, which may be a refusal
-  AnswerReader reader(bytes, format.name, place);
-  const char kind = reader.Take(1)[0];
-  if (kind == kRefusal) throw BadInput(bytes.substr(1, kLongestText));
-  return Unpacked(reader);
+  Unpacker reader{bytes, format.name, place};
+  if (reader.Take(1)[0] == kRefusal) throw BadInput(bytes.substr(1, kLongestText));
+  FileContent content;
+  Exchange(reader, content);
+  return content;
 }
 
 }  // namespace warmjoint

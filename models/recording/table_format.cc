@@ -83,66 +83,59 @@ Shape ShapeOf(std::string_view line, char separator, char mark,
 /// A way to split the lines, and where its rows begin.
 struct Look {
   char separator = ',', mark = '.';
-  std::vector<Shape> shapes;  // of each line
-  std::size_t first = 0;      // line of the first row; the number of lines where there is none
-  long score = 0;             // numbers less other texts of all rows
+  std::vector<Shape> shapes{};         // of each line
+  std::size_t first = 0, columns = 0;  // line of the first row, and its fields
+  long score = 0;                      // numbers less other texts of all rows
 };
 
-/// Finds the rows: as many fields as most rows have, from the first on that another follows.
+/// Finds the rows: as many fields as most rows have, from the first on that another follows. Where no line is a row of numbers,
+/// they begin behind the first that is no comment, the header.
 void FindRows(Look& look) {
   std::map<std::size_t, int> rows;  // by their number of fields
-  for (const Shape& shape : look.shapes) rows[shape.fields] += shape.IsRow();
-  const std::size_t fields =
+  std::vector<std::size_t> filled;  // lines with more than empty fields
+  for (std::size_t i = 0; i < look.shapes.size(); ++i) {
+    rows[look.shapes[i].fields] += look.shapes[i].IsRow();
+    if (!look.shapes[i].IsEmpty()) filled.push_back(i);
+  }
+  look.columns =
       std::ranges::max_element(rows, {}, [](const auto& one) { return one.second; })->first;
-  const auto is_row = [&](const Shape& shape) { return shape.IsRow() && shape.fields == fields; };
+  const auto is_row = [&](std::size_t i) {
+    return look.shapes[i].IsRow() && look.shapes[i].fields == look.columns;
+  };
   // a row by itself may be an entry of a preamble
-  const auto begin = look.shapes.begin(), end = look.shapes.end();
-  auto first = std::find_if(begin, end, is_row);
-  for (auto row = first; row != end; row = std::find_if(row + 1, end, is_row)) {
-    const auto next =
-        std::find_if_not(row + 1, end, [](const Shape& shape) { return shape.IsEmpty(); });
-    if (next == end || !is_row(*next)) continue;
-    first = row;
-    break;
+  auto first = std::ranges::adjacent_find(
+      filled, [&](std::size_t one, std::size_t next) { return is_row(one) && is_row(next); });
+  if (first == filled.end()) first = std::ranges::find_if(filled, is_row);
+  if (first != filled.end()) {
+    look.first = *first;
+    for (const std::size_t i : filled) {
+      if (is_row(i)) look.score += look.shapes[i].numbers - look.shapes[i].texts;
+    }
+    return;
   }
-  look.first = static_cast<std::size_t>(first - begin);
-  for (const Shape& shape : look.shapes) {
-    if (is_row(shape)) look.score += shape.numbers - shape.texts;
-  }
+  const auto header = std::ranges::find_if(look.shapes, &Shape::fields);
+  look.first = static_cast<std::size_t>(header - look.shapes.begin()) + 1;
+  look.columns = header->fields;
+  // less than any look with rows
+  look.score = std::numeric_limits<long>::min() + (look.columns > 1);
 }
 
-/// The way to split the lines by which most fields are numbers.
+/// The way to split the lines by which most fields are numbers. One line at least is not blank.
 Look BestLook(const std::vector<Line>& lines) {
   std::optional<Look> best;
   std::vector<std::string_view> fields;
   for (const char separator : {'\t', ';', ',', '|', ' '}) {
     for (const char mark : {'.', ','}) {
       if (separator == mark) continue;
-      Look look{separator, mark, {}};
+      Look look{separator, mark};
       for (const Line& line : lines) {
         look.shapes.push_back(ShapeOf(line.text, separator, mark, fields));
       }
       FindRows(look);
-      const bool is_better = look.first < lines.size() &&
-                             (!best || best->first == lines.size() || look.score > best->score);
-      if (!best || is_better) best = std::move(look);
+      if (!best || look.score > best->score) best = std::move(look);
     }
   }
   return *best;
-}
-
-/// Where no line is a row of numbers: the first line is the header, and its separator that of the file.
-void TakeFirstLine(const std::vector<Line>& lines, const std::string& file, Look& look) {
-  const auto header =
-      std::ranges::find_if(lines, [](const Line& line) { return !IsBlankLine(line.text); });
-  if (header == lines.end()) {
-    Refuse({file}, "is empty; it must hold a header row and one row for each sample");
-  }
-  for (const char separator : {'\t', ';', ',', ' '}) {
-    look.separator = separator;
-    if (header->text.find(separator) != std::string_view::npos) break;
-  }
-  look.first = static_cast<std::size_t>(header - lines.begin()) + 1;
 }
 
 /// A text as UTF-8, as far as it can be read. from: as iconv calls its encoding.
@@ -192,14 +185,15 @@ std::optional<std::vector<std::string>> FieldsAbove(std::string_view line, const
   return std::nullopt;
 }
 
-/// Whether half of the fields that are not empty are units, as in "s,rad,rad/s,Nm" or "[s];[-];[Nm]".
-bool IsRowOfUnits(const std::vector<std::string>& fields) {
+/// The units of a row of them, as "s,rad,rad/s,Nm" or "[s];[-];[Nm]"; nothing where less than half of the fields are units.
+std::optional<std::vector<std::string>> UnitsOf(std::vector<std::string> fields) {
   std::ptrdiff_t units = 0, others = 0;
-  for (const std::string& field : fields) {
-    if (field.empty() || field == "-" || field == "[-]") continue;
-    ++(MeantUnit(field) ? units : others);
+  for (std::string& field : fields) {
+    if (field == "-" || field == "[-]") field.clear();
+    if (!field.empty()) ++(MeantUnit(field) ? units : others);
   }
-  return units > 0 && units >= others;
+  if (units == 0 || units < others) return std::nullopt;
+  return fields;
 }
 
 /// Takes names and units from the lines above the first row, the nearest first: nothing but blank lines and comments may stand
@@ -222,12 +216,8 @@ void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::str
     const bool is_comment = IsComment(line.text);
     if (IsBlankLine(line.text) && !is_comment) continue;
     auto fields = above(line);
-    if (fields && table.units_line == 0 && IsRowOfUnits(*fields)) {
-      table.units_line = line.number;
-      table.units = std::move(*fields);
-      for (std::string& unit : table.units) {
-        if (unit == "-" || unit == "[-]") unit.clear();
-      }
+    if (auto units = fields && table.units.empty() ? UnitsOf(*fields) : std::nullopt) {
+      table.units = std::move(*units);
       continue;
     }
     if (is_comment) {
@@ -366,28 +356,27 @@ TableFormat FindTable(std::string_view text, const std::string& file, bool is_na
     if (!is_directive) lines.push_back({line, begin, number});
   }
 
-  if (lines.empty()) lines.emplace_back();
+  if (std::ranges::all_of(lines, IsBlankLine, &Line::text)) {
+    Refuse({file}, "is empty; it must hold a header row and one row for each sample");
+  }
+
   // how they are split, and where the rows begin
   Look look = BestLook(lines);
-  const bool has_rows = look.first < lines.size();
-  if (!has_rows) TakeFirstLine(lines, file, look);
-  if (!has_rows && is_named) --look.first;
-  const Line& first = lines[std::min(look.first, lines.size() - 1)];
-  std::vector<std::string_view> fields;
+  const auto has_rows = [&] { return look.first < lines.size(); };
+  const Line& first = lines[has_rows() ? look.first : look.first - 1];
   TableFormat table;
   table.separator = look.separator;
   table.decimal_mark = look.mark;
-  table.columns =
-      SplitLine(has_rows ? first.text : lines[look.first - !is_named].text, look.separator, fields);
+  table.columns = look.columns;
   if (table.columns > kMostFields) {
     Refuse({file, first.number}, "has {} columns; {} at most: leave out those that are not needed",
            table.columns, kMostFields);
   }
-  if (has_rows && look.mark == ',') CheckDecimalComma(lines, look, file);
+  if (has_rows() && look.mark == ',') CheckDecimalComma(lines, look, file);
 
   // what stands above them; the first of them may be a header of names that are numbers, too
   TakeHeader(lines, look, file, is_named, table);
-  if (table.names.empty() && has_rows && look.first + 1 < lines.size() &&
+  if (table.names.empty() && look.first + 1 < lines.size() &&
       IsHeader(first.text, lines[look.first + 1].text, look)) {
     ++look.first;
     TakeHeader(lines, look, file, is_named, table);
@@ -398,9 +387,8 @@ TableFormat FindTable(std::string_view text, const std::string& file, bool is_na
            "time,position,velocity,torque; where none is time give --rate HZ",
            Excerpt(first.text), table.columns);
   }
-  const bool is_end = look.first == lines.size();
-  table.data = is_end ? text.size() - rest.size() : lines[look.first].begin;
-  table.data_line = is_end ? lines.back().number + 1 : lines[look.first].number;
+  table.data = has_rows() ? lines[look.first].begin : text.size() - rest.size();
+  table.data_line = has_rows() ? lines[look.first].number : lines.back().number + 1;
   return table;
 }
 

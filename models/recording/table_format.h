@@ -17,7 +17,6 @@ struct TableFormat {
   std::size_t columns = 0;         // of a row
   std::string_view header;         // the line of the names; empty where there is none
   int header_line = 0;             // 0: there is none
-  int units_line = 0;              // the same of the row of units
   std::vector<std::string> names;  // [columns], UTF-8; empty where there is no header
   std::vector<std::string>
       units;             // [columns] each empty where the row says none; empty without such a row
