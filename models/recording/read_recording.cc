@@ -1,13 +1,21 @@
 #include "models/recording/read_recording.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
+#include "models/recording/assemble.h"
 #include "models/recording/hdf5.h"
+#include "models/recording/join_recordings.h"
 #include "models/recording/matlab.h"
+#include "models/recording/measurements.h"
 #include "models/recording/read_apart.h"
 
 namespace warmjoint {
@@ -47,7 +55,69 @@ void RefuseUnreadable(const std::string& path) {
   }
 }
 
+/// Makes torque of a current, by the motor's constant seen at the joint, where one is given.
+void TakeTorqueConstant(double constant, Measurements& log) {
+  if (constant == 0) return;
+  const std::string_view unit = kTorqueUnit.For(log.joint);
+  // what is a torque already needs no constant
+  if (log.torque_unit != "A") {
+    Refuse(
+        {"--torque-constant"},
+        "makes torque of a current, and the torque of {} is in {}; give --unit torque=A where it "
+        "is in amperes",
+        log.source, log.torque_unit);
+  }
+  // the motor's current becomes torque at the joint
+  log.torque *= constant;
+  log.torque_unit = unit;
+  log.notes.push_back(fmt::format("torque: current times {:.6g} {}/A", constant, unit));
+}
+
 }  // namespace
+
+bool ColumnTexts::Take(const std::string& column, const std::string& text) {
+  (*this)[column] = text;
+  return true;
+}
+
+std::vector<std::string> ColumnTexts::Pairs() const {
+  std::vector<std::string> pairs;
+  for (const auto& [column, text] : *this) pairs.push_back(column + "=" + text);
+  return pairs;
+}
+
+bool ColumnNumbers::Take(const std::string& column, const std::string& text) {
+  const std::optional<double> number = ParseFinite(text);
+  if (number) (*this)[column] = *number;
+  return number.has_value();
+}
+
+std::vector<std::string> ColumnNumbers::Pairs() const {
+  std::vector<std::string> pairs;
+  for (const auto& [column, number] : *this) pairs.push_back(fmt::format("{}={}", column, number));
+  return pairs;
+}
+
+void CheckReadSettings(const ReadSettings& settings) {
+  for (const auto& [column, factor] : settings.scale) {
+    if (std::isfinite(factor) && factor != 0) continue;
+    Refuse({"--scale"}, "{}={}: the factor must be a finite number other than 0", Excerpt(column),
+           factor);
+  }
+  if (!std::isfinite(settings.gear) || settings.gear == 0) {
+    Refuse({"--gear"}, "is {}; it must be a finite number other than 0", settings.gear);
+  }
+  if (!std::isfinite(settings.wrap) || settings.wrap < 0) {
+    Refuse({"--wrap"}, "is {}; it must be a finite number above 0", settings.wrap);
+  }
+  if (!std::isfinite(settings.rate) || settings.rate < 0) {
+    Refuse({"--rate"}, "is {}; it must be a finite number above 0, Hz", settings.rate);
+  }
+  if (!std::isfinite(settings.torque_constant)) {
+    Refuse({"--torque-constant"}, "is {}; it must be a finite number, N.m/A or N/A at the joint",
+           settings.torque_constant);
+  }
+}
 
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout,
                                double patience) {
@@ -61,6 +131,39 @@ void WriteRecording(const Measurements& measurements, const std::filesystem::pat
   if (const auto write = FormatOf(path).write) return WriteWholeFile(path, write(measurements));
   Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
          Extension(path));
+}
+
+Measurements ReadRecording(const RecordingSource& source) {
+  // numbers that cannot be meant are refused before anything is read
+  CheckReadSettings(source.read);
+  std::vector<Measurements> recordings;
+  for (const std::string& path : source.files) {
+    recordings.push_back(ReadRecordingFile(path, source.read));
+    TakeTorqueConstant(source.read.torque_constant, recordings.back());
+  }
+  return JoinRecordings(std::move(recordings));
+}
+
+Measurements MakeRecording(const std::map<std::string, std::vector<double>>& columns,
+                           const ReadSettings& settings, const std::string& name) {
+  // named columns go through the layout of a file
+  FileContent content;
+  for (const auto& [column, values] : columns) {
+    content.columns.push_back({column, "",
+                               Eigen::Map<const Eigen::VectorXd>(
+                                   values.data(), static_cast<Eigen::Index>(values.size()))});
+  }
+  Measurements made = AssembleContent(std::move(content), name, settings);
+  TakeTorqueConstant(settings.torque_constant, made);
+  return made;
+}
+
+Measurements FirstSamples(Measurements log, Eigen::Index n) {
+  ForEachColumn(
+      log, [n](Eigen::VectorXd& column) { column.conservativeResize(std::min(n, column.size())); });
+  std::erase_if(log.starts, [n](Eigen::Index start) { return start >= n; });
+  if (log.gaps) std::erase_if(*log.gaps, [n](const LogGap& gap) { return gap.behind >= n; });
+  return log;
 }
 
 }  // namespace warmjoint

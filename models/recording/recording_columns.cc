@@ -53,16 +53,10 @@ void Set(Measurements& measurements, Values values) {
   measurements.*member = std::move(values);
 }
 
-std::vector<std::string> OurNames() {
-  std::vector<std::string> names;
-  for (const RecordingColumn& column : RecordingColumns()) names.push_back(column.name);
-  return names;
-}
-
 template <typename Columns>
 void CheckNames(const Columns& given, std::string_view option, const Place& place) {
   // a column of ours on the left, theirs on the right
-  const std::vector<std::string> known = OurNames();
+  const std::vector<std::string> known = ColumnNames();
   for (const auto& [ours, theirs] : given) {
     if (std::find(known.begin(), known.end(), ours) != known.end()) continue;
     Refuse(place, "{} {}={}: recordings have no column '{}'{}", option, Excerpt(ours),
@@ -267,6 +261,12 @@ const std::vector<RecordingColumn>& RecordingColumns() {
       {kTemperature, false, {"degC"}, {"degC"}, Get<&M::temperature>, Set<&M::temperature>},
   };
   return columns;
+}
+
+std::vector<std::string> ColumnNames() {
+  std::vector<std::string> names;
+  for (const RecordingColumn& column : RecordingColumns()) names.push_back(column.name);
+  return names;
 }
 
 std::string UnitOf(const RecordingColumn& column, const Measurements& measurements) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "models/recording/csv.h"
 #include "models/recording/units.h"
 
 namespace warmjoint {
@@ -29,6 +28,9 @@ struct RecordingColumn {
 
 /// time, position, velocity, torque, motor_position, load, temperature.
 const std::vector<RecordingColumn>& RecordingColumns();
+
+/// Their names.
+std::vector<std::string> ColumnNames();
 
 /// Base unit of a column in these measurements, for example "rad" or, for torque, "A".
 std::string UnitOf(const RecordingColumn& column, const Measurements& measurements);

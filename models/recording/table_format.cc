@@ -197,43 +197,34 @@ std::optional<std::vector<std::string>> UnitsOf(std::vector<std::string> fields)
 }
 
 /// Takes names and units from the lines above the first row, the nearest first: nothing but blank lines and comments may stand
-/// between.
+/// between. A comment is the header where no other line is.
 void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::string& file,
                 bool is_named, TableFormat& table) {
-  const auto take_names = [&](const Line& line, std::vector<std::string> names) {
-    table.header = line.text;
-    table.header_line = line.number;
-    table.names = std::move(names);
-  };
   std::vector<std::string_view> row;
   SplitLine(lines[std::min(look.first, lines.size() - 1)].text, table.separator, row);
-  const auto above = [&](const Line& line) {
-    return FieldsAbove(line.text, table, row.back().empty());
-  };
-  const Line* comment = nullptr;  // that may be the header where no other line is
   for (std::size_t i = look.first; i-- > 0;) {
     const Line& line = lines[i];
     const bool is_comment = IsComment(line.text);
     if (IsBlankLine(line.text) && !is_comment) continue;
-    auto fields = above(line);
+    auto fields = FieldsAbove(line.text, table, row.back().empty());
     if (auto units = fields && table.units.empty() ? UnitsOf(*fields) : std::nullopt) {
       table.units = std::move(*units);
       continue;
     }
-    if (is_comment) {
-      if (fields && !comment) comment = &line;
-      continue;
+    if (fields && (!is_comment || table.names.empty())) {
+      table.header = line.text;
+      table.header_line = line.number;
+      table.names = std::move(*fields);
     }
-    if (fields) return take_names(line, std::move(*fields));
+    if (is_comment) continue;
     // a line of several fields that are not those of the rows, where the header should stand
-    if (comment || is_named || look.shapes[i].fields < 2) break;
+    if (!table.names.empty() || is_named || look.shapes[i].fields < 2) return;
     Refuse({file, line.number},
            "has {} fields where the rows below it have {}; complete or drop it, or name the "
            "columns, for "
            "example --columns time,position,velocity,torque",
            look.shapes[i].fields, table.columns);
   }
-  if (comment) take_names(*comment, *above(*comment));
 }
 
 /// Refuses a decimal comma for which nothing speaks: behind it stand three digits in all numbers, as between thousands.

@@ -77,8 +77,7 @@ std::string Plain(std::string_view text) {
 
 /// Whether two texts are alike, letters of either case being one. A capital M before a capital is mega, no milli. Of single letters a
 /// capital may be meant for a small one, as in TIME_S.
-bool AreAlike(std::string_view a, std::string_view b, bool same_case) {
-  if (same_case) return a == b;
+bool AreAlike(std::string_view a, std::string_view b) {
   const bool is_mega = a.size() > 1 && b.size() > 1 && a[0] != b[0] && std::isupper(b[1]);
   const bool may_differ = a.size() > 1 || (b.size() == 1 && std::islower(b[0]));
   return may_differ && !is_mega && EqualIgnoringCase(a, b);
@@ -155,13 +154,14 @@ std::optional<Unit> MeantUnit(std::string_view text, const std::vector<std::stri
     return bases.empty() || std::ranges::find(bases, unit.base) != bases.end();
   };
   // as it is written before as it may be meant
-  for (const bool same_case : {true, false}) {
+  const auto are_same = [](std::string_view a, std::string_view b) { return a == b; };
+  for (const auto are_alike : {+are_same, &AreAlike}) {
     std::string_view name = plain;
     for (const auto& [spelling, meant] : kSpellings) {
-      if (AreAlike(plain, spelling, same_case)) name = meant;
+      if (are_alike(plain, spelling)) name = meant;
     }
     for (const Unit& unit : Units()) {
-      if (fits(unit) && (name == unit.name || AreAlike(name, unit.name, same_case))) return unit;
+      if (fits(unit) && (name == unit.name || are_alike(name, unit.name))) return unit;
     }
   }
   return std::nullopt;

@@ -22,12 +22,6 @@ namespace {
 constexpr std::array<std::string_view, 8> kNoCommands{
     "command", "commands", "identifier", "identifiers", "set", "shell", "allow_commands", "run"};
 
-std::vector<std::string> ColumnNames() {
-  std::vector<std::string> names;
-  for (const RecordingColumn& column : RecordingColumns()) names.push_back(column.name);
-  return names;
-}
-
 void RefuseCommands(const Node& document) {
   for (const std::string& key : document.Keys()) {
     if (std::find(kNoCommands.begin(), kNoCommands.end(), key) == kNoCommands.end()) continue;
