@@ -230,6 +230,7 @@ def make_tables(folder):
         **{f"epoch_{unit}": text([str(17 * 10**(8 + power) + k * 2 * 10**(power - 2)) for k in n], q, v, torque)
            for unit, power in (("ms", 3), ("us", 6), ("ns", 9))},
         "ticks": text(stamps("{sec}", .37 + n * .02), q, v, torque),
+        "ticks_velocity": text(stamps("{sec}", .37 + n * .02), [f"{np.sin(k * np.pi / 25):.4f}" for k in n], torque, head="time,velocity,torque"),
         "german": text(["%g" % (20 * k) for k in n], degrees(q), degrees(v), degrees(torque, 1000),
                        head="Zeit_ms,Winkel_deg,Drehzahl_deg/s,Moment_mNm"),
         "ampere": text(t, degrees(q), degrees(v), torque, head="Time [s],Position [deg],Velocity [deg/s],i_A"),
