@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "models/foundation/excerpt.h"
 #include "models/recording/clock.h"

@@ -211,6 +211,7 @@ def make_tables(folder):
         "trailing": text(t, q, v, torque, separator=";", end=";"), "trailing_rows": plain.replace("\n", ",\n").replace("torque,", "torque"),
         "repeated": "\n".join([*lines[:500], head, *lines[500:]]) + "\n", "cut": plain + "20.0000,0.5",
         "zeros": plain.encode() + bytes(4096), "footer": plain + "End of log\n",
+        "groups": text(t, q, v, torque, head="/robot/elbow/time,/robot/elbow/position,/robot/elbow/velocity,/robot/elbow/torque"),
         "comment": "# of 2024\n# " + text(t, q, v, torque, separator=" "), "savetxt": "# " + head + "\n" + text(t, q, v, torque, head="", separator=" "),
         "percent": "%" + text(t, q, v, torque, separator="\t"), "blanks": text(t, q, v, torque, separator="   "),
         "blanks_comma": text(t, q, v, torque, separator=" ", mark=","), "tabs_comma": text(t, q, v, torque, separator="\t", mark=","),
