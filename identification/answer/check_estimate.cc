@@ -8,10 +8,10 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/apply.h"
-#include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/explain.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/linear/least_squares.h"
 #include "identification/uncertainty/tails.h"
 

@@ -1,10 +1,39 @@
 // What becomes of intervals where the residual is structure.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
 #include "identification/fit.h"
-#include "identification/uncertainty/disagreement.h"
 
 namespace warmjoint {
+
+/// Parameters of one fit, with their covariance.
+struct FitOfRows {
+  Eigen::VectorXd x;           // [p]
+  Eigen::MatrixXd covariance;  // [p x p]
+};
+
+/// The parameter by which two fits differ most.
+struct Disagreement {
+  Eigen::Index parameter = 0;
+  double difference = 0;          // of the whitened fit from the plain one
+  double deviations = 0;          // of that difference, by noise alone
+  Eigen::VectorXd differences{};  // [p] of all parameters
+};
+
+/// Both fits are right on average where the residual is noise, whatever its colour, and then their
+/// difference has the variance of the plain one less that of the whitened one, which is the best
+/// there is (Hausman 1978). Structure pulls them apart, since they weigh its slow and its fast part
+/// differently. Returns where they differ beyond doubt: by what noise does to any of p parameters
+/// less often than five deviations of a normal variable; nothing where noise may do it. The variance
+/// counts as a tenth of the plain one's at least. freedom: of the plain fit's variance.
+std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOfRows& whitened,
+                                             double freedom);
+
+/// Why no number has an interval: a clause.
+std::string DescribeDisagreement(const Disagreement& found, const std::string& name);
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
 /// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by

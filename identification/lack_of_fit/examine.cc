@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "identification/fit_data.h"
-#include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
 #include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/sensitivity.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/undetected_bias.h"
 #include "identification/linear/rigid_part.h"

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
 
 namespace warmjoint {

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
 
 namespace warmjoint {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/sensitivity.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"

@@ -5,12 +5,20 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/row_transform.h"
 
 namespace warmjoint {
+
+/// Whether a residual turns with the direction of motion, as what a model of friction lacks does and
+/// noise of the torque does not: the means of runs of one direction differ in sign from run to run
+/// more often than half of the times, by more than three deviations (a sign test). Nothing where
+/// fewer than nine changes of direction cannot tell. residual, velocity: [n]
+std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
+                                       const Eigen::VectorXd& velocity);
 
 /// What a summary of a fit says of it.
 inline constexpr const char* kWhitened = ", whitened";

@@ -18,7 +18,6 @@
 #include "identification/linear/robust.h"
 #include "identification/physical_bounds.h"
 #include "identification/seen_samples.h"
-#include "identification/uncertainty/disagreement.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/warming/expected_start.h"

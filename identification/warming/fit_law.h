@@ -16,7 +16,7 @@ enum class HeatFit { none, estimated };
 /// the torque: without heat by linear least squares, Eqs. (7)-(9); with heat over the closed loop (19)-(22), from a
 /// scan over tau. The options say what more there is: gravity, inertia beside motion of any kind, E(0), jumps of E at
 /// gaps, Huber's loss, and a lag of the torque. Where the noise is coloured beyond doubt, law and heat are fitted once
-/// more to whitened rows, unless that changes more than noise may (disagreement.h).
+/// more to whitened rows, unless that changes more than noise may (hausman_test.h).
 /// not_identifiable where the motion cannot tell the columns apart, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier
 Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat);

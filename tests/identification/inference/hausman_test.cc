@@ -1,13 +1,12 @@
-#include "identification/uncertainty/disagreement.h"
+#include "identification/inference/hausman_test.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "identification/inference/covariance.h"
-#include "identification/inference/hausman_test.h"
 #include "identification/uncertainty/between_ends.h"
-#include "identification/uncertainty/turns_with_direction.h"
+#include "identification/uncertainty/whitening.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/coloured_noise.h"
 
