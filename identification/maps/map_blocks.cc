@@ -91,7 +91,12 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
 
   // what the maps left is about the noise
   const double scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count()));
-  ThermalRows rows{loop, level, offsets, kept_, initial_, scale};
+  ThermalRows rows{.loop = loop,
+                   .level = level,
+                   .offsets = offsets,
+                   .weight = kept_,
+                   .initial = initial_,
+                   .scale = scale};
   // jumps first beside a fit without them, which tells how warm the joint was, then with all else
   const bool is_first = !fit_;
   const ClosedLoop with_jumps = loop.WithJumps(Behind(gaps_));

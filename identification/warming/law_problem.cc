@@ -76,9 +76,15 @@ ThermalFit LawProblem::FitWarm(const RowTreatment& rows, const InitialEnergy& in
   const Eigen::VectorXd level = loop_.direction().cwiseProduct(AtSamples(rows.torque, selection));
   const Eigen::VectorXd weight =
       rows.weights.size() > 0 ? AtSamples(rows.weights, selection) : kept_;
-  return FitThermalFriction(
-      {loop_, level, offsets_, weight, initial, rows.scale, jump_spread_, rows.transform.get()},
-      start);
+  return FitThermalFriction({.loop = loop_,
+                             .level = level,
+                             .offsets = offsets_,
+                             .weight = weight,
+                             .initial = initial,
+                             .scale = rows.scale,
+                             .jump_spread = jump_spread_,
+                             .transform = rows.transform.get()},
+                            start);
 }
 
 ThermalFit LawProblem::FitAgain(const RowTreatment& rows, const ThermalFit& fit) const {

@@ -59,7 +59,13 @@ class LawProblem {
   const ClosedLoop& loop() const { return loop_; }
   /// The rows of fits with heat, before anything was made of them.
   ThermalRows WarmRows(const InitialEnergy& initial, double scale) const {
-    return {loop_, level_, offsets_, kept_, initial, scale, jump_spread_};
+    return {.loop = loop_,
+            .level = level_,
+            .offsets = offsets_,
+            .weight = kept_,
+            .initial = initial,
+            .scale = scale,
+            .jump_spread = jump_spread_};
   }
 
   /// At what samples E jumps, and how far it may. spread: [J] N.m or N

@@ -71,7 +71,14 @@ struct ThermalRows {
   ThermalLayout layout() const;
   /// The same rows along another loop, which must outlive what is returned.
   ThermalRows Along(const ClosedLoop& other) const {
-    return {other, level, offsets, weight, initial, scale, jump_spread, transform};
+    return {.loop = other,
+            .level = level,
+            .offsets = offsets,
+            .weight = weight,
+            .initial = initial,
+            .scale = scale,
+            .jump_spread = jump_spread,
+            .transform = transform};
   }
 };
 
