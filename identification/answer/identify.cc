@@ -174,7 +174,7 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,
                       const Answer& answer) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
+  Estimate estimate = ReportFit(answer.fit, answer.judged, input.log, input.measurements);
   estimate.options = input.options.Changed();
   return estimate;
 }
@@ -187,15 +187,15 @@ Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& i
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& given) {
   const IdentifierInput input = SelectSamples(identifier, given);
   const Fit fit = AtBounds(identifier.fit(input), input.measurements);
-  return ReportFit(fit, Infer(fit), input.measurements);
+  return ReportFit(fit, Infer(fit), input.log, input.measurements);
 }
 
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
                          const Answer& answer, Estimate refused) {
   // causes that refused nothing leave nothing to force
   if (answer.judged.status == answer.inferred.status) return refused;
-  Estimate before =
-      ReportFit(answer.fit, answer.inferred, SelectSamples(identifier, input).measurements);
+  Estimate before = ReportFit(answer.fit, answer.inferred, input.log,
+                              SelectSamples(identifier, input).measurements);
   refused.parameters = std::move(before.parameters);
   refused.friction = std::move(before.friction);
   refused.bands = std::move(before.bands);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "identification/holdout/structure_choice.h"
+#include "identification/identifiers/condense.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/inference.h"
-#include "identification/preparation/condense.h"
 
 namespace warmjoint {
 

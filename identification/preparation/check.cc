@@ -1,12 +1,14 @@
 #include "identification/preparation/check.h"
 
-#include <warmjoint/prepared_log.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/velocity_scale.h"
+#include "models/recording/measurements.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint {
@@ -82,6 +84,192 @@ MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& s
   return check;
 }
 
+/// Speeds in one direction: how many levels, the slowest and the fastest.
+struct Direction {
+  int levels = 0;
+  double slowest = 0, fastest = 0;  // rad/s or m/s, magnitudes
+};
+
+Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
+  Direction direction;
+  for (const SpeedLevel& level : motion.levels) {
+    const double speed = sign * level.velocity;
+    if (speed <= 0) continue;
+    direction.slowest = direction.levels == 0 ? speed : std::min(direction.slowest, speed);
+    direction.fastest = std::max(direction.fastest, speed);
+    ++direction.levels;
+  }
+  return direction;
+}
+
+/// All that the judgements look at.
+struct ShownMotion {
+  const Measurements& measurements;
+  const SamplingCheck& sampling;
+  const MotionCheck& motion;
+  std::string_view speed_unit, length_unit;
+  Direction positive, negative;
+
+  double slowest() const {
+    if (positive.levels == 0) return negative.slowest;
+    if (negative.levels == 0) return positive.slowest;
+    return std::min(positive.slowest, negative.slowest);
+  }
+  double fastest() const { return std::max(positive.fastest, negative.fastest); }
+  bool both_directions() const { return positive.levels > 0 && negative.levels > 0; }
+};
+
+/// Whether the motion shows a kind of friction, and why.
+struct Judged {
+  bool sufficient;
+  std::string reason;
+};
+
+Judged Coulomb(const ShownMotion& e) {
+  if (e.motion.segments > 0) {
+    return {true, fmt::format("{} segments at constant speed", e.motion.segments)};
+  }
+  return {false,
+          "no sample moves at a constant speed; record piecewise constant speeds, each held for "
+          "longer than the acceleration between them"};
+}
+
+Judged ViscousCoulomb(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // slope and level need two speeds
+  const double ratio = e.fastest() / e.slowest();
+  if (ratio > 1.1) {
+    return {true,
+            fmt::format("speeds from {:.3g} to {:.3g} {}", e.slowest(), e.fastest(), e.speed_unit)};
+  }
+  return {false,
+          fmt::format("all segments move at about {:.3g} {}, so that viscous and coulomb cannot be "
+                      "told apart; record a second speed, best ten times slower or faster",
+                      e.fastest(), e.speed_unit)};
+}
+
+Judged Asymmetric(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // both directions, since the difference between them is what is asked for
+  if (!e.both_directions()) {
+    return {false, fmt::format("all segments move in the {} direction; record both",
+                               e.positive.levels > 0 ? "positive" : "negative")};
+  }
+  // three unknowns: a second speed in one direction at least
+  if (e.positive.levels < 2 && e.negative.levels < 2) {
+    return {false,
+            "each direction has one speed, so that the slope and the two levels cannot be told "
+            "apart; record a second speed"};
+  }
+  return {true, "several speeds and both directions"};
+}
+
+Judged Stribeck(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // the drop near rest shows only in speeds that lie far below the others
+  const int levels = std::max(e.positive.levels, e.negative.levels);
+  if (levels >= 5 && e.slowest() <= 0.05 * e.fastest()) {
+    return {true, fmt::format("{} speeds, the slowest {:.2g} of the fastest", levels,
+                              e.slowest() / e.fastest())};
+  }
+  return {false, fmt::format(
+                     "needs at least 5 speeds, the slowest below 1/20 of the fastest; this log has "
+                     "{}, the slowest at {:.2g} of the fastest",
+                     levels, e.slowest() / e.fastest())};
+}
+
+Judged WarmUp(const ShownMotion& e) {
+  constexpr double shortest = 180;  // s; joints warm with time constants of minutes
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // a log as long as a time constant
+  if (e.sampling.duration < shortest) {
+    return {false,
+            fmt::format("the log lasts {:.3g} s and joints warm with time constants of minutes; "
+                        "record at least {:.0f} s, better 20 min, from a cold start",
+                        e.sampling.duration, shortest)};
+  }
+  // two speeds: the loss, and with it the heat, must vary
+  if (e.fastest() < 1.1 * e.slowest()) {
+    return {false, "one speed alone warms the joint at one rate; record a second speed"};
+  }
+  return {true, fmt::format(
+                    "{:.3g} min: time constants up to about that long; the start must be cold, or "
+                    "E(0) estimated",
+                    e.sampling.duration / 60)};
+}
+
+Judged Ripple(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (e.measurements.position_integrated) return {false, "the log has no positions; log them"};
+  // shortest period seen at the fastest speed: four samples on each
+  const double finest = 4 * e.fastest() * e.sampling.step;
+  const double travel = e.motion.upper - e.motion.lower;
+  if (travel < 4 * finest) {
+    return {false,
+            fmt::format("the joint travels {:.3g} {}, {:.2g} of them between samples; record a "
+                        "longer way or a higher rate",
+                        travel, e.length_unit, finest / 4)};
+  }
+  return {true, fmt::format("over {:.3g} {}; ripple with a period above {:.2g} {}", travel,
+                            e.length_unit, finest, e.length_unit)};
+}
+
+Judged MotorRipple(const ShownMotion& e) {
+  const double gear = std::abs(e.measurements.gear);
+  if (!KnowsMotorAngle(e.measurements)) {
+    return {false, e.measurements.position_integrated
+                       ? "the log has no positions; log them"
+                       : "the gear is not known; give --gear or a column motor_position"};
+  }
+  const double turns =
+      (e.motion.upper - e.motion.lower) * gear / (2 * std::numbers::pi);  // of the motor
+  // the log must show a whole turn, and each turn four samples
+  const double per_turn = 2 * std::numbers::pi / (gear * e.fastest() * e.sampling.step);
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (turns < 1 || per_turn < 4) {
+    return {false,
+            fmt::format("the motor turns {:.3g} times with {:.2g} samples a turn at the fastest "
+                        "speed; record at least one turn and four samples a turn",
+                        turns, per_turn)};
+  }
+  return {true, fmt::format("{:.3g} motor turns, at least {:.3g} samples a turn", turns, per_turn)};
+}
+
+struct Kind {
+  FrictionKind kind;
+  const char* what;
+  Judged (*judge)(const ShownMotion&);
+};
+
+constexpr Kind kKinds[] = {
+    {FrictionKind::coulomb, "law coulomb", &Coulomb},
+    {FrictionKind::viscous_coulomb, "law viscous_coulomb", &ViscousCoulomb},
+    {FrictionKind::asymmetric, "law asymmetric", &Asymmetric},
+    {FrictionKind::stribeck, "law stribeck", &Stribeck},
+    {FrictionKind::warm_up, "warm-up (thermal_gain, thermal_time_constant)", &WarmUp},
+    {FrictionKind::position_ripple, "position dependence", &Ripple},
+    {FrictionKind::motor_ripple, "motor ripple", &MotorRipple},
+};
+
+/// What the motion shows of each kind of friction.
+std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
+                                        const SamplingCheck& sampling, const MotionCheck& motion) {
+  const ShownMotion evidence{measurements,
+                             sampling,
+                             motion,
+                             kVelocityUnit.For(measurements.joint),
+                             kPositionUnit.For(measurements.joint),
+                             SpeedsWithSign(motion, 1),
+                             SpeedsWithSign(motion, -1)};
+  // each kind of friction by a rule of its own
+  std::vector<Excitation> all;
+  for (const Kind& one : kKinds) {
+    Judged judged = one.judge(evidence);
+    all.push_back({one.kind, one.what, judged.sufficient, std::move(judged.reason)});
+  }
+  return all;
+}
+
 }  // namespace
 
 RecordingCheck CheckRecording(const PreparedLog& log) {
@@ -108,8 +296,8 @@ RecordingCheck CheckRecording(const Measurements& measurements) {
   return CheckRecording(Prepare(measurements));
 }
 
-std::string WhyNotConverged(const Measurements& measurements, FrictionKind kind) {
-  for (const Excitation& one : CheckRecording(measurements).excitation) {
+std::string WhyNotConverged(const PreparedLog& log, FrictionKind kind) {
+  for (const Excitation& one : CheckRecording(log).excitation) {
     if (one.kind == kind && !one.sufficient) return one.reason;
   }
   return "does the torque column hold friction?";

@@ -5,17 +5,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 namespace warmjoint {
 
-/// What the motion can tell about each kind of friction. Part of CheckRecording.
-std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
-                                        const SamplingCheck& sampling, const MotionCheck& motion);
-
 /// What `check` finds that the recording lacks to show friction of that kind, with its remedy; where it
 /// lacks nothing, a doubt about the torque column.
-std::string WhyNotConverged(const Measurements& measurements, FrictionKind kind);
+std::string WhyNotConverged(const PreparedLog& log, FrictionKind kind);
 
 /// {source, joint, torque_unit, notes[], sampling{samples, duration, step, rate, jitter, gaps,
 /// longest_gap}, motion{constant_share, rest_share, segments, levels[{velocity, segments,

@@ -28,8 +28,8 @@ Column Filled(const Column& column, const std::vector<InsertedSample>& inserted)
 
 }  // namespace
 
-void InsertSamples(const std::vector<InsertedSample>& inserted, Measurements& log,
-                   Selection& selection) {
+void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
+  auto& [log, selection] = view;
   const Eigen::VectorXd position = log.position;
   const auto motor = log.motor_position;
   ForEachColumn(log, [&](Eigen::VectorXd& column) { column = Filled(column, inserted); });
@@ -53,11 +53,15 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, Measurements& lo
     const auto before = [](const InsertedSample& one, Index sample) { return one.after < sample; };
     return n + (std::lower_bound(inserted.begin(), inserted.end(), n, before) - inserted.begin());
   };
-  for (Index& start : log.starts) start = moved(start);
   for (Segment& segment : selection.segments) {
     segment.begin = moved(segment.begin);
     segment.end = moved(segment.end);
   }
+}
+
+double HeldPath(const Measurements& m) {
+  const Index steps = m.size() - 1;
+  return m.velocity.head(steps).cwiseAbs().dot(m.time.tail(steps) - m.time.head(steps));
 }
 
 }  // namespace warmjoint

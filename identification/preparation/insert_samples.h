@@ -1,7 +1,7 @@
 // Samples put into a log between those that were taken.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <vector>
 
@@ -15,10 +15,19 @@ struct InsertedSample {
   double velocity = 0;     // rad/s or m/s, until the next sample
 };
 
+/// A log with samples put in.
+struct FilledLog {
+  LogView view;
+  /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would
+  /// not have travelled (PreparedLog::unseen).
+  double unseen = 0;
+};
+
 /// Puts samples in, ascending in time: with the torque and the other columns of the sample behind,
-/// and not kept, so that the thermal filter alone sees them. selection: of the N samples of `log`;
-/// its segments and the log's starts keep their samples.
-void InsertSamples(const std::vector<InsertedSample>& inserted, Measurements& log,
-                   Selection& selection);
+/// and not kept, so that the thermal filter alone sees them. Segments keep their samples.
+void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& log);
+
+/// The path sum |v| h, each velocity held until the next sample, rad or m.
+double HeldPath(const Measurements& measurements);
 
 }  // namespace warmjoint

@@ -119,15 +119,9 @@ double RmsOf(const Scale& scale, const SampleMask& moving, double noise) {
   return std::sqrt(std::max(0.0, mean - noise * noise));
 }
 
-Series SeriesOf(const Measurements& m, const std::vector<SampleRange>& pieces,
-                MotionSource source) {
+Series SeriesOf(const Measurements& m, MotionSource source) {
   if (source == MotionSource::velocity) return {m.velocity, 1, NoiseOfVelocity(m.velocity)};
-  double deviation = 0;
-  for (const auto& [first, count] : pieces) {
-    deviation =
-        std::max(deviation, MeasurePositionNoise(m.position.segment(first, count)).deviation);
-  }
-  return {m.position, 2, deviation};
+  return {m.position, 2, MeasurePositionNoise(m.position).deviation};
 }
 
 /// How much the acceleration differs from one side of each sample to the other; 0 where it is not known. [N]
@@ -149,14 +143,14 @@ SampleMask InMotion(const VectorXd& velocity) {
   return velocity.array().abs() >= kClear * rms;
 }
 
-KnownSamples AwayFromCorners(const KnownSamples& known, const VectorXd& changes,
-                             const SampleMask& moving, double rms, double noise) {
+SampleMask AwayFromCorners(const SampleMask& known, const VectorXd& changes,
+                           const SampleMask& moving, double rms, double noise) {
   VectorXd ordered = Chosen(changes, moving);
   // a change beyond what smooth motion and noise make is a corner
   const double most =
       std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered), kDeviations * noise});
-  const KnownSamples straight = known && changes.array() <= most;
-  KnownSamples away = straight;
+  const SampleMask straight = known && changes.array() <= most;
+  SampleMask away = straight;
   // neighbours of a corner are left out as well
   const Index pairs = std::max<Index>(away.size() - 1, 0);
   away.head(pairs) = away.head(pairs) && straight.tail(pairs);
@@ -185,7 +179,7 @@ double NoiseOfVelocity(const VectorXd& velocity) {
 
 LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>& pieces,
                           MotionSource source) {
-  const Series series = SeriesOf(m, pieces, source);
+  const Series series = SeriesOf(m, source);
   const SampleMask moving = InMotion(m.velocity);
 
   // wider windows until noise no longer matters

@@ -17,14 +17,11 @@ inline constexpr double kAcceptedNoise = 0.05;
 /// Speed from which on a sample moves clearly.
 inline constexpr double kClear = 0.05;  // of the velocity's root mean square; why: README.md
 
-/// Which samples of a log are known. [N]
-using KnownSamples = SampleMask;
-
 struct LocalMotion {
   Eigen::VectorXd velocity;      // [N] rad/s or m/s
   Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
   /// [N] whether both are known: a polynomial passes through the samples around, but for their noise.
-  KnownSamples known;
+  SampleMask known;
 };
 
 /// Samples that move, faster than 5 % of the velocity's root mean square. What is said of a
@@ -36,8 +33,8 @@ SampleMask InMotion(const Eigen::VectorXd& velocity);
 /// other by no more than a tenth of its root mean square, four times the median change of what is `moving`, or five
 /// times the noise of a change; and so at the neighbours, whose acceleration spans it.
 /// changes: [N] rad/s^2 or m/s^2, as are rms, of the acceleration, and noise, of a change.
-KnownSamples AwayFromCorners(const KnownSamples& known, const Eigen::VectorXd& changes,
-                             const SampleMask& moving, double rms, double noise);
+SampleMask AwayFromCorners(const SampleMask& known, const Eigen::VectorXd& changes,
+                           const SampleMask& moving, double rms, double noise);
 
 /// Step of a quantised velocity, rad/s or m/s; 0 where it is not quantised. Ramps of one slope between
 /// constant speeds change by one step, too, but sample after sample.

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "models/foundation/robust_noise.h"
+
 namespace warmjoint {
 
 /// The faults of a log, each one sentence: what, how many, where, the bound, the remedy. Looks at
@@ -55,14 +57,12 @@ std::optional<std::string> StuckTorque(const Measurements& measurements,
 std::optional<std::string> DroppedTorque(const Measurements& measurements,
                                          const Selection& selection);
 
-using SampleFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
-
 /// Samples with absurd torque, [N]: above 10 times what is typical of that speed, where three in a row or one in a hundred
 /// are, or above 50 times; in a log that holds no speeds, twice as far. Typical: the median over
 /// eight bins of speed, of which a quarter of the log owns fewer than half.
-SampleFlags AbsurdTorque(const Measurements& measurements, const Selection& selection);
+SampleMask AbsurdTorque(const Measurements& measurements, const Selection& selection);
 
 /// How many, when, and the worst.
-std::string DescribeAbsurd(const Measurements& measurements, const SampleFlags& absurd);
+std::string DescribeAbsurd(const Measurements& measurements, const SampleMask& absurd);
 
 }  // namespace warmjoint

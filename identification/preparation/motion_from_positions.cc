@@ -5,10 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/preparation/insert_samples.h"
-#include "identification/preparation/monotone_path.h"
 #include "identification/preparation/position_plateaus.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -20,46 +17,116 @@ constexpr int kPiecesOfRamp = 8;    // in which its speed is held
 constexpr double kHysteresis = 6;   // reaches
 constexpr double kAtSample = 1e-6;  // of a step: nearer to a sample is at it
 
-/// The motion along one recording of the log.
-class RecordingMotion {
+/// First and last sample and the turning points between them, ascending: a turning point is the
+/// furthest sample before it leads back by more than the hysteresis.
+std::vector<Index> TurningPoints(const VectorXd& p, double hysteresis) {
+  std::vector<Index> turns{0};
+  Index high = 0, low = 0;
+  int direction = 0;
+  for (Index i = 1; i < p.size(); ++i) {
+    // the extremes since the last turning point
+    if (p[i] > p[high]) high = i;
+    if (p[i] < p[low]) low = i;
+    // what leads back beyond the hysteresis shows that the extreme before it was a turn
+    if (direction >= 0 && p[high] - p[i] > hysteresis) {
+      if (direction > 0 || high > 0) turns.push_back(high);
+      direction = -1;
+      low = high = i;
+    } else if (direction <= 0 && p[i] - p[low] > hysteresis) {
+      if (direction < 0 || low > 0) turns.push_back(low);
+      direction = 1;
+      low = high = i;
+    }
+  }
+  // the last sample ends the last stretch
+  if (turns.back() != p.size() - 1) turns.push_back(p.size() - 1);
+  return turns;
+}
+
+/// A run of samples that share one value.
+struct Pool {
+  double times = 0, values = 0;  // sums
+  double count = 0;
+
+  double Middle() const { return times / count; }
+  double Mean() const { return values / count; }
+  void Add(const Pool& other) {
+    times += other.times;
+    values += other.values;
+    count += other.count;
+  }
+};
+
+/// Replaces samples first, ..., last: the nearest sequence that rises (sign 1) or falls (-1) is one
+/// of runs of equal values; straight lines lead from the middle of each run to that of the next.
+void MakeMonotone(const VectorXd& time, VectorXd& p, Index first, Index last, double sign) {
+  std::vector<Pool> pools;
+  for (Index i = first; i <= last; ++i) {
+    pools.push_back({time[i], sign * p[i], 1});
+    // neighbours in the wrong order become one run of their mean
+    while (pools.size() > 1 && pools[pools.size() - 2].Mean() >= pools.back().Mean()) {
+      const Pool behind = pools.back();
+      pools.pop_back();
+      pools.back().Add(behind);
+    }
+  }
+  // straight lines between the middles of the runs, level before the first and behind the last
+  size_t k = 0;
+  for (Index i = first; i <= last; ++i) {
+    while (k + 1 < pools.size() && pools[k + 1].Middle() <= time[i]) ++k;
+    const double from = pools[k].Middle();
+    double value = pools[k].Mean();
+    // between two runs by the share of the time that has passed
+    if (k + 1 < pools.size() && time[i] > from) {
+      const double share = (time[i] - from) / (pools[k + 1].Middle() - from);
+      value += share * (pools[k + 1].Mean() - value);
+    }
+    p[i] = sign * value;
+  }
+}
+
+/// Follows the positions from plateau to plateau.
+class MotionBuilder {
  public:
-  RecordingMotion(const Measurements& log, PositionPlateaus found, SampleRange range)
-      : log_(log),
-        first_(range.first),
-        count_(range.count),
+  MotionBuilder(const Measurements& log, PositionPlateaus found)
+      : time_(log.time),
+        position_(log.position),
+        count_(log.size()),
         found_(std::move(found)),
-        velocity_(log.velocity.segment(first_, count_)) {
+        velocity_(log.velocity) {
     for (const Plateau& plateau : found_.plateaus) TakeSpeed(plateau);
-    TakeWayBefore();
-    for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) TakeWay(i);
-    TakeWayBehind();
+    FollowBefore();
+    for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) FollowTransition(i);
+    FollowBehind();
   }
 
-  const VectorXd& velocity() const { return velocity_; }
-  const Eigen::Array<bool, Eigen::Dynamic, 1>& keep() const { return found_.keep; }
-  const std::vector<InsertedSample>& inserted() const { return inserted_; }
-  double unseen() const { return unseen_; }
-
-  /// The segments with the samples that they reached.
-  void AddSegments(std::vector<Segment>& segments) const {
+  FilledLog Fill(Measurements log) && {
+    log.velocity = std::move(velocity_);
+    FilledLog motion{{std::move(log), {std::move(found_.keep), {}}}, 0};
+    // the segments with the samples that they reached
     for (const Plateau& plateau : found_.plateaus) {
       if (!plateau.moves || plateau.end <= plateau.begin) continue;
-      const double speed = plateau.line ? plateau.line->velocity : velocity_[plateau.begin];
-      segments.push_back({first_ + plateau.begin, first_ + plateau.end, speed});
+      const VectorXd& velocity = motion.view.measurements.velocity;
+      const double speed = plateau.line ? plateau.line->slope : velocity[plateau.begin];
+      motion.view.selection.segments.push_back({plateau.begin, plateau.end, speed});
     }
+    InsertSamples(inserted_, motion.view);
+    const double path = HeldPath(motion.view.measurements);
+    motion.unseen = path > 0 ? unseen_ / path : 0;
+    return motion;
   }
 
  private:
   void TakeSpeed(const Plateau& plateau) {
     if (!plateau.line) return;
     for (Index i = plateau.begin; i < plateau.end; ++i) {
-      const double since = found_.time[i] - plateau.line->time;
-      velocity_[i] = plateau.moves ? plateau.line->velocity + plateau.drift * since : 0;
+      const double since = time_[i] - plateau.line->time;
+      velocity_[i] = plateau.moves ? plateau.line->slope + plateau.drift * since : 0;
     }
   }
 
-  /// The way from plateau i to the next.
-  void TakeWay(size_t i) {
+  /// The transition from plateau i to the next.
+  void FollowTransition(size_t i) {
     const Index last = found_.plateaus[i + 1].begin;
     if (found_.plateaus[i].end == found_.plateaus[i].begin || last >= count_) return;
     if (found_.changes[i]) {
@@ -69,12 +136,12 @@ class RecordingMotion {
     }
   }
 
-  void TakeWayBefore() {
+  void FollowBefore() {
     if (found_.plateaus.empty()) return FollowSamples(0, count_ - 1);
     if (found_.plateaus.front().begin > 0) FollowSamples(0, found_.plateaus.front().begin);
   }
 
-  void TakeWayBehind() {
+  void FollowBehind() {
     if (!found_.plateaus.empty() && found_.plateaus.back().end < count_) {
       FollowSamples(found_.plateaus.back().end, count_ - 1);
     }
@@ -85,16 +152,15 @@ class RecordingMotion {
     for (Index begin = first; begin < last;) {
       // one piece without gaps
       Index end = begin;
-      while (end < last && found_.time[end + 1] - found_.time[end] <= found_.longest) ++end;
+      while (end < last && time_[end + 1] - time_[end] <= found_.longest) ++end;
       if (end > begin) {
         // noise moves the path back and forth, the joint does not
         const double hysteresis = kHysteresis * found_.noise.reach;
         const VectorXd path =
-            MonotonePath(found_.time.segment(begin, end - begin + 1),
+            MonotonePath(time_.segment(begin, end - begin + 1),
                          found_.position.segment(begin, end - begin + 1), hysteresis);
         for (Index i = begin; i < end; ++i) {
-          velocity_[i] =
-              (path[i + 1 - begin] - path[i - begin]) / (found_.time[i + 1] - found_.time[i]);
+          velocity_[i] = (path[i + 1 - begin] - path[i - begin]) / (time_[i + 1] - time_[i]);
         }
       }
       begin = end + 1;
@@ -109,80 +175,70 @@ class RecordingMotion {
     for (int k = 0; k <= pieces; ++k) {
       corners.push_back(change.begin() + change.duration * k / pieces);
     }
-    const double v0 = change.before.velocity, v1 = change.behind.velocity;
+    const double v0 = change.before.slope, v1 = change.behind.slope;
     if (v0 * v1 < 0) corners.push_back(change.begin() + change.duration * v0 / (v0 - v1));
     std::ranges::sort(corners);
 
     size_t next = 0;
     // one speed for each step, or for each of its parts where corners lie within it
     for (Index i = first; i < last; ++i) {
-      const double h = found_.time[i + 1] - found_.time[i];
-      double from = found_.time[i];
+      const double h = time_[i + 1] - time_[i];
+      double from = time_[i];
       Index at = -1;  // the sample put in last, in this step
       const auto hold = [&](double to) {
         const double speed = (change.At(to) - change.At(from)) / (to - from);
         (at < 0 ? velocity_[i] : inserted_[static_cast<size_t>(at)].velocity) = speed;
       };
-      while (next < corners.size() && corners[next] <= found_.time[i] + kAtSample * h) ++next;
-      for (; next < corners.size() && corners[next] < found_.time[i + 1] - kAtSample * h; ++next) {
+      while (next < corners.size() && corners[next] <= time_[i] + kAtSample * h) ++next;
+      for (; next < corners.size() && corners[next] < time_[i + 1] - kAtSample * h; ++next) {
         if (corners[next] - from <= kAtSample * h) continue;
         hold(corners[next]);
         from = corners[next];
         at = static_cast<Index>(inserted_.size());
-        inserted_.push_back({first_ + i, from, log_.position[first_] + change.At(from), 0});
+        inserted_.push_back({i, from, position_[0] + change.At(from), 0});
       }
-      hold(found_.time[i + 1]);
+      hold(time_[i + 1]);
     }
     CountUnseen(change, first, last);
   }
 
   /// The path that a ramp which no sample shows would not have travelled.
   void CountUnseen(const SpeedChange& change, Index first, Index last) {
-    const double v0 = change.before.velocity, v1 = change.behind.velocity;
+    const double v0 = change.before.slope, v1 = change.behind.slope;
     if (change.duration > 0 || v0 * v1 >= 0) return;
     // a ramp without samples reaches to the nearer sample at most
     Index behind = first;
-    while (behind < last && found_.time[behind] < change.time) ++behind;
-    const double nearest = std::min(found_.time[behind] - change.time,
-                                    change.time - found_.time[std::max(behind - 1, first)]);
+    while (behind < last && time_[behind] < change.time) ++behind;
+    const double nearest =
+        std::min(time_[behind] - change.time, change.time - time_[std::max(behind - 1, first)]);
     unseen_ += 2 * std::max(nearest, 0.0) * std::abs(v0 * v1 / (v0 - v1));
   }
 
-  const Measurements& log_;
-  Index first_, count_;
+  const VectorXd& time_;      // [N] s
+  const VectorXd& position_;  // [N] rad or m
+  Index count_;               // N
   PositionPlateaus found_;
-  VectorXd velocity_;  // [n]
+  VectorXd velocity_;  // [N] rad/s or m/s
   std::vector<InsertedSample> inserted_;
   double unseen_ = 0;  // rad or m
 };
 
 }  // namespace
 
-PositionMotion MotionFromPositions(const Measurements& measurements, const Selection& selection,
-                                   const std::vector<Segment>& rests) {
-  PositionMotion motion{measurements, {selection.keep, {}}, 0};
-  std::vector<InsertedSample> inserted;
-  double unseen = 0;
-  // each recording on its own: its plateaus, the ways between them, and the samples put in
-  for (const auto& [first, count] : RecordingsOf(measurements)) {
-    const SampleRange range{first, count};
-    const RecordingMotion one(measurements, FindPlateaus(measurements, selection, rests, range),
-                              range);
-    motion.measurements.velocity.segment(first, count) = one.velocity();
-    motion.selection.keep.segment(first, count) = one.keep();
-    one.AddSegments(motion.selection.segments);
-    inserted.insert(inserted.end(), one.inserted().begin(), one.inserted().end());
-    unseen += one.unseen();
-  }
-  InsertSamples(inserted, motion.measurements, motion.selection);
+FilledLog MotionFromPositions(const Measurements& measurements, const ConstantSpeed& found) {
+  return MotionBuilder(measurements, FindPlateaus(measurements, found)).Fill(measurements);
+}
 
-  const Measurements& m = motion.measurements;
-  const Index steps = m.size() - 1;
-  // the part that a drive may not have travelled, as a share of the whole path
-  const double path =
-      m.velocity.head(steps).cwiseAbs().dot(m.time.tail(steps) - m.time.head(steps));
-  motion.unseen = path > 0 ? unseen / path : 0;
-  return motion;
+VectorXd MonotonePath(const VectorXd& time, const VectorXd& position, double hysteresis) {
+  VectorXd path = position;
+  const std::vector<Index> turns = TurningPoints(position, hysteresis);
+  for (size_t k = 1; k < turns.size(); ++k) {
+    // a turning point belongs to the stretch that leads to it
+    const Index first = k == 1 ? turns[0] : turns[k - 1] + 1;
+    const double sign = position[turns[k]] >= position[turns[k - 1]] ? 1 : -1;
+    MakeMonotone(time, path, first, turns[k], sign);
+  }
+  return path;
 }
 
 }  // namespace warmjoint

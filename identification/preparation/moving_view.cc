@@ -5,10 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "identification/preparation/between_samples.h"
 #include "identification/preparation/local_motion.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/measurements.h"
+#include "models/friction/sign.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint {
@@ -22,23 +21,21 @@ constexpr Index kReach = 2;        // samples to each side of a difference; why 
 constexpr double kGain =
     0.9501;  // why: sqrt(2 (1 + 8^2)) / 12, noise of a difference times the step, of even samples
 
+constexpr double kContradicts = 2;  // path by positions over that by velocities, or the inverse
+
 double RootMeanSquare(const VectorXd& x) {
   return x.size() == 0 ? 0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
 }
 
-/// Pieces without gaps, each of one recording.
-std::vector<SampleRange> PiecesOf(const Measurements& m) {
+/// Pieces without gaps.
+std::vector<SampleRange> PiecesOf(const VectorXd& time) {
   std::vector<SampleRange> pieces;
-  for (const auto& [first, count] : RecordingsOf(m)) {
-    const double longest = count < 2 ? 0 : LongestStep(m.time.segment(first, count));  // s
-    Index begin = first;
-    for (Index i = first + 1; i <= first + count; ++i) {
-      // a piece goes on until a gap or the end of the recording
-      if (i < first + count && m.time[i] - m.time[i - 1] <= longest) continue;
-      pieces.push_back({begin, i - begin});
-      begin = i;
-    }
+  Index begin = 0;
+  for (const LogGap& gap : GapsOf(time)) {
+    pieces.push_back({begin, gap.behind - begin});
+    begin = gap.behind;
   }
+  pieces.push_back({begin, time.size() - begin});
   return pieces;
 }
 
@@ -105,12 +102,82 @@ std::optional<LocalMotion> ByDifferences(const Measurements& m,
     return std::nullopt;
   }
   // samples beside a jump of the acceleration are not known
-  motion.known = AwayFromCorners(KnownSamples::Constant(m.size(), true), Jumps(m, pieces), moving,
+  motion.known = AwayFromCorners(SampleMask::Constant(m.size(), true), Jumps(m, pieces), moving,
                                  rms, noise * std::sqrt(6.0) / step);
   return motion;
 }
 
+/// Of a velocity that is a straight line from sample i to the next: the means of |v| and of v^2 over
+/// that of |v|. Where it turns, both sides of the turn count.
+void TakeLine(const VectorXd& velocity, Index i, BetweenSamples& between) {
+  const double from = velocity[i], to = velocity[i + 1];
+  const double a = std::abs(from), b = std::abs(to);
+  const bool turns = from * to < 0;
+  const double speed = turns ? (a * a + b * b) / (2 * (a + b)) : (a + b) / 2;
+  const double square = turns ? (a * a - a * b + b * b) / 3 : (a * a + a * b + b * b) / 3;
+  between.mean_speed[i] = speed;
+  between.loss_velocity[i] = speed > 0 ? Sign(from) * square / speed : from;
+}
+
+/// The path from sample `first` to sample `last` by the mean speeds, rad or m.
+double PathOf(const VectorXd& time, const VectorXd& speed, Index first, Index last) {
+  double path = 0;
+  for (Index i = first; i < last; ++i) path += speed[i] * (time[i + 1] - time[i]);
+  return path;
+}
+
+/// Scales the speeds of a stretch in one direction to the path of its positions.
+void FollowPositions(const Measurements& m, Index first, Index last, BetweenSamples& between) {
+  const double by_velocity = PathOf(m.time, between.mean_speed, first, last);
+  const double by_position = std::abs(m.position[last] - m.position[first]);
+  const double ratio = by_position / by_velocity;
+  if (!(ratio < kContradicts && ratio > 1 / kContradicts)) return;
+  between.mean_speed.segment(first, last - first) *= ratio;
+  between.loss_velocity.segment(first, last - first) *= ratio;
+}
+
+/// The same for each stretch of a piece that moves clearly in one direction.
+void FollowPositions(const Measurements& m, const SampleRange& piece, double clear,
+                     BetweenSamples& between) {
+  const Index end = piece.first + piece.count;
+  for (Index i = piece.first; i < end; ++i) {
+    if (!(std::abs(m.velocity[i]) > clear)) continue;
+    // the longest stretch that keeps its direction and stays clearly away from rest
+    const Index first = i;
+    while (i + 1 < end && std::abs(m.velocity[i + 1]) > clear &&
+           m.velocity[i + 1] * m.velocity[first] > 0) {
+      ++i;
+    }
+    if (i > first) FollowPositions(m, first, i, between);
+  }
+}
+
+/// Counts what a joint moves between a sample at rest and the next with that one.
+void PassRest(const Measurements& m, const SampleRange& piece, VectorXd& speed) {
+  for (Index i = piece.first; i + 2 < piece.first + piece.count; ++i) {
+    if (m.velocity[i] != 0) continue;
+    const double path = speed[i] * (m.time[i + 1] - m.time[i]);
+    speed[i] = 0;
+    if (m.velocity[i + 1] != 0) speed[i + 1] += path / (m.time[i + 2] - m.time[i + 1]);
+  }
+}
+
 }  // namespace
+
+BetweenSamples MeansBetween(const Measurements& m, const std::vector<SampleRange>& pieces,
+                            double clear) {
+  BetweenSamples between{m.velocity.cwiseAbs(), m.velocity};
+  const bool has_positions = m.position.size() == m.size() && m.position.allFinite();
+  // straight lines between the velocities, scaled to the path of the positions; what rest hides last
+  for (const SampleRange& piece : pieces) {
+    for (Index i = piece.first; i + 1 < piece.first + piece.count; ++i) {
+      TakeLine(m.velocity, i, between);
+    }
+    if (has_positions) FollowPositions(m, piece, clear, between);
+    PassRest(m, piece, between.mean_speed);
+  }
+  return between;
+}
 
 double ClearSpeed(const Measurements& m) {
   const SampleMask moving = InMotion(m.velocity);
@@ -122,7 +189,7 @@ double ClearSpeed(const Measurements& m) {
 LogView ViewMotion(const Measurements& measurements, MotionSource source) {
   LogView view{measurements, {}};
   Measurements& m = view.measurements;
-  const std::vector<SampleRange> pieces = PiecesOf(m);
+  const std::vector<SampleRange> pieces = PiecesOf(m.time);
   const double clear = ClearSpeed(m);
   // by differences where noise allows them, else by polynomials over as many samples as it takes
   std::optional<LocalMotion> motion;
@@ -150,9 +217,8 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
 
 const LogView& MovingView(const PreparedLog& log) {
   return log.found().moving.Get([&] {
-    LogView view = ViewMotion(log.taken().measurements, log.source());
-    log.LeaveOut(view);
-    return view;
+    return log.Stack(
+        [](const PreparedLog& one) { return ViewMotion(one.taken().measurements, one.source()); });
   });
 }
 

@@ -3,13 +3,33 @@
 
 #include <warmjoint/prepared_log.h>
 
+#include <vector>
+
+#include "models/recording/measurements.h"
+
 namespace warmjoint {
 
 /// The speed from which on a sample moves clearly: 5 % of the velocity's root mean square, above its
 /// noise five times and above one and a half of its resolution. rad/s or m/s
 double ClearSpeed(const Measurements& measurements);
 
-/// The log with its acceleration and its means between samples (between_samples.h). A velocity whose
+/// Means from each sample to the next of its piece; of the last one |v| and v. rad/s or m/s
+struct BetweenSamples {
+  Eigen::VectorXd mean_speed;     // [N] of |v|
+  Eigen::VectorXd loss_velocity;  // [N] of v^2 over that of |v|, with the sign of v at the sample
+};
+
+/// Viscous friction loses kv v^2 and Coulomb friction kc |v|, so that both means give the loss of a
+/// force that is a straight line over speed. The velocity is a straight line between samples, which
+/// turns where it passes 0. While the joint moves clearly in one direction, its path is that of the positions,
+/// to which all is scaled: speeds that bend or jump between samples cost nothing. Where the
+/// positions are not known or contradict the velocity by more than a factor of 2 they are not used.
+/// A sample at rest has no friction of its own: the path until the next counts with that one.
+/// pieces: of the log without gaps; clear: speed from which on a joint moves clearly, rad/s or m/s.
+BetweenSamples MeansBetween(const Measurements& measurements,
+                            const std::vector<SampleRange>& pieces, double clear);
+
+/// The log with its acceleration and its means between samples. A velocity whose
 /// samples are too noisy for differences of fourth order, and positions in the place of a velocity, are
 /// followed by polynomials (local_motion.h), whose velocity takes the place of the samples'. It keeps
 /// the samples above ClearSpeed whose neighbours move in the same direction, but for those at a corner

@@ -1,19 +1,27 @@
 #include "identification/preparation/position_plateaus.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
-#include "identification/preparation/speed_change.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint {
 namespace {
 
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kPasses = 3;            // lines and changes of speed, in turn
+constexpr Index kBeside = 10;         // samples of a segment that must follow a change beside it
+constexpr Index kHiddenShare = 6;     // of a segment at each end, as a divisor
+constexpr double kStraight = 2;       // deviations of the positions
+constexpr double kHarmless = 2e-4;    // of the way of a segment: the path may be off by as much
+constexpr double kCertain = 4;        // standard errors
+constexpr double kShareOfEnd = 0.15;  // of a bent segment, whose end a line follows
+constexpr double kMostOfEnd = 0.45;
+constexpr Index kFewestOfEnd = 6;         // samples
 constexpr size_t kFewestRamps = 5;        // that tell the acceleration of others
 constexpr double kOneAcceleration = 0.1;  // median deviation, of the acceleration
 
@@ -52,38 +60,18 @@ void ShareAcceleration(const Eigen::VectorXd& time,
   }
 }
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
-constexpr int kPasses = 3;            // lines and changes of speed, in turn
-constexpr Index kBeside = 10;         // samples of a segment that must follow a change beside it
-constexpr Index kHiddenShare = 6;     // of a segment at each end, as a divisor
-constexpr double kStraight = 2;       // deviations of the positions
-constexpr double kHarmless = 2e-4;    // of the way of a segment: the path may be off by as much
-constexpr double kCertain = 4;        // standard errors
-constexpr double kShareOfEnd = 0.15;  // of a bent segment, whose end a line follows
-constexpr double kMostOfEnd = 0.45;
-constexpr Index kFewestOfEnd = 6;  // samples
-
-/// Positions less the first, [N] rad or m.
-VectorXd Relative(const VectorXd& position) {
-  const auto [steps, step] = FromFirst(position);
-  return step * steps;
-}
-
 /// Finds plateaus in one recording.
 class PlateauSearch {
  public:
-  PlateauSearch(const Measurements& log, const Selection& selection,
-                const std::vector<Segment>& rests, SampleRange range)
-      : first_(range.first), count_(range.count) {
-    found_.time = log.time.segment(first_, count_);
-    found_.position = Relative(log.position.segment(first_, count_));
-    found_.keep = selection.keep.segment(first_, count_);
-    found_.longest = LongestStep(found_.time);
+  PlateauSearch(const Measurements& log, const ConstantSpeed& given)
+      : time_(log.time), count_(log.size()) {
+    const auto [steps, step] = FromFirst(log.position);
+    found_.position = step * steps;
+    found_.keep = given.selection.keep;
+    found_.longest = LongestStep(time_);
     found_.noise = MeasurePositionNoise(found_.position);
-    for (const Segment& segment : selection.segments) Add(segment, true);
-    for (const Segment& rest : rests) Add(rest, false);
+    for (const Segment& one : given.selection.segments) Add(one, true);
+    for (const Segment& one : given.rests) Add(one, false);
     std::ranges::sort(found_.plateaus, {}, &Plateau::begin);
     JoinFragments();
     found_.changes.resize(found_.plateaus.empty() ? 0 : found_.plateaus.size() - 1);
@@ -94,7 +82,7 @@ class PlateauSearch {
       FitLines();
       for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) found_.changes[i] = FindChange(i);
     }
-    ShareAcceleration(found_.time, found_.changes);
+    ShareAcceleration(time_, found_.changes);
     for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) {
       if (found_.changes[i]) Extend(i);
     }
@@ -106,8 +94,7 @@ class PlateauSearch {
 
  private:
   void Add(const Segment& segment, bool moves) {
-    if (segment.begin < first_ || segment.begin >= first_ + count_) return;
-    found_.plateaus.push_back({segment.begin - first_, segment.end - first_, moves, {}, 0, true});
+    found_.plateaus.push_back({segment.begin, segment.end, moves, {}, 0, true});
   }
 
   /// Samples of a plateau that no change of speed beside it touches: an end at which the change is
@@ -119,11 +106,11 @@ class PlateauSearch {
     if (i >= found_.changes.size() || !found_.changes[i]) last -= hidden;
     if (i > 0 && found_.changes[i - 1]) {
       const double from = found_.changes[i - 1]->end() + found_.changes[i - 1]->margin;
-      while (first < last && found_.time[first] <= from) ++first;
+      while (first < last && time_[first] <= from) ++first;
     }
     if (i < found_.changes.size() && found_.changes[i]) {
       const double until = found_.changes[i]->begin() - found_.changes[i]->margin;
-      while (last > first && found_.time[last] >= until) --last;
+      while (last > first && time_[last] >= until) --last;
     }
     return {first, last};
   }
@@ -131,8 +118,7 @@ class PlateauSearch {
   /// Joins neighbours whose samples, and those between them, lie on one line: a velocity that was
   /// smoothed from counts rings, so that the choice by velocity may have cut one speed to pieces.
   void JoinFragments() {
-    const Eigen::Array<bool, Eigen::Dynamic, 1> all =
-        Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(count_, true);
+    const SampleMask all = SampleMask::Constant(count_, true);
     std::vector<Plateau> joined;
     for (const Plateau& next : found_.plateaus) {
       if (joined.empty() || !LieOnOneLine(joined.back(), next, all)) {
@@ -144,10 +130,9 @@ class PlateauSearch {
     found_.plateaus = std::move(joined);
   }
 
-  bool LieOnOneLine(const Plateau& one, const Plateau& next,
-                    const Eigen::Array<bool, Eigen::Dynamic, 1>& all) const {
+  bool LieOnOneLine(const Plateau& one, const Plateau& next, const SampleMask& all) const {
     if (one.moves != next.moves || HasGap(one.end - 1, next.begin)) return false;
-    auto line = FitPositionLine(found_.time, found_.position, one.begin, next.end - 1, all);
+    auto line = FitStraightLine(time_, found_.position, one.begin, next.end - 1, all);
     if (!line) return false;
     line->deviation = found_.noise.deviation;
     for (Index n = one.begin; n < next.end; ++n) {
@@ -157,12 +142,12 @@ class PlateauSearch {
   }
 
   void FitLines() {
-    Eigen::Array<bool, Eigen::Dynamic, 1> use = found_.keep;
+    SampleMask use = found_.keep;
     for (size_t i = 0; i < found_.plateaus.size(); ++i) {
       Plateau& plateau = found_.plateaus[i];
       if (!plateau.moves) use.segment(plateau.begin, plateau.end - plateau.begin).setConstant(true);
       const auto [first, last] = Untouched(i);
-      plateau.line = FitPositionLine(found_.time, found_.position, first, last, use);
+      plateau.line = FitStraightLine(time_, found_.position, first, last, use);
       if (!plateau.line) continue;
       plateau.is_straight = plateau.line->deviation <= kStraight * found_.noise.deviation;
       plateau.line->deviation = std::max(plateau.line->deviation, found_.noise.deviation);
@@ -172,15 +157,14 @@ class PlateauSearch {
 
   /// Slope of the velocity, from the bend of the positions beyond their line. The bend of a segment
   /// is that of b (x^2 - mean x^2), x the time from its middle.
-  double FindDrift(const Plateau& plateau, Index first, Index last,
-                   const Eigen::Array<bool, Eigen::Dynamic, 1>& use) const {
-    const PositionLine& line = *plateau.line;
+  double FindDrift(const Plateau& plateau, Index first, Index last, const SampleMask& use) const {
+    const StraightLine& line = *plateau.line;
     const double mean = line.spread / line.samples;
     double product = 0, squares = 0, strays = 0;
     for (Index i = first; i <= last; ++i) {
       if (!use[i]) continue;
-      const double bend = std::pow(found_.time[i] - line.time, 2) - mean;
-      const double stray = found_.position[i] - line.At(found_.time[i]);
+      const double bend = std::pow(time_[i] - line.time, 2) - mean;
+      const double stray = found_.position[i] - line.At(time_[i]);
       product += bend * stray;
       squares += bend * bend;
       strays += stray * stray;
@@ -194,7 +178,7 @@ class PlateauSearch {
 
   /// The line of a plateau where it meets the change of speed behind it (or before it): that of its
   /// end where its positions bend.
-  std::optional<PositionLine> LineAtEnd(size_t i, bool behind) const {
+  std::optional<StraightLine> LineAtEnd(size_t i, bool behind) const {
     const Plateau& plateau = found_.plateaus[i];
     if (!plateau.line || plateau.is_straight) return plateau.line;
     const auto [first, last] = Untouched(i);
@@ -203,21 +187,20 @@ class PlateauSearch {
     const auto most = static_cast<Index>(kMostOfEnd * static_cast<double>(all));
     const Index count = std::min(std::max(share, kFewestOfEnd), std::max<Index>(most, 2));
     const Index from = behind ? last - count + 1 : first;
-    auto line = FitPositionLine(found_.time, found_.position, from, from + count - 1,
-                                Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(count_, true));
+    auto line = FitStraightLine(time_, found_.position, from, from + count - 1,
+                                SampleMask::Constant(count_, true));
     if (line) line->deviation = std::max(line->deviation, found_.noise.deviation);
     return line;
   }
 
   /// rad or m
   double WayOf(const Plateau& plateau) const {
-    return std::abs(plateau.line->velocity) *
-           (found_.time[plateau.end - 1] - found_.time[plateau.begin]);
+    return std::abs(plateau.line->slope) * (time_[plateau.end - 1] - time_[plateau.begin]);
   }
 
   bool HasGap(Index first, Index last) const {
     for (Index i = first; i < last; ++i) {
-      if (found_.time[i + 1] - found_.time[i] > found_.longest) return true;
+      if (time_[i + 1] - time_[i] > found_.longest) return true;
     }
     return false;
   }
@@ -236,7 +219,7 @@ class PlateauSearch {
     // what positions may be off, at least as much as does not matter beside the way of a segment
     PositionNoise noise = found_.noise;
     noise.reach = std::max(noise.reach, kHarmless * std::min(WayOf(one), WayOf(next)));
-    return FindSpeedChange(found_.time, found_.position, *before, *behind, first, last, noise);
+    return FindSpeedChange(time_, found_.position, *before, *behind, first, last, noise);
   }
 
   /// Lets the plateaus beside a change of speed reach to its margins, or shrink to them.
@@ -245,10 +228,10 @@ class PlateauSearch {
     const double until = found_.changes[i]->begin() - found_.changes[i]->margin;
     const double from = found_.changes[i]->end() + found_.changes[i]->margin;
     Index end = one.end, begin = next.begin;
-    while (end < next.begin && found_.time[end] < until) found_.keep[end++] = one.moves;
-    while (end > one.begin && found_.time[end - 1] >= until) found_.keep[--end] = false;
-    while (begin > end && found_.time[begin - 1] > from) found_.keep[--begin] = next.moves;
-    while (begin < next.end && found_.time[begin] <= from) found_.keep[begin++] = false;
+    while (end < next.begin && time_[end] < until) found_.keep[end++] = one.moves;
+    while (end > one.begin && time_[end - 1] >= until) found_.keep[--end] = false;
+    while (begin > end && time_[begin - 1] > from) found_.keep[--begin] = next.moves;
+    while (begin < next.end && time_[begin] <= from) found_.keep[begin++] = false;
     one.end = end;
     next.begin = begin;
   }
@@ -263,26 +246,22 @@ class PlateauSearch {
       const auto is_on = [&](Index n) { return IsOn(*plateau.line, n); };
       Index begin = plateau.begin, end = plateau.end;
       while (begin > lowest && is_on(begin - 1) &&
-             found_.time[begin] - found_.time[begin - 1] <= found_.longest) {
+             time_[begin] - time_[begin - 1] <= found_.longest) {
         --begin;
       }
-      while (end < highest && is_on(end) &&
-             found_.time[end] - found_.time[end - 1] <= found_.longest)
-        ++end;
-      if (begin == 0 ||
-          (begin > 0 && found_.time[begin] - found_.time[begin - 1] > found_.longest)) {
+      while (end < highest && is_on(end) && time_[end] - time_[end - 1] <= found_.longest) ++end;
+      if (begin == 0 || (begin > 0 && time_[begin] - time_[begin - 1] > found_.longest)) {
         while (plateau.begin > begin) found_.keep[--plateau.begin] = plateau.moves;
       }
-      if (end == count_ ||
-          (end < count_ && found_.time[end] - found_.time[end - 1] > found_.longest)) {
+      if (end == count_ || (end < count_ && time_[end] - time_[end - 1] > found_.longest)) {
         while (plateau.end < end) found_.keep[plateau.end++] = plateau.moves;
       }
     }
   }
 
-  bool IsOn(const PositionLine& line, Index n) const {
-    return std::abs(found_.position[n] - line.At(found_.time[n])) <=
-           found_.noise.reach + kCertain * line.ErrorAt(found_.time[n]);
+  bool IsOn(const StraightLine& line, Index n) const {
+    return std::abs(found_.position[n] - line.At(time_[n])) <=
+           found_.noise.reach + kCertain * line.ErrorAt(time_[n]);
   }
 
   /// Keeps all samples of a straight plateau that lie on its line: its velocities may have been
@@ -305,15 +284,15 @@ class PlateauSearch {
     }
   }
 
-  Index first_, count_;
+  const VectorXd& time_;  // [N] s
+  Index count_;           // N
   PositionPlateaus found_;
 };
 
 }  // namespace
 
-PositionPlateaus FindPlateaus(const Measurements& log, const Selection& selection,
-                              const std::vector<Segment>& rests, SampleRange range) {
-  return PlateauSearch(log, selection, rests, range).Solve();
+PositionPlateaus FindPlateaus(const Measurements& log, const ConstantSpeed& found) {
+  return PlateauSearch(log, found).Solve();
 }
 
 }  // namespace warmjoint

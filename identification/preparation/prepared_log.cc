@@ -1,16 +1,23 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "identification/preparation/insert_samples.h"
 #include "identification/preparation/log_faults.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
 
+using Eigen::Index;
+
 LogView Head(const LogView& all, double time) {
-  const Eigen::Index n = (all.measurements.time.array() < time).count();
+  const Index n = (all.measurements.time.array() < time).count();
   LogView head{FirstSamples(all.measurements, n), {all.selection.keep.head(n), {}}};
   for (Segment segment : all.selection.segments) {
     if (segment.begin >= n) break;
@@ -20,17 +27,168 @@ LogView Head(const LogView& all, double time) {
   return head;
 }
 
+// Several recordings.
+
+/// Sentences about a recording, with the file that they are about.
+std::vector<std::string> Named(const std::string& source, std::vector<std::string> sentences) {
+  for (std::string& sentence : sentences) sentence = fmt::format("{}: {}", source, sentence);
+  return sentences;
+}
+
+void Append(const std::vector<std::string>& more, std::vector<std::string>& sentences) {
+  sentences.insert(sentences.end(), more.begin(), more.end());
+}
+
+template <typename Column>
+void Append(const Column& more, Column& column) {
+  const Index n = column.size();
+  column.conservativeResize(n + more.size());
+  column.tail(more.size()) = more;
+}
+
+/// Columns that a recording may lack, by their names for people.
+constexpr std::pair<std::optional<Eigen::VectorXd> Measurements::*, const char*> kOptional[] = {
+    {&Measurements::motor_position, "motor_position"},
+    {&Measurements::load, "load"},
+    {&Measurements::temperature, "temperature"},
+    {&Measurements::acceleration, "acceleration"},
+    {&Measurements::mean_speed, "mean_speed"},
+    {&Measurements::loss_velocity, "loss_velocity"}};
+
+/// Puts a recording behind others. step: s, between their last sample and its first
+void Append(const LogView& next, double step, LogView& stack) {
+  const Measurements& more = next.measurements;
+  Measurements& all = stack.measurements;
+  const Index n = all.size();
+  all.starts.push_back(n);
+  all.source += " + " + more.source;
+  Append(Named(more.source, more.notes), all.notes);
+  // the columns; one that may be absent is gone where either lacks it
+  Append<Eigen::VectorXd>(more.time.array() - more.time[0] + all.time[n - 1] + step, all.time);
+  Append(more.position, all.position);
+  Append(more.velocity, all.velocity);
+  Append(more.torque, all.torque);
+  all.position_integrated |= more.position_integrated;
+  for (const auto& [column, name] : kOptional) {
+    if (all.*column && more.*column) {
+      Append(*(more.*column), *(all.*column));
+    } else if (all.*column || more.*column) {
+      all.notes.push_back(fmt::format("{} is left out: not every recording has it", name));
+      (all.*column).reset();
+    }
+  }
+  // what takes part in fits
+  Append(next.selection.keep, stack.selection.keep);
+  for (const Segment& segment : next.selection.segments) {
+    stack.selection.segments.push_back({segment.begin + n, segment.end + n, segment.velocity});
+  }
+}
+
+using ViewOf = std::function<LogView(const PreparedLog&)>;
+
+LogView StackOf(const std::vector<PreparedLog>& recordings, const ViewOf& view) {
+  LogView stack = view(recordings.front());
+  stack.measurements.notes = Named(stack.measurements.source, std::move(stack.measurements.notes));
+  for (size_t i = 1; i < recordings.size(); ++i) {
+    const double step = MedianStep(recordings[i - 1].taken().measurements.time);
+    Append(view(recordings[i]), step, stack);
+  }
+  return stack;
+}
+
+void CheckAlike(const Measurements& a, const Measurements& b) {
+  if (a.torque_unit == b.torque_unit && a.joint == b.joint && a.gear == b.gear) return;
+  Refuse({b.source},
+         "is of another joint or in another unit ({}) than {} ({}); join recordings of "
+         "one joint",
+         b.torque_unit, a.source, a.torque_unit);
+}
+
+/// The means over all kept samples whose velocity was averaged.
+std::optional<VelocityNoise> MeanNoise(const std::vector<PreparedLog>& recordings) {
+  VelocityNoise mean;
+  double count = 0;
+  for (const PreparedLog& one : recordings) {
+    if (!one.velocity_noise()) continue;
+    const auto samples = static_cast<double>(one.steady().selection.count());
+    const double share = samples / (count += samples);
+    const auto take = [share](double value, double& of) { of += share * (value - of); };
+    take(one.velocity_noise()->noise, mean.noise);
+    take(one.velocity_noise()->attenuation, mean.attenuation);
+    take(one.velocity_noise()->left, mean.left);
+    take(one.velocity_noise()->mean_speed, mean.mean_speed);
+  }
+  return count > 0 ? std::optional(mean) : std::nullopt;
+}
+
+/// Of the whole path, the share that no sample shows.
+double UnseenOf(const std::vector<PreparedLog>& recordings) {
+  double unseen = 0, path = 0;
+  for (const PreparedLog& one : recordings) {
+    const double own = HeldPath(one.steady().measurements);
+    unseen += one.unseen() * own;
+    path += own;
+  }
+  return path > 0 ? unseen / path : 0;
+}
+
 }  // namespace
 
+PreparedLog Join(std::vector<PreparedLog> recordings) {
+  if (recordings.empty()) Refuse({}, "no recording is given");
+  if (recordings.size() == 1) return recordings.front();
+  PreparedLog::Log all;
+  bool is_changed = false;
+  for (const PreparedLog& one : recordings) {
+    const Measurements& m = one.taken().measurements;
+    CheckAlike(recordings.front().taken().measurements, m);
+    is_changed |= one.log_->steady.has_value();
+    if (one.source() == MotionSource::positions) all.source = MotionSource::positions;
+    Append(Named(m.source, one.faults()), all.faults);
+    Append(Named(m.source, one.warnings()), all.warnings);
+    if (one.absurd()) {
+      all.absurd = fmt::format("{}{}{}: {}", all.absurd.value_or(""), all.absurd ? "; " : "",
+                               m.source, *one.absurd());
+    }
+  }
+  all.taken = StackOf(recordings, &PreparedLog::taken);
+  if (is_changed) all.steady = StackOf(recordings, &PreparedLog::steady);
+  all.velocity_noise = MeanNoise(recordings);
+  all.unseen = UnseenOf(recordings);
+  all.recordings = std::move(recordings);
+  return PreparedLog(std::move(all));
+}
+
+LogView PreparedLog::Stack(const ViewOf& view) const {
+  const ViewOf take = [&](const PreparedLog& one) {
+    LogView taken = view(one);
+    one.LeaveOut(taken);
+    return taken;
+  };
+  return log_->recordings.empty() ? take(*this) : StackOf(log_->recordings, take);
+}
+
 PreparedLog PreparedLog::Before(double time) const {
-  Log before = *log_;
-  before.taken = Head(log_->taken, time);
-  if (log_->steady) before.steady = Head(*log_->steady, time);
-  return PreparedLog(std::move(before));
+  if (log_->recordings.empty()) {
+    Log before = *log_;
+    before.taken = Head(log_->taken, time);
+    if (log_->steady) before.steady = Head(*log_->steady, time);
+    return PreparedLog(std::move(before));
+  }
+  // as many samples of each recording as are before it
+  Index left = (log_->taken.measurements.time.array() < time).count();
+  std::vector<PreparedLog> before;
+  for (const PreparedLog& one : log_->recordings) {
+    const Eigen::VectorXd& own = one.taken().measurements.time;
+    if (left <= 0 && !before.empty()) break;
+    before.push_back(left < own.size() ? one.Before(own[left]) : one);
+    left -= own.size();
+  }
+  return Join(std::move(before));
 }
 
 void PreparedLog::LeaveOut(LogView& view) const {
-  for (Eigen::Index i = 0; i < view.measurements.size() && !log_->left_out.empty(); ++i) {
+  for (Index i = 0; i < view.measurements.size() && !log_->left_out.empty(); ++i) {
     if (std::ranges::binary_search(log_->left_out, view.measurements.time[i]))
       view.selection.keep[i] = false;
   }
@@ -38,15 +196,22 @@ void PreparedLog::LeaveOut(LogView& view) const {
 
 const PreparedLog& PreparedLog::WithoutAbsurd() const {
   const auto& made = found_->without_absurd.Get([&]() -> std::shared_ptr<const PreparedLog> {
+    if (!log_->recordings.empty()) {
+      std::vector<PreparedLog> without;
+      for (const PreparedLog& one : log_->recordings) without.push_back(one.WithoutAbsurd());
+      const auto lacks_none = [](const PreparedLog& one) { return !one.absurd(); };
+      if (std::ranges::all_of(without, lacks_none)) return nullptr;
+      return std::make_shared<const PreparedLog>(Join(std::move(without)));
+    }
     const auto& [measurements, selection] = log_->taken;
-    const SampleFlags absurd = AbsurdTorque(measurements, selection);
+    const SampleMask absurd = AbsurdTorque(measurements, selection);
     if (log_->faults.empty() || !absurd.any()) return nullptr;
     // the fault, which is named last, becomes a warning
     Log without = *log_;
     without.faults.pop_back();
     without.absurd = fmt::format("{}, and left out", DescribeAbsurd(measurements, absurd));
     without.warnings.push_back(*without.absurd);
-    for (Eigen::Index i = 0; i < absurd.size(); ++i) {
+    for (Index i = 0; i < absurd.size(); ++i) {
       if (absurd[i]) without.left_out.push_back(measurements.time[i]);
     }
 

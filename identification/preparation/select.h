@@ -15,13 +15,8 @@ struct ConstantSpeed {
   std::vector<Segment> rests;
 };
 
-/// Appends what was found in a recording whose first sample is `first` and whose velocities are to
-/// be multiplied by `scale`.
-void Append(const ConstantSpeed& found, Eigen::Index first, double scale, ConstantSpeed& all);
-
 /// Keeps the samples that move at a constant speed; rests and accelerations are left out.
-/// Works on plateaus of the velocity, so that a jump between two plateaus costs no sample; recording
-/// by recording (Measurements::starts).
+/// Works on runs of the velocity, so that a jump between two speeds costs no sample.
 ConstantSpeed FindConstantSpeed(const Measurements& measurements);
 
 /// The same without the rests.

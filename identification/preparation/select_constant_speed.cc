@@ -1,18 +1,108 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/preparation/constant_speed_numbers.h"
-#include "identification/preparation/plateaus.h"
 #include "identification/preparation/select.h"
+#include "identification/preparation/velocity_scale.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
 
 using Eigen::Index;
 
-using namespace constant_speed;
+// the largest of noise, share and resolution counts
+constexpr double kSettled = 0.005;    // of the speed: to which a start must settle, and a drift
+constexpr double kMostStrays = 0.98;  // of the samples in the middle, for the ripple of a hold
+constexpr double kDriftOfBand = 0.6;  // a hold that drifts by more leaves its band
+constexpr double kSlowly = 0.01;      // of the steepest acceleration: a hold that drifts, no ramp
+
+// a jump from one speed to the next
+constexpr double kJumpDeviations = 8;   // of the noise
+constexpr double kJumpOverBeside = 10;  // times the changes before and behind it
+constexpr double kClearJump = 0.5;      // of the step between two speeds
+
+// lengths of runs, in samples or as one over the other
+constexpr Index kShortest = 3;      // samples of a hold
+constexpr Index kHandful = 20;      // samples, of which fewer show no ripple
+constexpr Index kCalm = 50;         // one in as many of a run must follow each other settled
+constexpr Index kMuchShorter = 3;   // times: neighbours that are part of an acceleration
+constexpr Index kTurningPoint = 5;  // times shorter than the ramps beside it
+constexpr Index kReversal = 10;     // times shorter than the holds beside it
+constexpr Index kOutliers = 10;     // times shorter than the runs that they divide
+constexpr Index kOfTheRamp = 10;    // one in as many of a ramp's samples is cut at each end
+constexpr Index kMostCut = 4;       // but no more than one in as many of the hold
+
+/// Whether v jumps between samples i - 1 and i while it is steady before and after.
+bool Jumps(const Eigen::VectorXd& v, Index i, const VelocityScale& scale) {
+  const double jump = std::abs(v[i] - v[i - 1]);
+  const double before = i >= 2 ? std::abs(v[i - 1] - v[i - 2]) : 0;
+  const double after = i + 1 < v.size() ? std::abs(v[i + 1] - v[i]) : 0;
+  const double smallest =
+      std::max({kJumpDeviations * scale.noise, VelocityScale::kLevels * scale.resolution,
+                1e-9 * std::abs(v[i])});
+  return jump > smallest && jump > kJumpOverBeside * std::max(before, after);
+}
+
+bool IsTimeGap(const Eigen::VectorXd& time, Index i, const VelocityScale& scale) {
+  return time[i] - time[i - 1] > 3 * scale.step;
+}
+
+std::vector<Segment> Grow(const Measurements& measurements, const VelocityScale& scale) {
+  const Eigen::VectorXd& v = measurements.velocity;
+  std::vector<Segment> runs;
+  Index begin = 0;
+  double sum = v[0];
+  // a run goes on while the speed stays within a band around its mean
+  for (Index i = 1; i <= v.size(); ++i) {
+    const auto length = static_cast<double>(i - begin);
+    const double mean = sum / length;
+
+    // the mean of a short run is itself uncertain
+    const bool goes_on = i < v.size() &&
+                         std::abs(v[i] - mean) <= scale.Band(mean) * std::sqrt(1 + 1 / length) &&
+                         !IsTimeGap(measurements.time, i, scale) && !Jumps(v, i, scale);
+    // the run grows, or ends in front of this sample
+    if (goes_on) {
+      sum += v[i];
+    } else {
+      runs.push_back({begin, i, mean});
+      begin = i;
+      sum = i < v.size() ? v[i] : 0;
+    }
+  }
+  return runs;
+}
+
+/// Whether a run is no more than a few outliers between two runs at one speed.
+bool Interrupts(const Segment& run, const Segment& before, const Segment& after,
+                const Eigen::VectorXd& time, const VelocityScale& scale) {
+  const Index around = std::min(before.end - before.begin, after.end - after.begin);
+  const bool is_brief = kOutliers * (run.end - run.begin) <= around;
+  const bool is_one_speed =
+      std::abs(before.velocity - after.velocity) <= scale.Band(before.velocity) / 2;
+  return is_brief && is_one_speed && !IsTimeGap(time, run.begin, scale) &&
+         !IsTimeGap(time, run.end, scale);
+}
+
+/// Cuts the velocity into runs that stay within scale.Band of their mean: a run ends at a sample
+/// that leaves the band, at a jump between two steady speeds, or at a gap in time (more than three
+/// median steps). Runs that a few outliers alone divide are joined. Together they hold every
+/// sample, so ramps come as many short runs. One pass.
+std::vector<Segment> CutIntoRuns(const Measurements& measurements, const VelocityScale& scale) {
+  const std::vector<Segment> runs = Grow(measurements, scale);
+  std::vector<Segment> joined;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    // a few outliers between two runs of one speed do not end it
+    const bool joins = !joined.empty() && i + 1 < runs.size() &&
+                       Interrupts(runs[i], joined.back(), runs[i + 1], measurements.time, scale);
+    if (joins) {
+      joined.back().end = runs[++i].end;
+    } else {
+      joined.push_back(runs[i]);
+    }
+  }
+  return joined;
+}
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
@@ -75,8 +165,10 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
   values = (values.array() - run.velocity).abs();
   const double spread = MedianInPlace(values) / 0.6745;
   // how far a settled speed may stray: by its ripple, noise, level or resolution
-  const double allowed = std::max({kFar * spread, Wobble(run, run.velocity, v), kNear * scale.noise,
-                                   kSettled * std::abs(run.velocity), kLevels * scale.resolution});
+  const double allowed =
+      std::max({VelocityScale::kFar * spread, Wobble(run, run.velocity, v),
+                VelocityScale::kNear * scale.noise, kSettled * std::abs(run.velocity),
+                VelocityScale::kLevels * scale.resolution});
   const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
   if (Length(run) < kHandful) {
     CutOutwards(run, is_inside);
@@ -112,7 +204,7 @@ bool IsSlow(double drift, const Segment& run, const VelocityScale& scale) {
 bool Drifts(const Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   const double drift = Drift(run, v);
   const auto independent = static_cast<double>(Length(run) / Parts(run)) / scale.memory;
-  const double noise = kFar * scale.noise / std::sqrt(std::max(independent, 1.0));
+  const double noise = VelocityScale::kFar * scale.noise / std::sqrt(std::max(independent, 1.0));
   const double explained =
       kSettled * std::abs(run.velocity) + std::max(noise, 0.5 * scale.resolution);
   return drift > std::min(explained, kDriftOfBand * scale.Band(run.velocity)) &&
@@ -152,7 +244,7 @@ std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Inde
   return lasting;
 }
 
-/// Whether a run lies on the way from one direction of motion to the other: slower than both
+/// Whether a run leads from one direction of motion to the other: slower than both
 /// neighbours, which move apart, and much shorter than each. A joint that turns under a slow
 /// drive creeps there at a constant speed while its friction still builds up.
 bool TurnsRound(const Segment& before, const Segment& run, const Segment& after) {
@@ -211,33 +303,6 @@ std::vector<Segment> SteadyRuns(const Measurements& measurements, const Velocity
   return WithoutTransitions(WithoutTurningPoints(steady, v.size()), scale);
 }
 
-/// One recording: all samples of the log.
-ConstantSpeed FindInRecording(const Measurements& measurements) {
-  const Eigen::VectorXd& v = measurements.velocity;
-  const VelocityScale scale = MeasureVelocity(measurements);
-  const std::vector<Segment> steady = SteadyRuns(measurements, scale);
-
-  ConstantSpeed found;
-  Selection& selection = found.selection;
-  selection.keep.setConstant(v.size(), false);
-  // rests are no segments; segments keep a distance from their neighbours
-  for (std::size_t i = 0; i < steady.size(); ++i) {
-    if (std::abs(steady[i].velocity) <= scale.Rest()) {
-      found.rests.push_back(steady[i]);
-      continue;
-    }
-    Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
-
-    // outliers within a segment are not kept
-    const auto values = v.segment(segment.begin, Length(segment)).array();
-    selection.keep.segment(segment.begin, Length(segment)) =
-        (values - segment.velocity).abs() <= scale.Band(segment.velocity);
-    segment.velocity = values.mean();
-    selection.segments.push_back(segment);
-  }
-  return found;
-}
-
 }  // namespace
 
 void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Selection& selection) {
@@ -269,33 +334,38 @@ void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Sele
   selection.segments = left;
 }
 
-void Append(const ConstantSpeed& found, Index first, double scale, ConstantSpeed& all) {
-  const auto append = [&](const std::vector<Segment>& segments, std::vector<Segment>& to) {
-    for (const Segment& one : segments) {
-      to.push_back({one.begin + first, one.end + first, one.velocity * scale});
-    }
-  };
-  all.selection.keep.segment(first, found.selection.keep.size()) = found.selection.keep;
-  append(found.selection.segments, all.selection.segments);
-  append(found.rests, all.rests);
-}
-
 ConstantSpeed FindConstantSpeed(const Measurements& measurements) {
-  if (measurements.starts.empty()) return FindInRecording(measurements);
-  ConstantSpeed all;
-  all.selection.keep.setConstant(measurements.size(), false);
-  // each recording by its own scale
-  for (const auto& [first, count] : RecordingsOf(measurements)) {
-    Measurements one;
-    one.time = measurements.time.segment(first, count);
-    one.velocity = measurements.velocity.segment(first, count);
-    Append(FindInRecording(one), first, 1, all);
+  const Eigen::VectorXd& v = measurements.velocity;
+  const VelocityScale scale = MeasureVelocity(measurements);
+  const std::vector<Segment> steady = SteadyRuns(measurements, scale);
+
+  ConstantSpeed found;
+  Selection& selection = found.selection;
+  selection.keep.setConstant(v.size(), false);
+  // rests are no segments; segments keep a distance from their neighbours
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (std::abs(steady[i].velocity) <= scale.Rest()) {
+      found.rests.push_back(steady[i]);
+      continue;
+    }
+    Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
+
+    // outliers within a segment are not kept
+    const auto values = v.segment(segment.begin, Length(segment)).array();
+    selection.keep.segment(segment.begin, Length(segment)) =
+        (values - segment.velocity).abs() <= scale.Band(segment.velocity);
+    segment.velocity = values.mean();
+    selection.segments.push_back(segment);
   }
-  return all;
+  return found;
 }
 
 Selection SelectConstantSpeed(const Measurements& measurements) {
   return FindConstantSpeed(measurements).selection;
+}
+
+Selection SelectMoving(const Measurements& measurements) {
+  return {measurements.velocity.array() != 0, {}};
 }
 
 }  // namespace warmjoint

@@ -84,25 +84,24 @@ bool Follows(const VectorXd& time, const VectorXd& position, const SpeedChange& 
 
 }  // namespace
 
-double PositionLine::ErrorAt(double t) const {
+double StraightLine::ErrorAt(double t) const {
   const double away = t - time;
   return deviation * std::sqrt(1 / samples + (spread > 0 ? away * away / spread : 0));
 }
 
-std::optional<PositionLine> FitPositionLine(const VectorXd& time, const VectorXd& position,
-                                            Index first, Index last,
-                                            const Eigen::Array<bool, Eigen::Dynamic, 1>& use) {
+std::optional<StraightLine> FitStraightLine(const VectorXd& time, const VectorXd& values,
+                                            Index first, Index last, const SampleMask& use) {
   // middle of the samples, through which the line goes
-  PositionLine line;
+  StraightLine line;
   for (Index i = first; i <= last; ++i) {
     if (!use[i]) continue;
     line.time += time[i];
-    line.position += position[i];
+    line.value += values[i];
     ++line.samples;
   }
   if (line.samples < 2) return std::nullopt;
   line.time /= line.samples;
-  line.position /= line.samples;
+  line.value /= line.samples;
 
   // slope by least squares
   double product = 0, squares = 0;
@@ -110,12 +109,12 @@ std::optional<PositionLine> FitPositionLine(const VectorXd& time, const VectorXd
     if (!use[i]) continue;
     const double t = time[i] - line.time;
     line.spread += t * t;
-    product += t * (position[i] - line.position);
+    product += t * (values[i] - line.value);
   }
-  line.velocity = product / line.spread;
-  // deviation of the positions, two degrees of freedom taken by the line
+  line.slope = product / line.spread;
+  // deviation of the samples, two degrees of freedom taken by the line
   for (Index i = first; i <= last; ++i) {
-    if (use[i]) squares += std::pow(position[i] - line.At(time[i]), 2);
+    if (use[i]) squares += std::pow(values[i] - line.At(time[i]), 2);
   }
   line.deviation = std::sqrt(squares / std::max(line.samples - 2, 1.0));
   return line;
@@ -125,22 +124,21 @@ double SpeedChange::At(double t) const {
   if (t <= begin()) return before.At(t);
   if (t >= end()) return behind.At(t);
   const double since = t - begin();
-  return before.At(t) + (behind.velocity - before.velocity) / (2 * duration) * since * since;
+  return before.At(t) + (behind.slope - before.slope) / (2 * duration) * since * since;
 }
 
 std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd& position,
-                                           const PositionLine& before, const PositionLine& behind,
+                                           const StraightLine& before, const StraightLine& behind,
                                            Index first, Index last, const PositionNoise& noise) {
   // lines of almost one speed do not tell where they cross
-  const double change_of_speed = std::abs(behind.velocity - before.velocity);
-  const double fastest = std::max(std::abs(before.velocity), std::abs(behind.velocity));
+  const double change_of_speed = std::abs(behind.slope - before.slope);
+  const double fastest = std::max(std::abs(before.slope), std::abs(behind.slope));
   if (!(change_of_speed > kAlike * fastest)) return std::nullopt;
 
   // where the lines cross, counted from the middle between them so that no digits are lost
   SpeedChange change{before, behind};
   const double middle = (time[first] + time[last]) / 2;
-  change.time =
-      middle + (before.At(middle) - behind.At(middle)) / (behind.velocity - before.velocity);
+  change.time = middle + (before.At(middle) - behind.At(middle)) / (behind.slope - before.slope);
   if (!(change.time >= time[first] && change.time <= time[last])) return std::nullopt;
   change.duration = FindDuration(time, position, change, first, last, noise.deviation);
   if (!Follows(time, position, change, first, last, noise)) return std::nullopt;

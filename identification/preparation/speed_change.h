@@ -6,39 +6,38 @@
 #include <optional>
 
 #include "identification/preparation/position_noise.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 
-/// A straight line through positions of one constant speed: p(t) = position + velocity (t - time).
-struct PositionLine {
-  double time = 0;      // s, mean of its samples
-  double position = 0;  // rad or m, there
-  double velocity = 0;  // rad/s or m/s
+/// A straight line by least squares, x(t) = value + slope (t - time): positions of one constant speed, or its velocities.
+struct StraightLine {
+  double time = 0;   // s, mean of its samples
+  double value = 0;  // there
+  double slope = 0;  // 1/s
   double samples = 0;
   double spread = 0;     // sum of squares of the samples' times around their mean, s^2
-  double deviation = 0;  // of the samples around it, rad or m
+  double deviation = 0;  // of the samples around it
 
-  double At(double t) const { return position + velocity * (t - time); }
-  /// Standard error of At(t), rad or m.
+  double At(double t) const { return value + slope * (t - time); }
+  /// Standard error of At(t).
   double ErrorAt(double t) const;
 };
 
-/// Least squares over the samples first, ..., last of `use`. time: [N] s; position: [N] rad or m.
-/// Nothing for fewer than two samples.
-std::optional<PositionLine> FitPositionLine(const Eigen::VectorXd& time,
-                                            const Eigen::VectorXd& position, Eigen::Index first,
-                                            Eigen::Index last,
-                                            const Eigen::Array<bool, Eigen::Dynamic, 1>& use);
+/// Through the samples first, ..., last of `use`. time: [N] s; values: [N]. Nothing for fewer than two samples.
+std::optional<StraightLine> FitStraightLine(const Eigen::VectorXd& time,
+                                            const Eigen::VectorXd& values, Eigen::Index first,
+                                            Eigen::Index last, const SampleMask& use);
 
 /// A change of speed at a constant acceleration around a time, a jump where its duration is 0.
 struct SpeedChange {
-  PositionLine before, behind;
+  StraightLine before, behind;
   double time = 0;      // s, of its middle: where the two lines cross
   double duration = 0;  // s
   double margin = 0;    // s at each end, within which a sample may belong to it
 
   /// By how much the speed changes, rad/s or m/s.
-  double Leap() const { return std::abs(behind.velocity - before.velocity); }
+  double Leap() const { return std::abs(behind.slope - before.slope); }
   double begin() const { return time - duration / 2; }
   double end() const { return time + duration / 2; }
   /// Position at t, rad or m.
@@ -58,7 +57,7 @@ struct SpeedChange {
 /// in another way.
 std::optional<SpeedChange> FindSpeedChange(const Eigen::VectorXd& time,
                                            const Eigen::VectorXd& position,
-                                           const PositionLine& before, const PositionLine& behind,
+                                           const StraightLine& before, const StraightLine& behind,
                                            Eigen::Index first, Eigen::Index last,
                                            const PositionNoise& noise);
 

@@ -22,7 +22,7 @@ constexpr double kOneSided =
 constexpr double kOfTheTypical = 0.01;  // of a way; why: less is a creep at rest
 constexpr double kNearlyAll = 0.8;  // why: longer stretches lose what lies around turning points
 
-/// For each sample how often the log was broken until there: by gaps, starts, and steps within which a sensor that
+/// For each sample how often the log was broken until there: by gaps, and steps within which a sensor that
 /// starts its turn again may hide turns. [N]
 std::vector<Index> Breaks(const Measurements& m) {
   constexpr double turn = 2 * std::numbers::pi, slack = 1e-3 * turn;  // rad
@@ -33,7 +33,7 @@ std::vector<Index> Breaks(const Measurements& m) {
   for (Index i = 1; i < m.size(); ++i) {
     const double step = m.time[i] - m.time[i - 1];
     const bool is_hidden = one_turn && std::abs(m.velocity[i]) * step > turn / 2;
-    const bool is_broken = step > longest || is_hidden || std::ranges::binary_search(m.starts, i);
+    const bool is_broken = step > longest || is_hidden;
     breaks[static_cast<size_t>(i)] = breaks[static_cast<size_t>(i - 1)] + is_broken;
   }
   return breaks;

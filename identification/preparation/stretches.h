@@ -18,7 +18,7 @@ struct Stretch {
 /// or without: a quarter to three quarters of the way lie before the middle, the way is 20
 /// deviations of the position's noise or more, and 1 % or more of the typical one (the median, each way weighted by
 /// itself, so that rests say nothing). Of 4, 8, 16, ... samples the longest is taken that shows four fifths of
-/// the way that the best shows. None spans a gap, a start, or turns that a sensor may hide between samples.
+/// the way that the best shows. None spans a gap, or turns that a sensor may hide between samples.
 std::vector<Stretch> FindStretches(const Measurements& measurements);
 
 }  // namespace warmjoint

@@ -270,7 +270,7 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
       drops, measurements.time[first], kDrops);
 }
 
-SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
+SampleMask AbsurdTorque(const Measurements& m, const Selection& selection) {
   // what a fit takes; a torque of 0 is one of a motor that is off
   const bool holds = HoldsSpeeds(m, selection);
   const double clear = ClearSpeed(m);
@@ -286,7 +286,7 @@ SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
   times(taken) = size.cwiseQuotient(TypicalOver(speed, size)) / (holds ? 1 : kTransient);
 
   // far off for good, or with others
-  SampleFlags absurd = SampleFlags::Constant(m.size(), false);
+  SampleMask absurd = SampleMask::Constant(m.size(), false);
   const auto far = (times.array() > kFarOff).count();
   const bool many = static_cast<double>(far) >= kMany * static_cast<double>(taken.size());
   for (Index begin = 0, end = 0; begin < m.size(); begin = end + 1) {
@@ -298,7 +298,7 @@ SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
   return absurd;
 }
 
-std::string DescribeAbsurd(const Measurements& m, const SampleFlags& absurd) {
+std::string DescribeAbsurd(const Measurements& m, const SampleMask& absurd) {
   constexpr int most = 4;  // stretches named; why: more fill a screen
   std::string times;
   int stretches = 0;

@@ -17,7 +17,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
-using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 constexpr double kTolerance = 0.02;  // of the factor; why: viscous moves by as much, --relevance
 constexpr double kOneDirection =
@@ -66,7 +65,7 @@ double MedianByWay(const ArrayXd& values, const ArrayXd& way) {
 }
 
 /// Those of `values` where `takes` holds.
-ArrayXd Where(const Flags& takes, const ArrayXd& values) {
+ArrayXd Where(const SampleMask& takes, const ArrayXd& values) {
   ArrayXd taken(takes.count());
   for (Index i = 0, k = 0; i < values.size(); ++i) {
     if (takes[i]) taken[k++] = values[i];
@@ -93,7 +92,7 @@ double Unsure(const Measurements& m, const Stretch& one) {
 }
 
 /// Stretches in a row, kRow or more, where `is_other` holds.
-std::vector<Stretch> InARow(const std::vector<Stretch>& stretches, const Flags& is_other) {
+std::vector<Stretch> InARow(const std::vector<Stretch>& stretches, const SampleMask& is_other) {
   std::vector<Stretch> rows;
   for (size_t begin = 0, end = 0; begin < stretches.size(); begin = end + 1) {
     for (end = begin; end < stretches.size() && is_other[static_cast<Index>(end)];) ++end;
@@ -134,7 +133,7 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   // the factor where the velocity changes least, and its scatter there
   const ArrayXd ratio = integral / way;
   const double typical = MedianOf(bend.abs());
-  const Flags least = bend.abs() <= typical;
+  const SampleMask least = bend.abs() <= typical;
   const ArrayXd straight = Where(least, ratio);
   Factor factor;
   factor.times = MedianByWay(straight, Where(least, way.abs()));
@@ -147,7 +146,7 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   factor.others = InARow(stretches, off > kOther * own && off > MedianOf(own));
 
   // what a lag, long steps and a coarse column take off a right one
-  const Flags bent = bend.abs() >= typical && bend != 0;
+  const SampleMask bent = bend.abs() >= typical && bend != 0;
   const double lag = MedianOf(Where(bent, (ratio - factor.times) / bend));
   const double step = MedianStep(m.time);
   const double coarse = MedianOf(Resolution(m.velocity) * duration / way.abs());

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/preparation/constant_speed_numbers.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 namespace {
 
 using Eigen::Index;
-using namespace constant_speed;
+
+constexpr double kAtRest = 1e-3;  // of the velocity's rms
 
 /// |v[i + lag] - v[i]|, [N - lag].
 Eigen::VectorXd Differences(const Eigen::VectorXd& v, Index lag) {

@@ -8,6 +8,12 @@ namespace warmjoint {
 /// Scales that tell a constant speed from an acceleration, read from the log, so that no threshold
 /// has a unit.
 struct VelocityScale {
+  // how far a sample may lie from a speed; the largest of noise, share and resolution counts
+  static constexpr double kFar = 4;       // deviations of the noise: 1 in 16 000 lies further
+  static constexpr double kNear = 3;      // the same for what is at rest, or has settled: 1 in 370
+  static constexpr double kBand = 0.02;   // of the speed: what a hold may stray
+  static constexpr double kLevels = 1.5;  // steps of a quantised velocity: to the neighbouring one
+
   double rms = 0;         // root mean square of the velocity, rad/s or m/s
   double noise = 0;       // standard deviation around constant speeds, rad/s or m/s
   double memory = 1;      // samples after which that noise is a new one

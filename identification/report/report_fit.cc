@@ -194,7 +194,8 @@ void AddMapFigures(const Fit& fit, const Inference& inference, const Measurement
 
 }  // namespace
 
-Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements) {
+Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
+                   const Measurements& measurements) {
   // who answers, with which status, and why
   Estimate estimate;
   estimate.identifier = fit.identifier;
@@ -202,7 +203,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.message = inference.message;
   if (const auto& refusal = fit.refusal;
       refusal && refusal->unconverged && inference.status == refusal->status) {
-    estimate.message += "; " + WhyNotConverged(measurements, *refusal->unconverged);
+    estimate.message += "; " + WhyNotConverged(log, *refusal->unconverged);
   }
   estimate.warnings = inference.warnings;
   estimate.diagnostics = inference.diagnostics;

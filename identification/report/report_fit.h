@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/inference/inference.h"
 
@@ -11,6 +11,7 @@ namespace warmjoint {
 /// The estimate: parameters by name with their intervals; beside the warming's gain and time
 /// constant the discrete pair of Eq. (22) for the median sampling interval; metrics, trace, friction,
 /// gravity, bands and the covariance of the values. measurements: what the fit saw.
-Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements);
+Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
+                   const Measurements& measurements);
 
 }  // namespace warmjoint

@@ -10,7 +10,7 @@ namespace warmjoint {
 /// The one-dimensional datasets at the root of an HDF5 file, as far as the layout asks for them, with their attribute
 /// `unit`, and the root's `joint` ("rotary" or "linear") and `gear`. Throws BadInput, also where the layout's columns are
 /// not there or have more than kMostSamples. One thread at a time. The HDF5 library crashes and hangs on some damaged files:
-/// ReadRecording calls this in a child process.
+/// ReadRecordings calls this in a child process.
 FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout);
 
 /// The bytes of a file with the columns that are present, SI, with those attributes. Safe to call from many threads,

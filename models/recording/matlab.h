@@ -12,7 +12,7 @@ namespace warmjoint {
 /// `joint` ("rotary" or "linear"), a number `gear`, and texts in a struct `unit` by the columns' names count where
 /// the layout has its defaults. Objects, as timeseries, cannot be read: save their Time and Data. Throws BadInput, also
 /// where the layout's columns are not there. One thread at a time. The library (matio)
-/// crashes on some damaged files: ReadRecording calls this in a child process.
+/// crashes on some damaged files: ReadRecordings calls this in a child process.
 FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout);
 
 }  // namespace warmjoint

@@ -46,18 +46,6 @@ struct SampleRange {
   Eigen::Index first = 0, count = 0;
 };
 
-/// The samples of each recording, in order: all of them where the log is one.
-inline std::vector<SampleRange> RecordingsOf(const Measurements& log) {
-  std::vector<SampleRange> recordings;
-  Eigen::Index first = 0;
-  for (const Eigen::Index start : log.starts) {
-    recordings.push_back({first, start - first});
-    first = start;
-  }
-  recordings.push_back({first, log.size() - first});
-  return recordings;
-}
-
 /// The same selection without samples of velocity 0. Friction at v = 0 is whatever holds the joint,
 /// not what the law gives, so that such a sample tells a fit nothing; it still warms or cools the
 /// joint.

@@ -13,7 +13,6 @@
 #include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
 #include "models/recording/hdf5.h"
-#include "models/recording/join_recordings.h"
 #include "models/recording/matlab.h"
 #include "models/recording/measurements.h"
 #include "models/recording/read_apart.h"
@@ -133,7 +132,7 @@ void WriteRecording(const Measurements& measurements, const std::filesystem::pat
          Extension(path));
 }
 
-Measurements ReadRecording(const RecordingSource& source) {
+std::vector<Measurements> ReadRecordings(const RecordingSource& source) {
   // numbers that cannot be meant are refused before anything is read
   CheckReadSettings(source.read);
   std::vector<Measurements> recordings;
@@ -141,7 +140,7 @@ Measurements ReadRecording(const RecordingSource& source) {
     recordings.push_back(ReadRecordingFile(path, source.read));
     TakeTorqueConstant(source.read.torque_constant, recordings.back());
   }
-  return JoinRecordings(std::move(recordings));
+  return recordings;
 }
 
 Measurements MakeRecording(const std::map<std::string, std::vector<double>>& columns,
@@ -161,7 +160,6 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
 Measurements FirstSamples(Measurements log, Eigen::Index n) {
   ForEachColumn(
       log, [n](Eigen::VectorXd& column) { column.conservativeResize(std::min(n, column.size())); });
-  std::erase_if(log.starts, [n](Eigen::Index start) { return start >= n; });
   if (log.gaps) std::erase_if(*log.gaps, [n](const LogGap& gap) { return gap.behind >= n; });
   return log;
 }

@@ -42,7 +42,7 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
   const LogView& fitted = first->fit.inertia ? MovingView(before) : before.steady();
-  Estimate made = ReportFit(first->fit, Infer(first->fit), fitted.measurements);
+  Estimate made = ReportFit(first->fit, Infer(first->fit), before, fitted.measurements);
   if (!made.friction) return std::nullopt;
 
   // the rest, with the verdict on the whole

@@ -93,7 +93,7 @@ std::optional<RecordingSource> RecordingOf(const Estimate& estimate, const std::
 }
 
 PreparedLog ReadAndPrepare(const RecordingSource& source) {
-  return Prepare(ReadRecording(source), source.prepare);
+  return Prepare(ReadRecordings(source), source.prepare);
 }
 
 Project ParseProject(const std::string& text, const std::string& file) {

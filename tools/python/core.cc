@@ -22,7 +22,6 @@
 #include "identification/estimate.h"
 #include "identification/preparation/check.h"
 #include "models/friction/check_friction.h"
-#include "models/recording/join_recordings.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_view.h"
 #include "tools/figures/log_page.h"
@@ -87,15 +86,15 @@ Log ReadLog(nb::handle settings) {
   const auto source = FieldsFromPython<RecordingSource>(settings, "read");
   // readers of HDF5 and MATLAB fork, which only the thread that calls may do
   nb::gil_scoped_release released;
-  return {Prepare(ReadRecording(source), source.prepare), source};
+  return {Prepare(ReadRecordings(source), source.prepare), source};
 }
 
 /// Several logs of one joint, each from a cold start, as one.
 Log JoinLogs(const std::vector<Log>& logs) {
-  std::vector<Measurements> parts;
-  for (const Log& log : logs) parts.push_back(log.measurements());
-  return Interruptibly([parts = std::move(parts)](const auto&) {
-    return Log{Prepare(JoinRecordings(parts)), {}};
+  std::vector<PreparedLog> recordings;
+  for (const Log& log : logs) recordings.push_back(log.prepared);
+  return Interruptibly([recordings = std::move(recordings)](const auto&) {
+    return Log{Join(recordings), {}};
   });
 }
 

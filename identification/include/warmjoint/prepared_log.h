@@ -1,6 +1,6 @@
 // A recording as every identifier gets it, and its check.
 //
-//   const PreparedLog log = Prepare(ReadRecording({{"log.csv"}}), {.trim = 0.5});
+//   const PreparedLog log = Prepare(ReadRecordings({{"log.csv"}}), {.trim = 0.5});
 //   std::puts(CheckToText(CheckRecording(log)).c_str());
 #pragma once
 
@@ -46,13 +46,13 @@ class MadeOnce {
   T value_{};
 };
 
-/// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
-/// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
-/// that happens between two samples (split_at_switches.h), the speed between segments from the
-/// positions where they tell more of it (replace_transitions.h), and the faults of the log. Where the log
-/// has no velocity, its positions tell it (motion_from_positions.h). Only Prepare
-/// makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
-/// copies share the samples.
+/// Recordings of one joint, prepared for a fit: what moves at constant speed, one velocity for each
+/// segment where the noise of the samples' would bias a fit (segment_velocity.h), the speed between
+/// segments, with samples put in where it changes between two (transitions.h), and the faults of the
+/// log. Where a recording has no velocity, it follows from its positions (motion_from_positions.h).
+/// Only Prepare and Join make one, and identifiers take nothing else, so that nobody can forget a
+/// step. Several recordings stand one after the other, a step apart in time. Cheap to copy: copies
+/// share the samples.
 class PreparedLog {
  public:
   /// The log as it was taken: for fits that follow changes of speed from sample to sample. A
@@ -62,7 +62,7 @@ class PreparedLog {
   /// The log as fits at constant speed see it.
   const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
 
-  /// What tells the velocity of `taken`.
+  /// What the velocity of `taken` was taken from; of several recordings, positions where one has no other.
   MotionSource source() const { return log_->source; }
 
   /// What others found in the log when they first needed it (moving_view.h).
@@ -74,13 +74,15 @@ class PreparedLog {
   };
   Found& found() const { return *found_; }
 
-  /// Leaves those out of a view of the log that were left out of the log itself.
-  void LeaveOut(LogView& view) const;
+  /// A view of each recording, one after the other, without the samples that were left out of the
+  /// log itself. view: of a log of one recording.
+  LogView Stack(const std::function<LogView(const PreparedLog&)>& view) const;
 
   /// What was done to the velocity, if anything.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
 
-  /// Share of the path that the log cannot tell from standing still (SplitLog::unseen).
+  /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would not
+  /// have travelled: ramps through 0 that no sample shows.
   double unseen() const { return log_->unseen; }
 
   /// What in the log contradicts itself, each one sentence (log_faults.h).
@@ -103,31 +105,42 @@ class PreparedLog {
   struct Log {
     LogView taken;
     MotionSource source = MotionSource::velocity;  // of its velocity
-    std::optional<LogView> steady;                 // where anything was done to the log
-    std::optional<VelocityNoise> velocity_noise;
+    std::optional<LogView> steady{};               // where anything was done to the log
+    std::optional<VelocityNoise> velocity_noise{};
     double unseen = 0;
-    std::vector<std::string> faults;
-    std::vector<std::string> warnings;
+    std::vector<std::string> faults{};
+    std::vector<std::string> warnings{};
     std::vector<double> left_out{};  // times of samples, s
     std::optional<std::string> absurd{};
+    std::vector<PreparedLog> recordings{};  // of several, in their order
   };
 
   struct Maker;
   explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
+  void LeaveOut(LogView& view) const;
   friend PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
+  friend PreparedLog Join(std::vector<PreparedLog> recordings);
 
   std::shared_ptr<const Log> log_;
   std::shared_ptr<Found> found_ = std::make_shared<Found>();
 };
 
-/// Prepares a log: the samples at constant speed are found in it (select.h). The one path of command
-/// line, suites, tests of verdicts and benchmarks. Throws BadInput where there is no velocity and the
-/// slope of the positions is no number.
+/// Prepares a recording: the samples at constant speed are found in it (select.h). The one path of
+/// command line, suites, tests of verdicts and benchmarks. Throws BadInput where there is no velocity
+/// and the slope of the positions is no number.
 PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds = {});
+
+/// Several recordings of one joint, each prepared by itself. Throws BadInput as Join does.
+PreparedLog Prepare(std::vector<Measurements> recordings, const PrepareSettings& holds = {});
 
 /// The same where a plant says which samples move at constant speed.
 PreparedLog Prepare(Measurements measurements, Selection known);
+
+/// Recordings of one joint as one log, each from a cold start (Measurements::starts). A column that
+/// one of them lacks is left out, and noted. One recording comes back as it is. Throws BadInput where
+/// none is given, or where units, kinds of joint or gears differ.
+PreparedLog Join(std::vector<PreparedLog> recordings);
 
 /// A kind of friction that a motion may show or not.
 enum class FrictionKind {

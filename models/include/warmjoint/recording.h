@@ -3,8 +3,9 @@
 //   ReadSettings settings;
 //   settings.map["torque"] = "force_N";
 //   settings.unit["position"] = "deg";
-//   const Measurements recording = ReadRecording({{"log.csv"}, settings});
-//   std::printf("%td samples\n", recording.size());
+//   for (const Measurements& recording : ReadRecordings({{"monday.csv", "tuesday.csv"}, settings})) {
+//     std::printf("%td samples\n", recording.size());
+//   }
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -49,8 +50,8 @@ struct Measurements {
   std::optional<Eigen::VectorXd> mean_speed;
   std::optional<Eigen::VectorXd> loss_velocity;
 
-  /// Of several recordings joined (join_recordings.h): the first sample of each but the first. The
-  /// joint is cold there again.
+  /// Of several recordings prepared together (prepared_log.h): the first sample of each but the
+  /// first. The joint is cold there again.
   std::vector<Eigen::Index> starts;
 
   /// Of rows that are means of several samples, whose times no longer tell: the gaps between the
@@ -196,10 +197,10 @@ struct RecordingSource {
   }
 };
 
-/// Reads the recordings: CSV, HDF5 (.h5, .hdf5) or MATLAB (.mat); several of one joint, each from a cold start, as one.
+/// Reads the recordings: CSV, HDF5 (.h5, .hdf5) or MATLAB (.mat).
 /// Libraries for HDF5 and MATLAB work in a child process with limits on memory and time, since they crash on some damaged
 /// files: for one thread at a time, best before others start. Throws BadInput.
-Measurements ReadRecording(const RecordingSource& source);
+std::vector<Measurements> ReadRecordings(const RecordingSource& source);
 
 /// Makes a recording of vectors, with the conversions and checks of a file. columns: values by the names that a file would
 /// have in its header, all of one length. name: of the recording in messages. Throws BadInput.

@@ -7,7 +7,6 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "models/recording/join_recordings.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -73,18 +72,18 @@ TEST(CheckEstimate, SaysWhyNothingWasExamined) {
 }
 
 /// Three mornings of the joint of Table I, half an hour each.
-Measurements Mornings(double noise) {
+PreparedLog Mornings(double noise) {
   std::vector<Measurements> recordings;
   for (std::uint64_t day = 1; day <= 3; ++day) {
     recordings.push_back(
         test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1800, day), noise, day));
   }
-  return JoinRecordings(recordings);
+  return Prepare(recordings);
 }
 
-Estimate Identify(const std::string& name, const Measurements& m) {
-  if (name != "energy-als") return test::Fitted(name, m);
-  return test::Fitted(name, m, {{"iterations", "500"}}, {11, 3});
+Estimate Identify(const std::string& name, const PreparedLog& log) {
+  if (name != "energy-als") return test::Fitted(name, log);
+  return test::Fitted(name, log, {{"iterations", "500"}}, {11, 3});
 }
 
 TEST(SeveralRecordings, EnergyMlFindsTheTruthWithoutNoise) {

@@ -6,7 +6,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/select.h"
-#include "models/recording/join_recordings.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {
@@ -26,13 +25,18 @@ Measurements Minute(std::uint64_t seed, double rate = 100, double noise = 0.5,
 
 /// The answer of an identifier, judged where `verdict` says so.
 enum class Verdict { judged, unjudged };
+Estimate AnswerTo(const PreparedLog& log, const std::map<std::string, std::string>& given = {},
+                  Verdict verdict = Verdict::judged) {
+  const Identifier identifier = LuGreIdentifier();
+  const IdentifierInput input{log, identifier.options.Read(given), {}};
+  return verdict == Verdict::judged ? IdentifyAndCheck(identifier, input)
+                                    : IdentifyUnchecked(identifier, input);
+}
+
 Estimate AnswerTo(const Measurements& m, const Selection& selection,
                   const std::map<std::string, std::string>& given = {},
                   Verdict verdict = Verdict::judged) {
-  const Identifier identifier = LuGreIdentifier();
-  const IdentifierInput input{Prepare(m, selection), identifier.options.Read(given), {}};
-  return verdict == Verdict::judged ? IdentifyAndCheck(identifier, input)
-                                    : IdentifyUnchecked(identifier, input);
+  return AnswerTo(Prepare(m, selection), given, verdict);
 }
 
 const std::map<std::string, double> kTruth{{"viscous", 5},
@@ -189,8 +193,9 @@ TEST(Lugre, ShowsWarmingInItsResidual) {
 }
 
 TEST(Lugre, JoinsRecordings) {
-  const Measurements joined = JoinRecordings({Minute(1), Minute(2)});
-  const Estimate estimate = AnswerTo(joined, SelectMoving(joined));
+  std::vector<PreparedLog> logs;
+  for (const Measurements& m : {Minute(1), Minute(2)}) logs.push_back(Prepare(m, SelectMoving(m)));
+  const Estimate estimate = AnswerTo(Join(logs));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : kTruth) {
     const EstimatedParameter& found = *estimate.Find(name);

@@ -4,7 +4,6 @@
 
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
-#include "models/recording/join_recordings.h"
 #include "tests/support/judging.h"
 #include "tests/support/slow_recording.h"
 
@@ -122,7 +121,8 @@ TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {
   warm.thermal = Thermal{-3, 60};
   const Measurements once = test::RecordFriction(warm, 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
   const Estimate one = AnswerTo(once, {{"warming", "estimated"}});
-  const Estimate two = AnswerTo(JoinRecordings({once, once}), {{"warming", "estimated"}});
+  const Estimate two =
+      test::Fitted("stribeck", Prepare(std::vector{once, once}), {{"warming", "estimated"}});
   ASSERT_EQ(one.status, Status::ok) << one.message;
   ASSERT_EQ(two.status, Status::ok) << two.message;
   for (const EstimatedParameter& parameter : one.parameters) {

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "models/foundation/random_stream.h"
-#include "models/recording/join_recordings.h"
 
 namespace warmjoint {
 namespace {
@@ -151,7 +150,7 @@ TEST(MotionFromPositions, DoesNotDependOnWhereTheEncoderHasItsZero) {
 TEST(MotionFromPositions, TakesJoinedRecordingsOneByOne) {
   const Measurements one = Carried({.seed = 1}).log, other = Carried({.rate = 100, .seed = 2}).log;
   const LogView alone = Prepare(other).steady();
-  const LogView joined = Prepare(JoinRecordings({one, other})).steady();
+  const LogView joined = Prepare(std::vector{one, other}).steady();
   const Index n = alone.measurements.size();
   ASSERT_EQ(joined.measurements.starts.size(), 1U);
   ASSERT_EQ(joined.measurements.size() - joined.measurements.starts[0], n);

@@ -1,4 +1,4 @@
-// The way of a joint by its positions and by its velocity.
+// The path of a joint by its positions and by its velocity.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
@@ -7,9 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/monotone_path.h"
-#include "identification/preparation/path_against_velocity.h"
-#include "identification/preparation/replace_transitions.h"
+#include "identification/preparation/motion_from_positions.h"
+#include "identification/preparation/transitions.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/judging.h"
 

@@ -63,7 +63,7 @@ TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
   IdentifySettings settings;
   HoldOutSource holdout;
   GetParam().set(source, settings, holdout);
-  Estimate estimate = Identify(Prepare(ReadRecording(source), source.prepare), settings, holdout);
+  Estimate estimate = Identify(Prepare(ReadRecordings(source), source.prepare), settings, holdout);
   EXPECT_EQ(estimate.status, GetParam().status) << estimate.message;
   estimate.recording = source;
   WriteEstimate(estimate, scratch.path() / "ours.json");
@@ -122,7 +122,7 @@ TEST(Identify, FollowsAnEarlierRecordingAsTheCommand) {
   RunWarmjoint({"identify", log, "-o", earlier});
   RunWarmjoint({"identify", log, "--follows", earlier, "--pause", "60", "-o", file});
 
-  const Measurements recording = ReadRecording({{log}, {}, {}});
+  const Measurements recording = ReadRecordings({{log}, {}, {}}).front();
   const CarriedHeat heat = CarryOver(HeatLeftBy(ReadEstimate(earlier), earlier), 60, recording);
   Estimate estimate = Identify(Prepare(recording), {}, {}, heat);
   estimate.recording = RecordingSource{{log}, {}, {}};
@@ -173,7 +173,7 @@ TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
   settings.unit = {{"time", "ms"}, {"position", "deg"}, {"velocity", "deg/s"}};
   settings.scale = {{"torque", -1}};
   const Measurements made = MakeRecording(columns, settings, "bench");
-  const Measurements read = ReadRecording({{scratch.path() / "log.csv"}, settings, {}});
+  const Measurements read = ReadRecordings({{scratch.path() / "log.csv"}, settings, {}}).front();
   EXPECT_EQ(made.torque, Eigen::Vector4d(-1, -2, -1, -2));
   EXPECT_EQ(made.time, read.time);
   EXPECT_EQ(made.position, read.position);
@@ -184,7 +184,7 @@ TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
   EXPECT_THAT(test::RefusalOf([&] { MakeRecording(columns, settings, "bench"); }),
               HasSubstr("bench: "));
   EXPECT_THAT(test::RefusalOf([&] {
-                ReadRecording({{"absent.csv"}, {}, {}});
+                ReadRecordings({{"absent.csv"}, {}, {}});
               }),
               HasSubstr("absent.csv"));
 }
@@ -193,7 +193,7 @@ TEST(Check, SaysWhatTheCommandSays) {
   const ScratchDirectory scratch;
   const std::string log = scratch.path() / "log.csv";
   WriteRecordingFile(log, 480, SeveralSpeeds);
-  const RecordingCheck check = CheckRecording(ReadRecording({{log}, {}, {}}));
+  const RecordingCheck check = CheckRecording(Prepare(ReadRecordings({{log}, {}, {}})));
   EXPECT_EQ(CheckToText(check), RunWarmjoint({"check", log}).out);
   EXPECT_EQ(check.motion.levels.size(), 8u);
 }

@@ -3,7 +3,7 @@
 //   IdentifySettings settings;
 //   settings.identifier = "energy-ml";  // auto where it is not given
 //   settings.options["law"] = "asymmetric";
-//   const Estimate estimate = Identify(Prepare(ReadRecording({{"log.csv"}})), settings);
+//   const Estimate estimate = Identify(Prepare(ReadRecordings({{"log.csv"}})), settings);
 #pragma once
 
 #include <warmjoint/estimate.h>

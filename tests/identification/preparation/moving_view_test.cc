@@ -1,4 +1,4 @@
-#include "identification/preparation/between_samples.h"
+#include "identification/preparation/moving_view.h"
 
 #include <gtest/gtest.h>
 

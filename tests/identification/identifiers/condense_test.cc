@@ -1,4 +1,4 @@
-#include "identification/preparation/condense.h"
+#include "identification/identifiers/condense.h"
 
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>

@@ -1,0 +1,71 @@
+// From one segment to the next: what a velocity column lacks of a change of speed, and the positions know.
+#pragma once
+
+#include <warmjoint/prepared_log.h>
+
+#include <optional>
+#include <vector>
+
+#include "identification/preparation/insert_samples.h"
+
+namespace warmjoint {
+
+/// A thermal filter holds the loss of each sample until the next one. Where the speed changes
+/// between two samples at v0 and v1, that charges the rest of the old speed and none of the new
+/// one. The positions show when it changed: a switch at t0 + s, v0 s + v1 (h - s) = p1 - p0, gets a
+/// sample of its own, with the speed and the torque of the sample behind it. Nothing is put in
+/// where the speed changes by less than a tenth of its rms or in a ramp that samples show, where
+/// the positions contradict the speeds (s outside of the interval), or across a gap. A reversal may
+/// hide a ramp of duration D, at most twice the time to the nearer sample, that loses D v0 v1 / (v0 + v1)
+/// of the path: FilledLog::unseen. Nothing where no switch is found.
+std::optional<FilledLog> SplitAtSwitches(const LogView& log);
+
+/// By how much two velocities may differ, relative, and count as the same.
+inline constexpr double kSameSpeed = 0.02;
+
+/// From the middle of a segment to the middle of the next.
+struct Transition {
+  Eigen::Index first = 0, last = 0;  // samples
+  double length = 0;                 // path of the positions, rad or m
+  double difference = 0;             // path of the velocities less that, rad or m
+};
+
+/// The path sum |v| h, transition by transition.
+struct PathComparison {
+  double excess = 0;  // path of the velocities / path of the positions - 1
+  double error = 0;   // its standard error, from the scatter over the transitions
+  std::vector<Transition> transitions;
+};
+
+/// Compares two versions of one log, each with the velocity held until the next sample:
+/// `by_velocity` by its velocity column, `by_position` by its positions (motion_from_positions.h).
+/// Transitions count where both agree on the speeds of their two segments to 2 %, so that a position
+/// that is stuck or wrapped for a while says nothing, and where no gap lies between. segments: of the
+/// log as it was taken, whose sample times are `time`. Nothing with fewer than 8 transitions.
+std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
+                                           const Measurements& by_position,
+                                           const std::vector<Segment>& segments,
+                                           const Measurements& taken);
+
+/// Whether the positions contradict the velocity column: the paths differ by more than 0.1 %, which
+/// moves the thermal gain by as much, and by more than four standard errors.
+bool Contradicts(const PathComparison& paths);
+
+/// Whether the positions know the transitions better than the velocity column does, which knows nothing of what the speed
+/// does between two samples. Where a speed turns, the path is twice as uncertain as the position s of a sample, so that
+/// the mean square D of the differences has 4 s^2 from the positions and D - 4 s^2 from the column: D > 8 s^2. Where the
+/// two differ by less than 0.01 % of a transition's length, no interval is narrow enough to show it. deviation: s, rad or m
+bool PositionsTellMore(const PathComparison& paths, double deviation);
+
+/// A log with samples put in, `by_velocity`, where the path of each of the transitions becomes that of another one,
+/// `by_position`: the samples of a transition that are not kept have the velocity of the latter, and the samples put in
+/// are its samples, with one right behind the last sample of a segment; nothing is put in within one. So the losses of a
+/// change of speed are those of its path, whatever the velocity does between two samples. Transitions whose difference is
+/// larger than samples can hide, one step at the change of speed, stay as they are: there one of the two is spoilt.
+/// taken: the N samples that both have; its selection is that of the result, with the samples put in not kept.
+/// by_velocity, by_position: of SplitAtSwitches and of motion_from_positions.h
+LogView ReplaceTransitions(const LogView& taken, const Measurements& by_velocity,
+                           const Measurements& by_position,
+                           const std::vector<Transition>& transitions);
+
+}  // namespace warmjoint

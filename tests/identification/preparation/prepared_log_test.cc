@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <warmjoint/errors.h>
+#include <warmjoint/prepared_log.h>
+
+#include "identification/preparation/moving_view.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+/// Speeds held for 20 s, sampled every h from `begin` on, s. n: samples
+Measurements Recording(const std::string& source, Index n, double h, double begin,
+                       std::uint64_t seed) {
+  Measurements m =
+      test::RecordFriction(test::TableOne(), h, test::AlternatingSpeeds(n, seed), 0.1, seed);
+  m.source = source;
+  m.time.array() += begin;
+  return m;
+}
+
+/// The samples of a recording in a view of several, from its first on.
+void ExpectPart(const LogView& all, Index first, const LogView& one) {
+  const Index n = one.measurements.size();
+  ASSERT_LE(first + n, all.measurements.size());
+  EXPECT_EQ(all.measurements.velocity.segment(first, n), one.measurements.velocity);
+  EXPECT_EQ(all.measurements.position.segment(first, n), one.measurements.position);
+  EXPECT_EQ(all.measurements.torque.segment(first, n), one.measurements.torque);
+  EXPECT_TRUE((all.selection.keep.segment(first, n) == one.selection.keep).all());
+  const Eigen::ArrayXd shift =
+      all.measurements.time.segment(first, n).array() - one.measurements.time.array();
+  EXPECT_LT(shift.maxCoeff() - shift.minCoeff(), 1e-9);
+}
+
+TEST(Join, EachRecordingIsPreparedByItself) {
+  const Measurements slow = Recording("a", 900, 1, 0, 1), late = Recording("b", 600, 0.5, 1e4, 2);
+  Measurements without = Recording("c", 800, 1, -50, 3);
+  without.velocity.resize(0);
+  const PreparedLog joined = Prepare(std::vector{slow, late, without});
+  const PreparedLog parts[] = {Prepare(slow), Prepare(late), Prepare(without)};
+  EXPECT_THAT(joined.taken().measurements.starts, ElementsAre(900, 1500));
+  EXPECT_EQ(joined.taken().measurements.source, "a + b + c");
+  Index taken = 0, steady = 0, moving = 0;
+  for (const PreparedLog& part : parts) {
+    ExpectPart(joined.taken(), taken, part.taken());
+    ExpectPart(joined.steady(), steady, part.steady());
+    ExpectPart(MovingView(joined), moving, MovingView(part));
+    taken += part.taken().measurements.size();
+    steady += part.steady().measurements.size();
+    moving += MovingView(part).measurements.size();
+  }
+  EXPECT_EQ(joined.steady().measurements.size(), steady);
+  // the next begins a step behind the last sample
+  const Eigen::VectorXd& time = joined.taken().measurements.time;
+  EXPECT_DOUBLE_EQ(time[900] - time[899], 1);
+  EXPECT_DOUBLE_EQ(time[1500] - time[1499], 0.5);
+  for (const Segment& one : joined.taken().selection.segments) {
+    EXPECT_EQ(one.begin < 900, one.end <= 900);
+    EXPECT_EQ(one.begin < 1500, one.end <= 1500);
+  }
+}
+
+TEST(Join, LeavesOneRecordingAsItIs) {
+  const Measurements m = Recording("a", 300, 1, 7, 1);
+  const Measurements one = Prepare(std::vector{m}).taken().measurements;
+  EXPECT_TRUE(one.starts.empty());
+  EXPECT_EQ(one.time, m.time);
+  EXPECT_EQ(one.source, "a");
+}
+
+TEST(Join, LeavesOutAColumnThatOneLacks) {
+  Measurements with = Recording("with", 300, 1, 0, 1), without = Recording("without", 200, 1, 0, 2);
+  with.load = Eigen::VectorXd::Ones(300);
+  with.temperature = Eigen::VectorXd::Constant(300, 25);
+  without.temperature = Eigen::VectorXd::Constant(200, 26);
+  const Measurements joined = Prepare(std::vector{with, without}).taken().measurements;
+  EXPECT_FALSE(joined.load);
+  EXPECT_THAT(joined.notes, ElementsAre(HasSubstr("load is left out")));
+  EXPECT_EQ(joined.temperature->head(300), *with.temperature);
+  EXPECT_EQ(joined.temperature->tail(200), *without.temperature);
+}
+
+TEST(Join, SaysWhichRecordingHasAFault) {
+  const Measurements good = Recording("good", 900, 1, 0, 1);
+  Measurements scaled = Recording("scaled", 900, 1, 0, 2);
+  scaled.velocity *= 2;
+  EXPECT_THAT(Prepare(std::vector{good, scaled}).faults(),
+              ElementsAre(AllOf(HasSubstr("scaled: "), HasSubstr("velocity is 2 times"))));
+}
+
+TEST(Join, RefusesAnotherUnitAndNothing) {
+  const Measurements m = Recording("a", 300, 1, 0, 1);
+  Measurements amperes = Recording("b", 300, 1, 0, 1);
+  amperes.torque_unit = "A";
+  EXPECT_THAT(
+      [&] {
+        Prepare(std::vector{m, amperes});
+      },
+      ThrowsMessage<BadInput>(HasSubstr("b: is of another joint or in another unit (A)")));
+  EXPECT_THROW(Prepare(std::vector<Measurements>{}), BadInput);
+}
+
+TEST(PreparedLog, BeforeCutsTheRecordingsAtATime) {
+  const Measurements one = Recording("a", 900, 1, 0, 1), other = Recording("b", 600, 1, 1e4, 2);
+  const PreparedLog joined = Prepare(std::vector{one, other});
+  const Eigen::VectorXd& time = joined.taken().measurements.time;
+  for (const Index n : {1, 700, 900, 901, 1300, 1500}) {
+    const PreparedLog before = joined.Before(n < 1500 ? time[n] : time[1499] + 1);
+    ASSERT_EQ(before.taken().measurements.size(), n);
+    EXPECT_EQ(before.taken().measurements.time, time.head(n));
+    EXPECT_EQ(before.taken().measurements.starts.size(), n > 900 ? 1 : 0);
+    EXPECT_EQ(MovingView(before).measurements.size(), MovingView(before).selection.keep.size());
+  }
+  EXPECT_THAT(joined.faults(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace warmjoint
