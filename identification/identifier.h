@@ -22,8 +22,9 @@ class IdentifierInput {
  public:
   IdentifierInput(PreparedLog given, const Options& given_options, StartKey key,
                   Narrator listener = {})
-      : IdentifierInput(given, given.steady().measurements, given.steady().selection, given_options,
-                        key, std::move(listener)) {}
+      : IdentifierInput(given, given.constant_speed().measurements,
+                        given.constant_speed().selection, given_options, key, std::move(listener)) {
+  }
 
   /// Tells what is being tried, where someone listens.
   void Tell(const std::string& words) const {
@@ -47,7 +48,7 @@ class IdentifierInput {
 
   /// The log as it was taken, for fits that follow changes of speed.
   IdentifierInput AsTaken() const {
-    return {log, log.taken().measurements, log.taken().selection, options, start, narrator};
+    return {log, log.raw().measurements, log.raw().selection, options, start, narrator};
   }
 
   const PreparedLog log;

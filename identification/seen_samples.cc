@@ -9,7 +9,7 @@ IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInpu
   const auto* loss = input.options.Find<LossOption>();
   const bool is_bounded = loss && loss->loss == LossKind::huber;
   const PreparedLog& bounded = is_bounded ? input.log.WithoutAbsurd() : input.log;
-  if (&bounded != &input.log && &input.selection == &input.log.steady().selection) {
+  if (&bounded != &input.log && &input.selection == &input.log.constant_speed().selection) {
     return SelectSamples(identifier, {bounded, input.options, input.start, input.narrator});
   }
 

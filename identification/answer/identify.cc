@@ -25,7 +25,7 @@ constexpr Eigen::Index kFewest = 30;  // why 30: of fewer, colour and structure 
 constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be another motion
 constexpr double kWorse = 10.8;     // why: chi-squared of one degree of freedom, once in a thousand
 constexpr double kHarmless = 1e-3;  // attenuation
-constexpr double kUnseenPath = 5e-3;  // share of the path
+constexpr double kUnresolvedPath = 5e-3;  // share of the path
 
 /// The row that refuses an answer that is worthless whatever the tests let pass: it rests on next to nothing of the log, or one
 /// number, the mean of the torque, follows it better beyond chance.
@@ -114,14 +114,14 @@ std::vector<Cause> PreparationCauses(const Identifier& identifier, const Identif
   const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
   if (steady && log.faults().empty()) {
     const bool warms = fit.RowOf(Role::heat) && !by_noise.parameters.empty();
-    if (warms && log.unseen() >= kUnseenPath) {
-      causes.push_back(OfTheLog(Source::reversals, ExplainReversals(log.unseen())));
+    if (warms && log.unresolved_path() >= kUnresolvedPath) {
+      causes.push_back(OfTheLog(Source::reversals, ExplainReversals(log.unresolved_path())));
     }
     for (const std::string& warning : log.warnings()) {
       causes.push_back(OfTheLog(Source::preparation, warning));
     }
     if (log.velocity_noise()) {
-      AddVelocity(*log.velocity_noise(), log.taken().measurements.joint, fit, causes);
+      AddVelocity(*log.velocity_noise(), log.raw().measurements.joint, fit, causes);
     }
   }
   if (input.measurements.position_integrated) {

@@ -24,7 +24,7 @@ IdentifierInput SeenAs(const IdentifierInput& input, const Identifier& identifie
 /// Another recording as the fit's model is compared with it.
 const LogView& SeenBy(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
   if (fit.inertia) return MovingView(other);
-  return identifier.regime == Regime::transient ? other.taken() : other.steady();
+  return identifier.regime == Regime::transient ? other.raw() : other.constant_speed();
 }
 
 /// Why samples that were asked for are not compared.

@@ -25,7 +25,7 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
   check.step = step;
   check.rate = 1 / step;
 
-  // steps within the recording tell the jitter; longer ones are gaps
+  // steps within the recording show the jitter; longer ones are gaps
   double squares = 0;
   for (Index i = 1; i < n; ++i) {
     const double taken = time[i] - time[i - 1];
@@ -144,7 +144,7 @@ Judged ViscousCoulomb(const ShownMotion& e) {
   }
   return {false,
           fmt::format("all segments move at about {:.3g} {}, so that viscous and coulomb cannot be "
-                      "told apart; record a second speed, best ten times slower or faster",
+                      "separated; record a second speed, best ten times slower or faster",
                       e.fastest(), e.speed_unit)};
 }
 
@@ -158,8 +158,8 @@ Judged Asymmetric(const ShownMotion& e) {
   // three unknowns: a second speed in one direction at least
   if (e.positive.levels < 2 && e.negative.levels < 2) {
     return {false,
-            "each direction has one speed, so that the slope and the two levels cannot be told "
-            "apart; record a second speed"};
+            "each direction has one speed, so that the slope and the two levels cannot be "
+            "separated; record a second speed"};
   }
   return {true, "several speeds and both directions"};
 }
@@ -207,7 +207,7 @@ Judged Ripple(const ShownMotion& e) {
   if (travel < 4 * finest) {
     return {false,
             fmt::format("the joint travels {:.3g} {}, {:.2g} of them between samples; record a "
-                        "longer way or a higher rate",
+                        "longer travel or a higher rate",
                         travel, e.length_unit, finest / 4)};
   }
   return {true, fmt::format("over {:.3g} {}; ripple with a period above {:.2g} {}", travel,
@@ -273,7 +273,7 @@ std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
 }  // namespace
 
 RecordingCheck CheckRecording(const PreparedLog& log) {
-  const auto& [measurements, selection] = log.taken();
+  const auto& [measurements, selection] = log.raw();
   const VelocityScale scale = MeasureVelocity(measurements);
   RecordingCheck check;
   // what was read

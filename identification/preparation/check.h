@@ -1,4 +1,4 @@
-// What the motion of a recording can tell.
+// What the motion of a recording shows.
 #pragma once
 
 #include <warmjoint/prepared_log.h>

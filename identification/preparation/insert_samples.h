@@ -19,8 +19,8 @@ struct InsertedSample {
 struct FilledLog {
   LogView view;
   /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would
-  /// not have travelled (PreparedLog::unseen).
-  double unseen = 0;
+  /// not have travelled (PreparedLog::unresolved_path).
+  double unresolved_path = 0;
 };
 
 /// Puts samples in, ascending in time: with the torque and the other columns of the sample behind,

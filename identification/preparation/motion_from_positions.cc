@@ -112,7 +112,7 @@ class MotionBuilder {
     }
     InsertSamples(inserted_, motion.view);
     const double path = HeldPath(motion.view.measurements);
-    motion.unseen = path > 0 ? unseen_ / path : 0;
+    motion.unresolved_path = path > 0 ? unresolved_ / path : 0;
     return motion;
   }
 
@@ -199,11 +199,11 @@ class MotionBuilder {
       }
       hold(time_[i + 1]);
     }
-    CountUnseen(change, first, last);
+    CountUnresolved(change, first, last);
   }
 
   /// The path that a ramp which no sample shows would not have travelled.
-  void CountUnseen(const SpeedChange& change, Index first, Index last) {
+  void CountUnresolved(const SpeedChange& change, Index first, Index last) {
     const double v0 = change.before.slope, v1 = change.behind.slope;
     if (change.duration > 0 || v0 * v1 >= 0) return;
     // a ramp without samples reaches to the nearer sample at most
@@ -211,7 +211,7 @@ class MotionBuilder {
     while (behind < last && time_[behind] < change.time) ++behind;
     const double nearest =
         std::min(time_[behind] - change.time, change.time - time_[std::max(behind - 1, first)]);
-    unseen_ += 2 * std::max(nearest, 0.0) * std::abs(v0 * v1 / (v0 - v1));
+    unresolved_ += 2 * std::max(nearest, 0.0) * std::abs(v0 * v1 / (v0 - v1));
   }
 
   const VectorXd& time_;      // [N] s
@@ -220,7 +220,7 @@ class MotionBuilder {
   PositionPlateaus found_;
   VectorXd velocity_;  // [N] rad/s or m/s
   std::vector<InsertedSample> inserted_;
-  double unseen_ = 0;  // rad or m
+  double unresolved_ = 0;  // rad or m
 };
 
 }  // namespace

@@ -218,7 +218,7 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
 const LogView& MovingView(const PreparedLog& log) {
   return log.found().moving.Get([&] {
     return log.Stack(
-        [](const PreparedLog& one) { return ViewMotion(one.taken().measurements, one.source()); });
+        [](const PreparedLog& one) { return ViewMotion(one.raw().measurements, one.source()); });
   });
 }
 
@@ -230,7 +230,7 @@ bool HoldsSpeeds(const Measurements& m, const Selection& selection) {
 
 bool HoldsSpeeds(const PreparedLog& log) {
   return log.found().holds_speeds.Get(
-      [&] { return HoldsSpeeds(log.taken().measurements, log.taken().selection); });
+      [&] { return HoldsSpeeds(log.raw().measurements, log.raw().selection); });
 }
 
 }  // namespace warmjoint

@@ -41,7 +41,7 @@ double StepOfPosition(const VectorXd& position) {
 
   double divisor = begin == end ? 0 : *begin;
   for (double left = divisor; left > 0;) {
-    // by what each step misses a multiple, of a divisor that larger steps tell more finely
+    // by what each step misses a multiple, of a divisor that larger steps show more finely
     left = 0;
     for (const double* step = begin; step < end; ++step) {
       const double multiple = std::round(*step / divisor);
@@ -77,9 +77,9 @@ RelativePosition FromFirst(const VectorXd& position) {
   const double smallest = StepOfPosition(moved);
   if (smallest == 0) return {moved, 1};
 
-  // the resolution from the longest way, where the rounding of numbers matters least
-  const double way = moved.cwiseAbs().maxCoeff();
-  const double step = way / std::round(way / smallest);
+  // the resolution from the longest travel, where the rounding of numbers matters least
+  const double travel = moved.cwiseAbs().maxCoeff();
+  const double step = travel / std::round(travel / smallest);
   return {(moved / step).array().round(), step};
 }
 

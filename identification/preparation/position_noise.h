@@ -1,4 +1,4 @@
-// How finely a log tells where the joint was.
+// How finely a log shows where the joint was.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ struct PositionNoise {
 /// multiple. position: [N] rad or m, within one recording.
 double StepOfPosition(const Eigen::VectorXd& position);
 
-/// deviation s: median of |third differences| / (0.6745 sqrt(20)), which the way at a constant speed
+/// deviation s: median of |third differences| / (0.6745 sqrt(20)), which motion at a constant speed
 /// and most ramps do not touch; but for those that are 0 where q is: some drives log one position all through a rest. Where s <= 1.7 q / sqrt(12), q the resolution, rounding is all the
 /// noise there is: a line through the middle of all counts passes within q / 2 of each, reach is
 /// 0.51 q and the deviation q / sqrt(12). Else reach is 4.5 s: one sample in 150,000 lies further

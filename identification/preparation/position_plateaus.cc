@@ -17,12 +17,12 @@ constexpr int kPasses = 3;            // lines and changes of speed, in turn
 constexpr Index kBeside = 10;         // samples of a segment that must follow a change beside it
 constexpr Index kHiddenShare = 6;     // of a segment at each end, as a divisor
 constexpr double kStraight = 2;       // deviations of the positions
-constexpr double kHarmless = 2e-4;    // of the way of a segment: the path may be off by as much
+constexpr double kHarmless = 2e-4;    // of the travel of a segment: the path may be off by as much
 constexpr double kCertain = 4;        // standard errors
 constexpr double kShareOfEnd = 0.15;  // of a bent segment, whose end a line follows
 constexpr double kMostOfEnd = 0.45;
 constexpr Index kFewestOfEnd = 6;         // samples
-constexpr size_t kFewestRamps = 5;        // that tell the acceleration of others
+constexpr size_t kFewestRamps = 5;        // that show the acceleration of others
 constexpr double kOneAcceleration = 0.1;  // median deviation, of the acceleration
 
 /// The median acceleration of the ramps that show; nothing where they are few or differ.
@@ -52,7 +52,7 @@ void ShareAcceleration(const Eigen::VectorXd& time,
   const double *const begin = time.data(), *const end = begin + time.size();
   for (auto& change : changes) {
     if (!change || change->duration > 0) continue;
-    // twice the way to the nearest sample at most
+    // twice the time to the nearest sample at most
     const double* const behind = std::upper_bound(begin, end, change->time);
     if (behind == begin || behind == end) continue;
     const double nearest = std::min(*behind - change->time, change->time - *(behind - 1));
@@ -194,18 +194,21 @@ class PlateauSearch {
   }
 
   /// rad or m
-  double WayOf(const Plateau& plateau) const {
+  double TravelOf(const Plateau& plateau) const {
     return std::abs(plateau.line->slope) * (time_[plateau.end - 1] - time_[plateau.begin]);
   }
 
+  /// Whether a gap lies in front of sample n.
+  bool IsBehindGap(Index n) const { return time_[n] - time_[n - 1] > found_.longest; }
+
   bool HasGap(Index first, Index last) const {
-    for (Index i = first; i < last; ++i) {
-      if (time_[i + 1] - time_[i] > found_.longest) return true;
+    for (Index n = first + 1; n <= last; ++n) {
+      if (IsBehindGap(n)) return true;
     }
     return false;
   }
 
-  /// The change of speed between plateaus i and i + 1, if the way between them is one.
+  /// The change of speed between plateaus i and i + 1, if the transition between them is one.
   std::optional<SpeedChange> FindChange(size_t i) const {
     const Plateau &one = found_.plateaus[i], &next = found_.plateaus[i + 1];
     if (HasGap(one.end - 1, next.begin)) return std::nullopt;
@@ -216,9 +219,9 @@ class PlateauSearch {
     const Index first = std::max((one.begin + one.end) / 2, one.end - beside);
     const Index last = std::min((next.begin + next.end) / 2, next.begin + beside);
 
-    // what positions may be off, at least as much as does not matter beside the way of a segment
+    // what positions may be off, at least as much as does not matter compared with the travel of a segment
     PositionNoise noise = found_.noise;
-    noise.reach = std::max(noise.reach, kHarmless * std::min(WayOf(one), WayOf(next)));
+    noise.reach = std::max(noise.reach, kHarmless * std::min(TravelOf(one), TravelOf(next)));
     return FindSpeedChange(time_, found_.position, *before, *behind, first, last, noise);
   }
 
@@ -245,15 +248,12 @@ class PlateauSearch {
       const Index highest = i + 1 < found_.plateaus.size() ? found_.plateaus[i + 1].begin : count_;
       const auto is_on = [&](Index n) { return IsOn(*plateau.line, n); };
       Index begin = plateau.begin, end = plateau.end;
-      while (begin > lowest && is_on(begin - 1) &&
-             time_[begin] - time_[begin - 1] <= found_.longest) {
-        --begin;
-      }
-      while (end < highest && is_on(end) && time_[end] - time_[end - 1] <= found_.longest) ++end;
-      if (begin == 0 || (begin > 0 && time_[begin] - time_[begin - 1] > found_.longest)) {
+      while (begin > lowest && is_on(begin - 1) && !IsBehindGap(begin)) --begin;
+      while (end < highest && is_on(end) && !IsBehindGap(end)) ++end;
+      if (begin == 0 || IsBehindGap(begin)) {
         while (plateau.begin > begin) found_.keep[--plateau.begin] = plateau.moves;
       }
-      if (end == count_ || (end < count_ && time_[end] - time_[end - 1] > found_.longest)) {
+      if (end == count_ || IsBehindGap(end)) {
         while (plateau.end < end) found_.keep[plateau.end++] = plateau.moves;
       }
     }
@@ -273,7 +273,7 @@ class PlateauSearch {
     }
   }
 
-  /// Leaves the last sample of a plateau out of it where the way on is followed from sample to
+  /// Leaves the last sample of a plateau out of it where the transition is followed from sample to
   /// sample: until the next one, its speed may already change.
   void LeaveLastSamples() {
     for (size_t i = 0; i < found_.plateaus.size(); ++i) {

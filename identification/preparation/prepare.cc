@@ -76,15 +76,15 @@ struct PreparedLog::Maker {
   /// By the velocity column: one velocity for each segment, where noise would take something off the slopes, and a sample
   /// at each switch of speed. selection: what moves at constant speed.
   static Log ByColumn(Measurements measurements, Selection selection) {
-    Log log{.taken = {std::move(measurements), std::move(selection)}};
-    log.faults = FindFaults(log.taken.measurements, log.taken.selection);
-    if (auto level = TakeSegmentVelocity(log.taken.measurements, log.taken.selection)) {
+    Log log{.raw = {std::move(measurements), std::move(selection)}};
+    log.faults = FindFaults(log.raw.measurements, log.raw.selection);
+    if (auto level = TakeSegmentVelocity(log.raw.measurements, log.raw.selection)) {
       log.velocity_noise = level->noise;
-      log.steady = {std::move(level->measurements), log.taken.selection};
+      log.constant_speed = {std::move(level->measurements), log.raw.selection};
     }
-    if (auto split = SplitAtSwitches(log.steady ? *log.steady : log.taken)) {
-      log.unseen = split->unseen;
-      log.steady = std::move(split->view);
+    if (auto split = SplitAtSwitches(log.constant_speed ? *log.constant_speed : log.raw)) {
+      log.unresolved_path = split->unresolved_path;
+      log.constant_speed = std::move(split->view);
     }
     return log;
   }
@@ -93,14 +93,14 @@ struct PreparedLog::Maker {
   static Log ByPositions(Measurements measurements, const PrepareSettings& holds) {
     measurements.notes.emplace_back(
         "velocity computed from the positions, one value for each segment");
-    Log log{.taken = {std::move(measurements), {}}, .source = MotionSource::positions};
-    auto& [taken, selection] = log.taken;
+    Log log{.raw = {std::move(measurements), {}}, .source = MotionSource::positions};
+    auto& [taken, selection] = log.raw;
     ConstantSpeed found = FindFromPositions(taken);
     FilledLog motion = MotionFromPositions(taken, found);
     selection = std::move(found.selection);
-    log.steady = std::move(motion.view);
-    log.unseen = motion.unseen;
-    TakeOptions(holds, log.steady->measurements.time, log.steady->selection);
+    log.constant_speed = std::move(motion.view);
+    log.unresolved_path = motion.unresolved_path;
+    TakeOptions(holds, log.constant_speed->measurements.time, log.constant_speed->selection);
     TakeOptions(holds, taken.time, selection);
     log.faults = FindFaults(taken, selection, MotionSource::positions);
     return log;
@@ -115,7 +115,7 @@ struct PreparedLog::Maker {
     Log log = ByPositions(measurements, holds);
     if (!log.faults.empty()) return {};
     log.warnings.push_back(fmt::format(
-        "the velocity column comes in steps of {:.3g} {}, and the positions tell the speeds more "
+        "the velocity column comes in steps of {:.3g} {}, and the positions show the speeds more "
         "finely: the velocity is taken from the positions, and the column is not used",
         *step, kVelocityUnit.For(measurements.joint)));
     return log;
@@ -127,9 +127,9 @@ struct PreparedLog::Maker {
                                           const Selection& selection,
                                           const PrepareSettings& holds) {
     Log log = ByPositions(measurements, holds);
-    if (!AgreesOnSpeeds(*log.steady, measurements, selection.keep)) return {};
-    KeepAlso(selection.keep, measurements.time, log.taken);
-    KeepAlso(selection.keep, measurements.time, *log.steady);
+    if (!AgreesOnSpeeds(*log.constant_speed, measurements, selection.keep)) return {};
+    KeepAlso(selection.keep, measurements.time, log.raw);
+    KeepAlso(selection.keep, measurements.time, *log.constant_speed);
     return log;
   }
 
@@ -148,15 +148,17 @@ struct PreparedLog::Maker {
 
     // the paths from one segment to the next
     const FilledLog motion = MotionFromPositions(measurements, found);
-    const Measurements& by_velocity = (log.steady ? *log.steady : log.taken).measurements;
+    const Measurements& by_velocity =
+        (log.constant_speed ? *log.constant_speed : log.raw).measurements;
     const Measurements& by_position = motion.view.measurements;
     const auto paths = ComparePaths(by_velocity, by_position, selection.segments, measurements);
     if (!paths) return log;
     if (!Contradicts(*paths)) {
       const double deviation = MeasurePositionNoise(measurements.position).deviation;
       if (PositionsTellMore(*paths, deviation)) {
-        log.steady = ReplaceTransitions(log.taken, by_velocity, by_position, paths->transitions);
-        log.unseen = motion.unseen;
+        log.constant_speed =
+            ReplaceTransitions(log.raw, by_velocity, by_position, paths->transitions);
+        log.unresolved_path = motion.unresolved_path;
       }
       return log;
     }
@@ -174,7 +176,7 @@ struct PreparedLog::Maker {
     }
     log.warnings.push_back(
         contradiction +
-        ", but by themselves these tell other speeds: the clock jitters, or the positions are "
+        ", but by themselves these give other speeds: the clock jitters, or the positions are "
         "spoilt, and the column is used");
     return log;
   }

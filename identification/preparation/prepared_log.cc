@@ -90,7 +90,7 @@ LogView StackOf(const std::vector<PreparedLog>& recordings, const ViewOf& view) 
   LogView stack = view(recordings.front());
   stack.measurements.notes = Named(stack.measurements.source, std::move(stack.measurements.notes));
   for (size_t i = 1; i < recordings.size(); ++i) {
-    const double step = MedianStep(recordings[i - 1].taken().measurements.time);
+    const double step = MedianStep(recordings[i - 1].raw().measurements.time);
     Append(view(recordings[i]), step, stack);
   }
   return stack;
@@ -110,7 +110,7 @@ std::optional<VelocityNoise> MeanNoise(const std::vector<PreparedLog>& recording
   double count = 0;
   for (const PreparedLog& one : recordings) {
     if (!one.velocity_noise()) continue;
-    const auto samples = static_cast<double>(one.steady().selection.count());
+    const auto samples = static_cast<double>(one.constant_speed().selection.count());
     const double share = samples / (count += samples);
     const auto take = [share](double value, double& of) { of += share * (value - of); };
     take(one.velocity_noise()->noise, mean.noise);
@@ -122,14 +122,14 @@ std::optional<VelocityNoise> MeanNoise(const std::vector<PreparedLog>& recording
 }
 
 /// Of the whole path, the share that no sample shows.
-double UnseenOf(const std::vector<PreparedLog>& recordings) {
-  double unseen = 0, path = 0;
+double UnresolvedPath(const std::vector<PreparedLog>& recordings) {
+  double unresolved = 0, path = 0;
   for (const PreparedLog& one : recordings) {
-    const double own = HeldPath(one.steady().measurements);
-    unseen += one.unseen() * own;
+    const double own = HeldPath(one.constant_speed().measurements);
+    unresolved += one.unresolved_path() * own;
     path += own;
   }
-  return path > 0 ? unseen / path : 0;
+  return path > 0 ? unresolved / path : 0;
 }
 
 }  // namespace
@@ -140,9 +140,9 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
   PreparedLog::Log all;
   bool is_changed = false;
   for (const PreparedLog& one : recordings) {
-    const Measurements& m = one.taken().measurements;
-    CheckAlike(recordings.front().taken().measurements, m);
-    is_changed |= one.log_->steady.has_value();
+    const Measurements& m = one.raw().measurements;
+    CheckAlike(recordings.front().raw().measurements, m);
+    is_changed |= one.log_->constant_speed.has_value();
     if (one.source() == MotionSource::positions) all.source = MotionSource::positions;
     Append(Named(m.source, one.faults()), all.faults);
     Append(Named(m.source, one.warnings()), all.warnings);
@@ -151,10 +151,10 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
                                m.source, *one.absurd());
     }
   }
-  all.taken = StackOf(recordings, &PreparedLog::taken);
-  if (is_changed) all.steady = StackOf(recordings, &PreparedLog::steady);
+  all.raw = StackOf(recordings, &PreparedLog::raw);
+  if (is_changed) all.constant_speed = StackOf(recordings, &PreparedLog::constant_speed);
   all.velocity_noise = MeanNoise(recordings);
-  all.unseen = UnseenOf(recordings);
+  all.unresolved_path = UnresolvedPath(recordings);
   all.recordings = std::move(recordings);
   return PreparedLog(std::move(all));
 }
@@ -171,15 +171,15 @@ LogView PreparedLog::Stack(const ViewOf& view) const {
 PreparedLog PreparedLog::Before(double time) const {
   if (log_->recordings.empty()) {
     Log before = *log_;
-    before.taken = Head(log_->taken, time);
-    if (log_->steady) before.steady = Head(*log_->steady, time);
+    before.raw = Head(log_->raw, time);
+    if (log_->constant_speed) before.constant_speed = Head(*log_->constant_speed, time);
     return PreparedLog(std::move(before));
   }
   // as many samples of each recording as are before it
-  Index left = (log_->taken.measurements.time.array() < time).count();
+  Index left = (log_->raw.measurements.time.array() < time).count();
   std::vector<PreparedLog> before;
   for (const PreparedLog& one : log_->recordings) {
-    const Eigen::VectorXd& own = one.taken().measurements.time;
+    const Eigen::VectorXd& own = one.raw().measurements.time;
     if (left <= 0 && !before.empty()) break;
     before.push_back(left < own.size() ? one.Before(own[left]) : one);
     left -= own.size();
@@ -203,7 +203,7 @@ const PreparedLog& PreparedLog::WithoutAbsurd() const {
       if (std::ranges::all_of(without, lacks_none)) return nullptr;
       return std::make_shared<const PreparedLog>(Join(std::move(without)));
     }
-    const auto& [measurements, selection] = log_->taken;
+    const auto& [measurements, selection] = log_->raw;
     const SampleMask absurd = AbsurdTorque(measurements, selection);
     if (log_->faults.empty() || !absurd.any()) return nullptr;
     // the fault, which is named last, becomes a warning
@@ -216,8 +216,8 @@ const PreparedLog& PreparedLog::WithoutAbsurd() const {
     }
 
     PreparedLog log(without);
-    log.LeaveOut(without.taken);
-    if (without.steady) log.LeaveOut(*without.steady);
+    log.LeaveOut(without.raw);
+    if (without.constant_speed) log.LeaveOut(*without.constant_speed);
     return std::make_shared<const PreparedLog>(PreparedLog(std::move(without)));
   });
   return made ? *made : *this;

@@ -125,23 +125,15 @@ template <typename IsInside>
 void CutInwards(Segment& run, const IsInside& is_inside) {
   const Index calm = std::max(kShortest, 1 + Length(run) / kCalm);  // samples in a row
   Index begin = run.begin, end = run.end;
-  // from the front to the first samples in a row that have settled
   for (Index inside = 0; begin + inside < run.end && inside < calm;) {
-    if (is_inside(begin + inside)) {
-      ++inside;
-    } else {
-      begin += inside + 1;
-      inside = 0;
-    }
+    const bool is_calm = is_inside(begin + inside);
+    begin += is_calm ? 0 : inside + 1;
+    inside = is_calm ? inside + 1 : 0;
   }
-  // the same from the end
   for (Index inside = 0; end - inside > begin && inside < calm;) {
-    if (is_inside(end - 1 - inside)) {
-      ++inside;
-    } else {
-      end -= inside + 1;
-      inside = 0;
-    }
+    const bool is_calm = is_inside(end - 1 - inside);
+    end -= is_calm ? 0 : inside + 1;
+    inside = is_calm ? inside + 1 : 0;
   }
   run = {begin, end, run.velocity};
 }

@@ -130,7 +130,7 @@ double SpeedChange::At(double t) const {
 std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd& position,
                                            const StraightLine& before, const StraightLine& behind,
                                            Index first, Index last, const PositionNoise& noise) {
-  // lines of almost one speed do not tell where they cross
+  // lines of almost one speed do not show where they cross
   const double change_of_speed = std::abs(behind.slope - before.slope);
   const double fastest = std::max(std::abs(before.slope), std::abs(behind.slope));
   if (!(change_of_speed > kAlike * fastest)) return std::nullopt;

@@ -16,10 +16,10 @@ using Eigen::Index;
 constexpr Index kFewSamples = 4;  // samples; why 4: a middle, and neighbours to each side of it
 constexpr Index kEnoughStretches =
     32;  // stretches in a log; why: a median of them is known to a fifth of their spread
-constexpr double kDeviations = 20;  // why 20: the noise of both ends is 7 % of the way
+constexpr double kDeviations = 20;  // why 20: the noise of both ends is 7 % of the change
 constexpr double kOneSided =
-    0.25;  // of the way; why: at half that speed a joint has not turned round
-constexpr double kOfTheTypical = 0.01;  // of a way; why: less is a creep at rest
+    0.25;  // of the change; why: at half that speed a joint has not turned round
+constexpr double kOfTheTypical = 0.01;  // of a change; why: less is a creep at rest
 constexpr double kNearlyAll = 0.8;  // why: longer stretches lose what lies around turning points
 
 /// For each sample how often the log was broken until there: by gaps, and steps within which a sensor that
@@ -39,36 +39,36 @@ std::vector<Index> Breaks(const Measurements& m) {
   return breaks;
 }
 
-/// All of `count` samples that show a way of `clear` (rad or m) or more.
+/// All of `count` samples that show a change of `clear` (rad or m) or more.
 std::vector<Stretch> StretchesOf(const Measurements& m, Index count, double clear,
                                  const std::vector<Index>& breaks) {
   std::vector<Stretch> stretches;
   for (Index first = 0; first + count < m.size(); first += count) {
     const Index middle = first + count / 2, last = first + count;
-    const double way = m.position[last] - m.position[first];
-    const double share = (m.position[middle] - m.position[first]) / way;
+    const double change = m.position[last] - m.position[first];
+    const double share = (m.position[middle] - m.position[first]) / change;
     const bool is_whole = breaks[static_cast<size_t>(first)] == breaks[static_cast<size_t>(last)];
-    if (!is_whole || !(std::abs(way) >= clear && share > kOneSided && share < 1 - kOneSided))
+    if (!is_whole || !(std::abs(change) >= clear && share > kOneSided && share < 1 - kOneSided))
       continue;
-    stretches.push_back({first, middle, last, way, m.time[last] - m.time[first]});
+    stretches.push_back({first, middle, last, change, m.time[last] - m.time[first]});
   }
   return stretches;
 }
 
 /// Leaves out what goes much less far than is typical.
 void LeaveOutCreeping(std::vector<Stretch>& stretches) {
-  const auto way = [](const Stretch& one) { return std::abs(one.way); };
-  std::ranges::sort(stretches, {}, way);
+  const auto change = [](const Stretch& one) { return std::abs(one.change); };
+  std::ranges::sort(stretches, {}, change);
   double all = 0, until = 0;
-  for (const Stretch& one : stretches) all += way(one);
-  // half of all that was moved was moved in ways up to the typical one
+  for (const Stretch& one : stretches) all += change(one);
+  // half of all that was moved was moved in stretches up to the typical one
   const auto typical = std::ranges::find_if(stretches, [&](const Stretch& one) {
-    until += way(one);
+    until += change(one);
     return until >= all / 2;
   });
   if (typical == stretches.end()) return;
-  const double least = kOfTheTypical * way(*typical);
-  std::erase_if(stretches, [&](const Stretch& one) { return way(one) < least; });
+  const double least = kOfTheTypical * change(*typical);
+  std::erase_if(stretches, [&](const Stretch& one) { return change(one) < least; });
   std::ranges::sort(stretches, {}, &Stretch::first);
 }
 
@@ -78,16 +78,16 @@ std::vector<Stretch> FindStretches(const Measurements& m) {
   const double clear = kDeviations * MeasurePositionNoise(m.position).deviation;
   const std::vector<Index> breaks = Breaks(m);
   std::vector<Stretch> longest;
-  double most = 0;  // way of all, rad or m
+  double most = 0;  // change of all, rad or m
   for (Index count = kFewSamples; count == kFewSamples || count * kEnoughStretches <= m.size();
        count *= 2) {
     std::vector<Stretch> stretches = StretchesOf(m, count, clear, breaks);
     LeaveOutCreeping(stretches);
-    double way = 0;
-    for (const Stretch& one : stretches) way += std::abs(one.way);
-    if (way < kNearlyAll * most) continue;
+    double change = 0;
+    for (const Stretch& one : stretches) change += std::abs(one.change);
+    if (change < kNearlyAll * most) continue;
     longest = std::move(stretches);
-    most = std::max(most, way);
+    most = std::max(most, change);
   }
   return longest;
 }

@@ -49,12 +49,12 @@ Cells FindCells(const Measurements& m) {
   const double width = (QuantileInPlace(positions, 0.98) - low) / kPlaces;
   std::map<std::pair<Index, Index>, std::array<std::vector<double>, 2>> torques;
   for (const Stretch& one : FindStretches(m)) {
-    const double speed = std::abs(one.way) / one.duration;
+    const double speed = std::abs(one.change) / one.duration;
     const auto octave = static_cast<Index>(std::floor(kSpeedsAnOctave * std::log2(speed)));
     for (Index i = one.first; i < one.last; ++i) {
       const double place = (m.position[i] - low) / width;
       if (!(place >= 0 && place < kPlaces)) continue;
-      torques[{static_cast<Index>(place), octave}][one.way > 0 ? 0 : 1].push_back(m.torque[i]);
+      torques[{static_cast<Index>(place), octave}][one.change > 0 ? 0 : 1].push_back(m.torque[i]);
     }
   }
 

@@ -37,7 +37,7 @@ bool StandsAlone(const VectorXd& v, Index n) {
 }
 
 /// Most of the path that a ramp through 0 behind sample n may lack, which is taken for a switch `delay` s behind it.
-double UnseenOf(const Measurements& m, Index n, double delay) {
+double UnresolvedAt(const Measurements& m, Index n, double delay) {
   const double v0 = m.velocity[n], v1 = m.velocity[n + 1];
   if (v0 * v1 >= 0) return 0;
   const double h = m.time[n + 1] - m.time[n];
@@ -111,7 +111,7 @@ std::optional<FilledLog> SplitAtSwitches(const LogView& log) {
   const double rms = std::sqrt(m.velocity.squaredNorm() / static_cast<double>(m.size()));
   const double longest = LongestStep(m.time);
   std::vector<InsertedSample> switches;
-  double unseen = 0;
+  double unresolved = 0;
   for (Index n = 0; n + 1 < m.size(); ++n) {
     const double v0 = m.velocity[n], v1 = m.velocity[n + 1];
     const double h = m.time[n + 1] - m.time[n];
@@ -122,11 +122,11 @@ std::optional<FilledLog> SplitAtSwitches(const LogView& log) {
     const double s = (m.position[n + 1] - m.position[n] - v1 * h) / (v0 - v1);
     if (!(s > kInside * h && s < (1 - kInside) * h)) continue;
     switches.push_back({n, m.time[n] + s, m.position[n] + s * v0, v1});
-    unseen += UnseenOf(m, n, s);
+    unresolved += UnresolvedAt(m, n, s);
   }
   if (switches.empty()) return std::nullopt;
   const double path = HeldPath(m);
-  FilledLog split{log, path > 0 ? unseen / path : 0};
+  FilledLog split{log, path > 0 ? unresolved / path : 0};
   InsertSamples(switches, split.view);
   return split;
 }

@@ -17,7 +17,7 @@ namespace warmjoint {
 /// where the speed changes by less than a tenth of its rms or in a ramp that samples show, where
 /// the positions contradict the speeds (s outside of the interval), or across a gap. A reversal may
 /// hide a ramp of duration D, at most twice the time to the nearer sample, that loses D v0 v1 / (v0 + v1)
-/// of the path: FilledLog::unseen. Nothing where no switch is found.
+/// of the path: FilledLog::unresolved_path. Nothing where no switch is found.
 std::optional<FilledLog> SplitAtSwitches(const LogView& log);
 
 /// By how much two velocities may differ, relative, and count as the same.

@@ -24,7 +24,7 @@ constexpr double kOneDirection =
 constexpr double kCertain = 4;      // standard errors of the median; why: 1 in 16 000 by chance
 constexpr std::size_t kFewest = 8;  // stretches; why: a median of fewer has no known error
 constexpr double kOther = 0.5;  // of a factor; why: stale positions and lags at turns stay within
-constexpr double kMostWay =
+constexpr double kMostChange =
     3;  // why: fast stretches know a factor best, but a few that are wrong must not decide
 constexpr std::size_t kRow = 3;       // stretches; why: a turn spoils one or two
 constexpr double kSameFactor = 0.03;  // between a ratio and the factor of a unit
@@ -32,11 +32,11 @@ constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
 
 /// Velocity over change of position along stretches.
 struct Factor {
-  double times = 1;                  // where the velocity does not change
-  double error = 0;                  // standard error
-  double allowed = 0;                // by which a right column may be off
-  double told = 0, by_position = 0;  // median velocities, rad/s or m/s
-  std::vector<Stretch> others;       // three or more in a row that tell another factor
+  double times = 1;                       // where the velocity does not change
+  double error = 0;                       // standard error
+  double allowed = 0;                     // by which a right column may be off
+  double by_column = 0, by_position = 0;  // median velocities, rad/s or m/s
+  std::vector<Stretch> others;            // three or more in a row with another factor
 
   bool IsOff(double tolerance) const {
     // of a factor far from 1 the inverse is better known
@@ -50,9 +50,9 @@ double MedianOf(const ArrayXd& values) {
   return copy.size() == 0 ? 0 : MedianInPlace(copy);
 }
 
-/// The value below which half of the way lies; a way counts no more than kMostWay times the median one.
-double MedianByWay(const ArrayXd& values, const ArrayXd& way) {
-  const ArrayXd weight = way.min(kMostWay * MedianOf(way));
+/// The value below which half of the change of position lies; a stretch counts no more than kMostChange times the median one.
+double MedianByChange(const ArrayXd& values, const ArrayXd& change) {
+  const ArrayXd weight = change.min(kMostChange * MedianOf(change));
   std::vector<Index> order(static_cast<size_t>(values.size()));
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](Index k) { return values[k]; });
@@ -82,13 +82,13 @@ double Integral(const Measurements& m, const Stretch& one) {
 }
 
 /// What a jump of speed within a step may make of a ratio, half of the largest change of velocity times the step over
-/// the way, and stamps that jitter, the spread of the steps over the duration.
+/// the change, and stamps that jitter, the spread of the steps over the duration.
 double Unsure(const Measurements& m, const Stretch& one) {
   const Index n = one.last - one.first;
   const VectorXd steps = m.time.segment(one.first + 1, n) - m.time.segment(one.first, n);
   const VectorXd changes = m.velocity.segment(one.first + 1, n) - m.velocity.segment(one.first, n);
   const double jump = 0.5 * changes.cwiseAbs().maxCoeff() * one.duration / static_cast<double>(n);
-  return jump / std::abs(one.way) + (steps.maxCoeff() - steps.minCoeff()) / one.duration;
+  return jump / std::abs(one.change) + (steps.maxCoeff() - steps.minCoeff()) / one.duration;
 }
 
 /// Stretches in a row, kRow or more, where `is_other` holds.
@@ -102,7 +102,7 @@ std::vector<Stretch> InARow(const std::vector<Stretch>& stretches, const SampleM
   return rows;
 }
 
-/// By how much of its way a stretch may begin and end with positions that are held for several samples.
+/// By how much of its change a stretch may begin and end with positions that are held for several samples.
 double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
   double steps = 0, moved = 0;
   for (const Stretch& one : stretches) {
@@ -120,36 +120,36 @@ double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
 /// ratios scatter by it.
 Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const auto n = static_cast<Index>(stretches.size());
-  ArrayXd integral(n), way(n), bend(n), duration(n), unsure(n);
+  ArrayXd integral(n), change(n), bend(n), duration(n), unsure(n);
   for (Index k = 0; k < n; ++k) {
     const Stretch& one = stretches[static_cast<size_t>(k)];
     integral[k] = Integral(m, one);
-    way[k] = one.way;
+    change[k] = one.change;
     duration[k] = one.duration;
     unsure[k] = Unsure(m, one);
-    bend[k] = (m.velocity[one.last] - m.velocity[one.first]) / one.way;
+    bend[k] = (m.velocity[one.last] - m.velocity[one.first]) / one.change;
   }
 
   // the factor where the velocity changes least, and its scatter there
-  const ArrayXd ratio = integral / way;
+  const ArrayXd ratio = integral / change;
   const double typical = MedianOf(bend.abs());
   const SampleMask least = bend.abs() <= typical;
   const ArrayXd straight = Where(least, ratio);
   Factor factor;
-  factor.times = MedianByWay(straight, Where(least, way.abs()));
+  factor.times = MedianByChange(straight, Where(least, change.abs()));
   const double scatter = MedianOf((straight - factor.times).abs()) / kNormal;
   factor.error = std::sqrt(std::numbers::pi / 2 / static_cast<double>(straight.size())) * scatter;
-  factor.by_position = MedianOf(way / duration);
-  factor.told = factor.by_position + MedianOf((integral - way) / duration);
-  const ArrayXd off = (integral - factor.times * way).abs(),
-                own = std::abs(factor.times) * way.abs();
+  factor.by_position = MedianOf(change / duration);
+  factor.by_column = factor.by_position + MedianOf((integral - change) / duration);
+  const ArrayXd off = (integral - factor.times * change).abs(),
+                own = std::abs(factor.times) * change.abs();
   factor.others = InARow(stretches, off > kOther * own && off > MedianOf(own));
 
   // what a lag, long steps and a coarse column take off a right one
   const SampleMask bent = bend.abs() >= typical && bend != 0;
   const double lag = MedianOf(Where(bent, (ratio - factor.times) / bend));
   const double step = MedianStep(m.time);
-  const double coarse = MedianOf(Resolution(m.velocity) * duration / way.abs());
+  const double coarse = MedianOf(Resolution(m.velocity) * duration / change.abs());
   factor.allowed = (lag * lag + step * step / 12) * typical * typical +
                    std::min(coarse, kCertain * scatter) + MedianOf(unsure) +
                    Staleness(m, stretches);
@@ -194,13 +194,14 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
   // a column in coarse steps does not know speeds of a step or two
   std::vector<Stretch> all = FindStretches(measurements);
   const double least = 2 * Resolution(measurements.velocity);
-  std::erase_if(all, [&](const Stretch& one) { return std::abs(one.way) < least * one.duration; });
+  std::erase_if(all,
+                [&](const Stretch& one) { return std::abs(one.change) < least * one.duration; });
   if (all.size() < kFewest) return std::nullopt;
   std::vector<Stretch> forwards, backwards;
-  for (const Stretch& one : all) (one.way > 0 ? forwards : backwards).push_back(one);
+  for (const Stretch& one : all) (one.change > 0 ? forwards : backwards).push_back(one);
   const std::string_view unit = kVelocityUnit.For(measurements.joint);
   constexpr const char* remedy =
-      "leave the velocity out (--map velocity=), and the positions tell it";
+      "leave the velocity out (--map velocity=), and it is taken from the positions";
 
   // one direction may be spoilt by itself
   if (std::min(forwards.size(), backwards.size()) >= kFewest) {
@@ -214,7 +215,7 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
           "velocity is right in one direction alone: in the other, {:.0f} % of what moves, it is "
           "{:.4g} {} where the positions change by {:.4g} {} (medians of {} stretches), so that it "
           "{}; {}",
-          100 * static_cast<double>(count) / static_cast<double>(all.size()), off.told, unit,
+          100 * static_cast<double>(count) / static_cast<double>(all.size()), off.by_column, unit,
           off.by_position, unit, count,
           lost ? "lost its sign" : "holds words read as unsigned, or its zero is off", remedy);
     }
@@ -236,7 +237,7 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
       "leave that part of the log out",
       100 * static_cast<double>(both.others.size()) / static_cast<double>(all.size()),
       measurements.time[both.others.front().first], measurements.time[both.others.back().last],
-      Integral(measurements, typical) / typical.way, both.times);
+      Integral(measurements, typical) / typical.change, both.times);
 }
 
 }  // namespace warmjoint

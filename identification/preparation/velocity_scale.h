@@ -5,7 +5,7 @@
 
 namespace warmjoint {
 
-/// Scales that tell a constant speed from an acceleration, read from the log, so that no threshold
+/// Scales that distinguish a constant speed from an acceleration, read from the log, so that no threshold
 /// has a unit.
 struct VelocityScale {
   // how far a sample may lie from a speed; the largest of noise, share and resolution counts

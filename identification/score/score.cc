@@ -85,7 +85,7 @@ double ParameterError(const std::vector<ParameterScore>& parameters) {
 
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
   const bool any = Find(Role::inertia, estimate) && !Find(LawPart::bristle, estimate);
-  return any ? MovingView(log) : log.taken();
+  return any ? MovingView(log) : log.raw();
 }
 
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,

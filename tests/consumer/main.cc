@@ -15,7 +15,7 @@ int main(int, char** arguments) try {
   for (const EstimatedParameter& one : estimate.parameters) {
     std::printf("%s %g %s\n", one.name.c_str(), one.value, one.unit.c_str());
   }
-  std::ofstream(arguments[2]) << MinimalModel(*estimate.friction, log.taken().measurements.joint);
+  std::ofstream(arguments[2]) << MinimalModel(*estimate.friction, log.raw().measurements.joint);
 } catch (const warmjoint::BadInput& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -364,7 +364,7 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   const IdentifierInput seen = SelectSamples(GetParam(), {prepared, GetParam().options, {}});
   const bool steady = GetParam().regime == Regime::steady;
   EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
-  EXPECT_GT(prepared.unseen(), 0);
+  EXPECT_GT(prepared.unresolved_path(), 0);
 }
 
 TEST_P(Contract, LearnsFromChangesOfSpeedOnlyWhereItsRegimeIsTransient) {

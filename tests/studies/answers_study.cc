@@ -58,7 +58,7 @@ void Study(const Suite& suite, int variant, int realizations) {
       const Estimate estimate = IdentifyAndCheck(
           identifier, {log, identifier.options.Read(one.options, {one.label}), {}});
       fmt::print("{} {} {} {}", name, r, one.label, StatusName(estimate.status));
-      const Selection& kept = log.steady().selection;
+      const Selection& kept = log.constant_speed().selection;
       PrintNumber("segments", static_cast<double>(kept.segments.size()), std::nullopt);
       PrintNumber("samples", static_cast<double>(kept.count()), std::nullopt);
       Print(estimate);

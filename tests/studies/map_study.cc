@@ -114,7 +114,7 @@ Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Texts& giv
 /// rms of the friction's error along a log; nothing where the fit predicts nothing.
 std::optional<double> ErrorOn(const PreparedLog& log, const Truth& truth, const Fit& fit) {
   if (fit.refusal) return std::nullopt;
-  const LogView& view = log.steady();
+  const LogView& view = log.constant_speed();
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), view.measurements, view.selection, fit.Start());
   // a view has samples of its own at reversals, which the truth does not know
@@ -183,7 +183,7 @@ void Count(const Identifier& identifier, Texts given, const Simulation& recordin
   if (!map) return;
   const size_t kernels = map->axes[0].kernels.centres.size();
   ++outcomes.shapes[fmt::format("{} x {:.2g}", kernels, WidthOf(*map))];
-  CountBands(fit, recording, log.steady(), outcomes);
+  CountBands(fit, recording, log.constant_speed(), outcomes);
 
   // half as many, as wide in spacings
   given["kernels"] = fmt::format("{}", kernels / 2);

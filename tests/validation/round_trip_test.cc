@@ -84,7 +84,7 @@ TEST(RoundTrip, OfTheEmpsAxis) {
   layout.joint = JointKind::linear;
   const Measurements log =
       Prepare(ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout))
-          .taken()
+          .raw()
           .measurements;
 
   const ScratchDirectory scratch;

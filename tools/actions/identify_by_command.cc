@@ -13,7 +13,7 @@ namespace {
 /// Figures of a second answer, to the part of the log before the held-out share.
 std::optional<Metrics> HoldOut(const CheckedCommand& task, const PreparedLog& log,
                                double fraction) {
-  const LogView& view = log.taken();
+  const LogView& view = log.raw();
   const Eigen::VectorXd& time = view.measurements.time;
   // the last part of the log's time is held out
   const double begin = time[0], end = time[time.size() - 1];
@@ -65,8 +65,8 @@ Estimate IdentifyByCommand(const CheckedCommand& task, const PreparedLog& log,
     return estimate;
   }
   // on another recording, or on the last part of this one
-  estimate.holdout = holdout.other ? FrictionMetrics(estimate, holdout.other->taken().measurements,
-                                                     holdout.other->taken().selection, {})
+  estimate.holdout = holdout.other ? FrictionMetrics(estimate, holdout.other->raw().measurements,
+                                                     holdout.other->raw().selection, {})
                                    : HoldOut(task, log, holdout.fraction);
   if (!estimate.holdout) {
     estimate.without_holdout =

@@ -33,7 +33,7 @@ struct CheckArguments {
 /// The kept segments of a recording, a line for each. number: of the recording, from 1.
 void AppendSegments(const PreparedLog& log, int number, std::string& csv) {
   // a line for each stretch of constant speed, with the samples that take part
-  const auto& [m, selection] = log.steady();
+  const auto& [m, selection] = log.constant_speed();
   for (const Segment& segment : selection.segments) {
     const auto kept = selection.keep.segment(segment.begin, segment.end - segment.begin).count();
     csv += fmt::format("{},{},{},{},{}\n", number, m.time[segment.begin], m.time[segment.end - 1],

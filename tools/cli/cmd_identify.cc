@@ -126,7 +126,7 @@ Answered Answer(const Asked& asked, const PreparedLog& log, const HoldOutSource&
                 Activity& activity) {
   if (asked.task) {
     const std::string fitting =
-        fmt::format("fitting {} to {} samples", asked.name, log.taken().measurements.size());
+        fmt::format("fitting {} to {} samples", asked.name, log.raw().measurements.size());
     activity.Is(fitting);
     const auto listen = [&](const std::string& words) { activity.Is(fitting + ", " + words); };
     return {asked.name, IdentifyLog(*asked.task, log, holdout, listen), "", ""};
@@ -161,7 +161,7 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
 void Deliver(const IdentifyArguments& arguments, const Identified& identified,
              const std::optional<CarriedHeat>& heat, const PreparedLog& log,
              const std::optional<Backend>& backend, Activity& activity) {
-  const Measurements& measurements = log.taken().measurements;
+  const Measurements& measurements = log.raw().measurements;
   // friction in amperes is no use to MuJoCo, and says so where it is written
   const auto& [estimate, shown] = identified;
   Estimate written = estimate;
@@ -233,9 +233,8 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   std::optional<CarriedHeat> heat;
   if (arguments.earlier.is_given()) {
     activity.Is("following " + arguments.earlier.file);
-    heat =
-        HeatBefore(arguments.earlier, arguments.recording,
-                   SettingsOf(arguments, arguments.identifiers.front()), log.taken().measurements);
+    heat = HeatBefore(arguments.earlier, arguments.recording,
+                      SettingsOf(arguments, arguments.identifiers.front()), log.raw().measurements);
     activity.Aside([&] { SayNotice("{}\n", Describe(*heat)); });
     BeginWith(*heat, *asked.front().task);
   }
@@ -248,7 +247,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   });
   const Answered& first = answers.front();
   if (answers.size() > 1) {
-    activity.Aside([&] { PrintSeveral(arguments, answers, log.taken().measurements.torque_unit); });
+    activity.Aside([&] { PrintSeveral(arguments, answers, log.raw().measurements.torque_unit); });
   } else if (first.identified) {
     Deliver(arguments, *first.identified, heat, log, backend, activity);
   } else {

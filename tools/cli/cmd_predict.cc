@@ -79,7 +79,7 @@ ExitStatus Predict(PredictArguments arguments) {
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   activity.Aside([&] { TellNotes(log); });
   const WarmStart begin = StartOf(stored, arguments.estimate, arguments.initial, arguments.earlier,
-                                  arguments.recording, log.taken().measurements);
+                                  arguments.recording, log.raw().measurements);
   // what the friction says of the log, and what the log says of it
   const Predicted predicted = PredictLog(stored, log, begin.start);
   if (!arguments.output.empty()) WriteWholeFile(arguments.output, PredictedToCsv(predicted));

@@ -123,8 +123,8 @@ Tree RecordingReport(const ReportArguments& arguments, Activity& activity) {
   const IdentifyTask task = CheckSettings(settings, recording.read.joint);
   const PreparedLog log = ReadAndPrepare(recording);
   activity.Aside([&] { TellNotes(log); });
-  activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
-                          log.taken().measurements.size()));
+  activity.Is(
+      fmt::format("fitting {} to {} samples", task.identifier.name, log.raw().measurements.size()));
   // of a void fit the numbers too
   const Estimate shown = IdentifyLog(task, log, HoldOutSource{}).shown;
   // the command line that makes the same estimate

@@ -78,7 +78,7 @@ Scenario ResolveScenario(const SimulateArguments& arguments) {
   // a log's motion first, for as long as it lasts, so that --set can still change it
   Settings settings;
   if (!arguments.motion.files.empty()) {
-    const Measurements log = Prepare(ReadRecordings(arguments.motion)).taken().measurements;
+    const Measurements log = Prepare(ReadRecordings(arguments.motion)).raw().measurements;
     const Motion motion = MotionOf(log, SelectConstantSpeed(log));
     settings = MotionSettings(motion, log.time[log.size() - 1] - log.time[0]);
   }

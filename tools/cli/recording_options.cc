@@ -206,7 +206,7 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
 }
 
 void TellNotes(const PreparedLog& log) {
-  for (const std::string& note : log.taken().measurements.notes) SayNotice("notice: {}\n", note);
+  for (const std::string& note : log.raw().measurements.notes) SayNotice("notice: {}\n", note);
 }
 
 void AddHoldOptions(CLI::App& parser, PrepareSettings& holds) {

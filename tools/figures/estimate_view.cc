@@ -41,14 +41,14 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
   const auto first = FitFirstPart(*identifier, input, HoldOutSource{}.fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
-  const LogView& fitted = first->fit.inertia ? MovingView(before) : before.steady();
+  const LogView& fitted = first->fit.inertia ? MovingView(before) : before.constant_speed();
   Estimate made = ReportFit(first->fit, Infer(first->fit), before, fitted.measurements);
   if (!made.friction) return std::nullopt;
 
   // the rest, with the verdict on the whole
   made.status = estimate.status;
   const auto& [measurements, selection] =
-      Find(Role::inertia, estimate) ? MovingView(log) : log.taken();
+      Find(Role::inertia, estimate) ? MovingView(log) : log.raw();
   return MakeFitView(measurements, From(first->split, measurements, selection), made);
 }
 
@@ -60,7 +60,7 @@ EstimateView MakeEstimateView(Estimate estimate) {
 
 EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other) {
   EstimateView view = MakeEstimateView(std::move(estimate));
-  view.measurements = other.taken().measurements;
+  view.measurements = other.raw().measurements;
   view.fit = MakeFitView(other, view.estimate);
   return view;
 }

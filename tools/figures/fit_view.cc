@@ -89,7 +89,7 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
 
 FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
   const auto& [measurements, selection] =
-      Find(Role::inertia, estimate) ? MovingView(log) : log.taken();
+      Find(Role::inertia, estimate) ? MovingView(log) : log.raw();
   return MakeFitView(measurements, selection, estimate);
 }
 

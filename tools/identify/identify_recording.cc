@@ -194,7 +194,7 @@ std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
 
 Estimate Identify(const PreparedLog& log, IdentifySettings settings, const HoldOutSource& holdout,
                   const std::optional<CarriedHeat>& follows, const Narrator& watch) {
-  const Measurements& measurements = log.taken().measurements;
+  const Measurements& measurements = log.raw().measurements;
   HoldOutShare(holdout.fraction);
   settings.follows = follows.has_value();
   IdentifyTask task = CheckSettings(settings, measurements.joint);

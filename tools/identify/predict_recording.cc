@@ -19,7 +19,7 @@ namespace {
 
 /// The samples that a model is compared with: all that move, where it has an inertia.
 const LogView& ViewOf(const StoredModel& stored, const PreparedLog& log) {
-  return stored.model.inertia ? MovingView(log) : log.steady();
+  return stored.model.inertia ? MovingView(log) : log.constant_speed();
 }
 
 /// What a recording leaves, as a model has it that knows no errors.
@@ -121,7 +121,7 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
   }
   Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
   // samples put in between those that were logged are no rows of the log
-  const Eigen::VectorXd& logged = log.taken().measurements.time;
+  const Eigen::VectorXd& logged = log.raw().measurements.time;
   for (Eigen::Index i = 0, n = 0; i < m.size() && n < logged.size(); ++i) {
     if (m.time[i] != logged[n]) continue;
     predicted.logged.push_back(i);

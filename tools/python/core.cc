@@ -45,7 +45,7 @@ struct Log {
   PreparedLog prepared;
   std::optional<RecordingSource> source;
 
-  const Measurements& measurements() const { return prepared.taken().measurements; }
+  const Measurements& measurements() const { return prepared.raw().measurements; }
 };
 
 // Logs.

@@ -201,7 +201,7 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
 /// The estimate in an answer, with what our own identifiers tell, too, and judged as they are.
 Estimate JudgeAnswer(const std::string& answer, const std::string& label, const PreparedLog& log,
                      const LackOfFitSettings& judging) {
-  const auto& [measurements, selection] = log.taken();
+  const auto& [measurements, selection] = log.raw();
   Estimate estimate = ReadAnswer(answer, label);
   AddDiscretePair(estimate, measurements);
   if (!estimate.metrics) {
@@ -213,7 +213,7 @@ Estimate JudgeAnswer(const std::string& answer, const std::string& label, const 
 }
 
 Estimate Ask(const Command& command, const PreparedLog& log) {
-  const CommandEnd end = RunCommand(TaskFor(command, log.taken().measurements));
+  const CommandEnd end = RunCommand(TaskFor(command, log.raw().measurements));
   RequireAnswer(command, end);
   return JudgeAnswer(end.answer, command.label, log, command.judging);
 }
@@ -316,7 +316,7 @@ PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunctio
   return [=](const PreparedLog& log, StartKey) {
     std::string answer;
     try {
-      answer = function(log.taken().measurements);
+      answer = function(log.raw().measurements);
     } catch (const std::exception& failure) {
       throw NoAnswer("crashed", Excerpt(failure.what(), kLongestComplaint));
     }

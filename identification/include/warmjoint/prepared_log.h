@@ -21,7 +21,7 @@ struct LogView {
   Selection selection;
 };
 
-/// What tells how a joint moves: a velocity that was logged, or its positions alone.
+/// From what a velocity comes: a column that was logged, or its positions alone.
 enum class MotionSource { velocity, positions };
 
 /// What noise of the velocity does to a slope over |v|.
@@ -57,12 +57,14 @@ class PreparedLog {
  public:
   /// The log as it was taken: for fits that follow changes of speed from sample to sample. A
   /// velocity that it lacks is the smoothed slope of its positions (derive_velocity.h).
-  const LogView& taken() const { return log_->taken; }
+  const LogView& raw() const { return log_->raw; }
 
   /// The log as fits at constant speed see it.
-  const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
+  const LogView& constant_speed() const {
+    return log_->constant_speed ? *log_->constant_speed : log_->raw;
+  }
 
-  /// What the velocity of `taken` was taken from; of several recordings, positions where one has no other.
+  /// What the velocity of `raw` was taken from; of several recordings, positions where one has no other.
   MotionSource source() const { return log_->source; }
 
   /// What others found in the log when they first needed it (moving_view.h).
@@ -83,7 +85,7 @@ class PreparedLog {
 
   /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would not
   /// have travelled: ramps through 0 that no sample shows.
-  double unseen() const { return log_->unseen; }
+  double unresolved_path() const { return log_->unresolved_path; }
 
   /// What in the log contradicts itself, each one sentence (log_faults.h).
   const std::vector<std::string>& faults() const { return log_->faults; }
@@ -103,11 +105,11 @@ class PreparedLog {
 
  private:
   struct Log {
-    LogView taken;
+    LogView raw;
     MotionSource source = MotionSource::velocity;  // of its velocity
-    std::optional<LogView> steady{};               // where anything was done to the log
+    std::optional<LogView> constant_speed{};       // where anything was done to the log
     std::optional<VelocityNoise> velocity_noise{};
-    double unseen = 0;
+    double unresolved_path = 0;
     std::vector<std::string> faults{};
     std::vector<std::string> warnings{};
     std::vector<double> left_out{};  // times of samples, s
@@ -180,7 +182,8 @@ struct MotionCheck {
   double lower = 0, upper = 0;     // rad or m, travel
   double speed_noise = 0;          // rad/s or m/s, around constant speeds
   double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
-  double position_resolution = 0;  // rad or m, of positions that tell the speed; 0: not quantised
+  double position_resolution =
+      0;  // rad or m, of positions from which the velocity is taken; 0: not quantised
 };
 
 /// Whether friction of one kind can be identified, and why (not).

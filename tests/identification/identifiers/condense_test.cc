@@ -15,7 +15,7 @@ namespace {
 LogView Steady() {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0, 1);
-  return Prepare(m).steady();
+  return Prepare(m).constant_speed();
 }
 
 TEST(Condense, MakesRowsOfOneSegment) {
@@ -56,14 +56,14 @@ TEST(Condense, KeepsTheGapsOfTheSamples) {
   }
   const Eigen::VectorXd velocity = Eigen::VectorXd::Map(speeds.data(), std::ssize(speeds));
   Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, 0, 1);
-  LogView some = Condense(Prepare(m).steady(), 30).view;
+  LogView some = Condense(Prepare(m).constant_speed(), 30).view;
   EXPECT_FALSE(GapsOf(some.measurements.time).empty());
   ASSERT_TRUE(some.measurements.gaps);
   EXPECT_TRUE(some.measurements.gaps->empty());
 
   // a clock that stood still for a minute
   m.time.tail(1500).array() += 60;
-  some = Condense(Prepare(m).steady(), 30).view;
+  some = Condense(Prepare(m).constant_speed(), 30).view;
   ASSERT_EQ(some.measurements.gaps->size(), 1u);
   const LogGap& gap = some.measurements.gaps->front();
   EXPECT_EQ(gap.length, 61);

@@ -145,7 +145,7 @@ TEST(Holes, AHoleInALogHoldsTheTruthAndIsToldOf) {
                                  MapFactor::direction, [](double p) { return 4 * p; })};
   Measurements m =
       test::RecordFriction(friction, 0.05, test::Travel(16000, 0.05, 2.5, {0.2, 0.5, 0.9}), 0.3, 1);
-  Selection selection = Prepare(m).steady().selection;
+  Selection selection = Prepare(m).constant_speed().selection;
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     if (m.velocity[i] < 0 && m.position[i] > 0.5 && m.position[i] < 1.5) selection.keep[i] = false;
   }

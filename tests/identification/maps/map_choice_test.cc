@@ -39,7 +39,7 @@ struct Rippled {
 
   /// What it brakes with at one speed, below 0 backwards, in the mean over its samples at that speed.
   double TruthAt(double speed) const {
-    const LogView view = Prepare(log).steady();
+    const LogView view = Prepare(log).constant_speed();
     const Eigen::VectorXd force = PredictFriction(truth, view.measurements).force;
     double sum = 0, count = 0;
     for (Eigen::Index i = 0; i < force.size(); ++i) {
@@ -85,7 +85,7 @@ TEST(FrictionAtSpeeds, IsThatOfThePlacesWhereTheJointMovedSo) {
   Measurements m = test::Record(0.01, velocity, velocity);
   m.torque = 5 * velocity.array() + 15 * velocity.array().sign();
   test::AddNoise(m, 0.1, 0, 1);
-  Selection selection = Prepare(m).steady().selection;
+  Selection selection = Prepare(m).constant_speed().selection;
   selection.keep = selection.keep && (m.position.array() - 0.5).abs() > 0.15;
   const Estimate estimate = Identified(Prepare(m, selection));
   ASSERT_EQ(estimate.friction_at_speeds.size(), 4u) << estimate.message;

@@ -120,7 +120,7 @@ class Emps : public testing::Test {
     ReadSettings layout;
     layout.joint = JointKind::linear;
     layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
-    log_ = Prepare(ReadCsv(path, layout)).taken().measurements;
+    log_ = Prepare(ReadCsv(path, layout)).raw().measurements;
   }
 
   Measurements log_;

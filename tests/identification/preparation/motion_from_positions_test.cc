@@ -86,7 +86,7 @@ double PathOf(const Measurements& m) {
 double Excess(const Drive& drive) {
   const Driven driven = Carried(drive);
   const double path = driven.path[driven.path.size() - 1];
-  return PathOf(Prepare(driven.log).steady().measurements) / path - 1;
+  return PathOf(Prepare(driven.log).constant_speed().measurements) / path - 1;
 }
 
 TEST(MotionFromPositions, HasThePathOfTheJoint) {
@@ -105,7 +105,7 @@ TEST(MotionFromPositions, HasThePathOfAJointThatPausesOrRipples) {
 
 TEST(MotionFromPositions, HoldsOneSpeedForEachSegment) {
   const Driven driven = Carried({});
-  const LogView steady = Prepare(driven.log).steady();
+  const LogView steady = Prepare(driven.log).constant_speed();
   ASSERT_EQ(steady.selection.segments.size(), 30U);
   for (const Segment& segment : steady.selection.segments) {
     for (Index i = segment.begin; i + 1 < segment.end; ++i) {
@@ -118,7 +118,7 @@ TEST(MotionFromPositions, HoldsOneSpeedForEachSegment) {
 TEST(MotionFromPositions, KeepsNoSampleOfARampAndNearlyAllOthers) {
   for (const double resolution : {0.0, 2 * std::numbers::pi / 4096}) {
     const Driven driven = Carried({.resolution = resolution});
-    const LogView steady = Prepare(driven.log).steady();
+    const LogView steady = Prepare(driven.log).constant_speed();
     Index taken = 0, constant = 0, kept = 0;
     for (Index i = 0; i < steady.measurements.size(); ++i) {
       while (taken + 1 < driven.log.size() &&
@@ -138,9 +138,9 @@ TEST(MotionFromPositions, KeepsNoSampleOfARampAndNearlyAllOthers) {
 
 TEST(MotionFromPositions, DoesNotDependOnWhereTheEncoderHasItsZero) {
   Drive drive{.resolution = 2 * std::numbers::pi / 4096};
-  const LogView here = Prepare(Carried(drive).log).steady();
+  const LogView here = Prepare(Carried(drive).log).constant_speed();
   drive.origin = 200 * std::numbers::pi;
-  const LogView there = Prepare(Carried(drive).log).steady();
+  const LogView there = Prepare(Carried(drive).log).constant_speed();
   EXPECT_TRUE((here.selection.keep == there.selection.keep).all());
   // the rounding of 628 rad over that of the way of a segment
   const Eigen::ArrayXd apart = here.measurements.velocity - there.measurements.velocity;
@@ -149,8 +149,8 @@ TEST(MotionFromPositions, DoesNotDependOnWhereTheEncoderHasItsZero) {
 
 TEST(MotionFromPositions, TakesJoinedRecordingsOneByOne) {
   const Measurements one = Carried({.seed = 1}).log, other = Carried({.rate = 100, .seed = 2}).log;
-  const LogView alone = Prepare(other).steady();
-  const LogView joined = Prepare(std::vector{one, other}).steady();
+  const LogView alone = Prepare(other).constant_speed();
+  const LogView joined = Prepare(std::vector{one, other}).constant_speed();
   const Index n = alone.measurements.size();
   ASSERT_EQ(joined.measurements.starts.size(), 1U);
   ASSERT_EQ(joined.measurements.size() - joined.measurements.starts[0], n);
@@ -164,7 +164,7 @@ TEST(MotionFromPositions, DoesNotLookAcrossAGap) {
   Measurements log = Carried({}).log;
   const Index n = log.size() / 2;
   log.time.tail(n).array() += 100;
-  const LogView steady = Prepare(log).steady();
+  const LogView steady = Prepare(log).constant_speed();
   for (const Segment& segment : steady.selection.segments) {
     for (Index i = segment.begin + 1; i < segment.end; ++i) {
       EXPECT_LT(steady.measurements.time[i] - steady.measurements.time[i - 1], 1);

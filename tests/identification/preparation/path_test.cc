@@ -78,7 +78,7 @@ TEST(ReplaceTransitions, LossesOfRampsAreThoseOfThePositions) {
   EXPECT_TRUE(prepared.warnings().empty());
 
   // from the middle of the first segment to that of the last
-  const auto& segments = prepared.taken().selection.segments;
+  const auto& segments = prepared.raw().selection.segments;
   const auto middle = [](const Segment& segment) { return (segment.begin + segment.end) / 2; };
   const Index first = middle(segments.front()), last = middle(segments.back());
   const auto excess = [&](const Measurements& m) {
@@ -90,28 +90,28 @@ TEST(ReplaceTransitions, LossesOfRampsAreThoseOfThePositions) {
 
   // a turn that is off by a count, each way: 60 sqrt(2) counts / sqrt(12) by chance, 5 deviations
   const double most = 5 * std::sqrt(2.0 * kHolds / 12) * kCount / (path[last] - path[first]);
-  EXPECT_LT(std::abs(excess(prepared.steady().measurements)), most);
+  EXPECT_LT(std::abs(excess(prepared.constant_speed().measurements)), most);
 }
 
 TEST(ReplaceTransitions, SegmentsKeepTheVelocityColumn) {
   const Measurements log = Drive().log;
   const PreparedLog prepared = Prepare(log);
-  const auto& [m, selection] = prepared.steady();
-  EXPECT_EQ(selection.count(), prepared.taken().selection.count());
+  const auto& [m, selection] = prepared.constant_speed();
+  EXPECT_EQ(selection.count(), prepared.raw().selection.count());
   Index n = 0;
   for (Index i = 0; i < m.size(); ++i) {
     if (m.time[i] != log.time[n]) {
       EXPECT_FALSE(selection.keep[i]);
       continue;
     }
-    EXPECT_EQ(selection.keep[i], prepared.taken().selection.keep[n]);
+    EXPECT_EQ(selection.keep[i], prepared.raw().selection.keep[n]);
     if (selection.keep[i]) {
       EXPECT_EQ(m.velocity[i], log.velocity[n]);
     }
     ++n;
   }
   EXPECT_EQ(n, log.size());
-  const auto& segments = prepared.taken().selection.segments;
+  const auto& segments = prepared.raw().selection.segments;
   ASSERT_EQ(selection.segments.size(), segments.size());
   for (size_t i = 0; i < segments.size(); ++i) {
     EXPECT_EQ(m.time[selection.segments[i].begin], log.time[segments[i].begin]);
@@ -154,7 +154,7 @@ TEST(PathAgainstVelocity, LeavesAVelocityThatThePositionsConfirm) {
   const Measurements log = Ramped();
   const PreparedLog prepared = Prepare(log);
   EXPECT_THAT(prepared.warnings(), IsEmpty());
-  EXPECT_EQ(prepared.taken().measurements.velocity, log.velocity);
+  EXPECT_EQ(prepared.raw().measurements.velocity, log.velocity);
 }
 
 TEST(PathAgainstVelocity, BelievesTheColumnWhereTheClockJitters) {
@@ -168,7 +168,7 @@ TEST(PathAgainstVelocity, BelievesTheColumnWhereTheClockJitters) {
       turn = std::fmod(turn + std::numbers::phi - 1, 1.0);
     }
     const PreparedLog prepared = Prepare(log);
-    EXPECT_EQ(prepared.taken().measurements.velocity, log.velocity) << seed;
+    EXPECT_EQ(prepared.raw().measurements.velocity, log.velocity) << seed;
     contradicted += !prepared.warnings().empty();
   }
   EXPECT_GT(contradicted, 0);
@@ -181,7 +181,7 @@ TEST(PathAgainstVelocity, ReplacesAVelocityThatIsFiltered) {
 
   // what is kept moves as the joint does
   const Measurements truth = Ramped();
-  const LogView& steady = prepared.steady();
+  const LogView& steady = prepared.constant_speed();
   Index taken = 0;
   for (Index i = 0; i < steady.measurements.size(); ++i) {
     while (truth.time[taken] < steady.measurements.time[i]) ++taken;
@@ -201,20 +201,20 @@ TEST(PathAgainstVelocity, BelievesTheVelocityWhereThePositionIsStuckForAWhile) {
   Measurements log = Ramped();
   log.position.segment(1000, 600).setConstant(log.position[1000]);
   const PreparedLog prepared = Prepare(log);
-  EXPECT_EQ(prepared.taken().measurements.velocity, log.velocity);
+  EXPECT_EQ(prepared.raw().measurements.velocity, log.velocity);
 }
 
 TEST(PrepareSettings, LeaveOutEndsAndShortHolds) {
   const Measurements log = Ramped();
-  const Selection all = Prepare(log).taken().selection;
-  const Selection trimmed = Prepare(log, {.trim = 0.5}).taken().selection;
+  const Selection all = Prepare(log).raw().selection;
+  const Selection trimmed = Prepare(log, {.trim = 0.5}).raw().selection;
   ASSERT_EQ(trimmed.segments.size(), all.segments.size());
   for (size_t i = 0; i < all.segments.size(); ++i) {
     EXPECT_EQ(trimmed.segments[i].begin, all.segments[i].begin + 10);
     EXPECT_EQ(trimmed.segments[i].end, all.segments[i].end - 10);
   }
   EXPECT_EQ(trimmed.count(), all.count() - 20 * static_cast<Index>(all.segments.size()));
-  EXPECT_EQ(Prepare(log, {.shortest_hold = 100}).taken().selection.count(), 0);
+  EXPECT_EQ(Prepare(log, {.shortest_hold = 100}).raw().selection.count(), 0);
 }
 
 /// Samples a second apart.
@@ -257,7 +257,7 @@ TEST(MonotonePath, KeepsARestWithDitherStill) {
 TEST(ReplaceTransitions, AWayThatSamplesCannotHideStaysAsItIs) {
   Measurements log = Drive().log;
   const PreparedLog prepared = Prepare(log);
-  const LogView& taken = prepared.taken();
+  const LogView& taken = prepared.raw();
   const auto& segments = taken.selection.segments;
   const auto middle = [&](size_t i) { return (segments[i].begin + segments[i].end) / 2; };
   Measurements other = log;

@@ -44,23 +44,23 @@ TEST(Join, EachRecordingIsPreparedByItself) {
   without.velocity.resize(0);
   const PreparedLog joined = Prepare(std::vector{slow, late, without});
   const PreparedLog parts[] = {Prepare(slow), Prepare(late), Prepare(without)};
-  EXPECT_THAT(joined.taken().measurements.starts, ElementsAre(900, 1500));
-  EXPECT_EQ(joined.taken().measurements.source, "a + b + c");
+  EXPECT_THAT(joined.raw().measurements.starts, ElementsAre(900, 1500));
+  EXPECT_EQ(joined.raw().measurements.source, "a + b + c");
   Index taken = 0, steady = 0, moving = 0;
   for (const PreparedLog& part : parts) {
-    ExpectPart(joined.taken(), taken, part.taken());
-    ExpectPart(joined.steady(), steady, part.steady());
+    ExpectPart(joined.raw(), taken, part.raw());
+    ExpectPart(joined.constant_speed(), steady, part.constant_speed());
     ExpectPart(MovingView(joined), moving, MovingView(part));
-    taken += part.taken().measurements.size();
-    steady += part.steady().measurements.size();
+    taken += part.raw().measurements.size();
+    steady += part.constant_speed().measurements.size();
     moving += MovingView(part).measurements.size();
   }
-  EXPECT_EQ(joined.steady().measurements.size(), steady);
+  EXPECT_EQ(joined.constant_speed().measurements.size(), steady);
   // the next begins a step behind the last sample
-  const Eigen::VectorXd& time = joined.taken().measurements.time;
+  const Eigen::VectorXd& time = joined.raw().measurements.time;
   EXPECT_DOUBLE_EQ(time[900] - time[899], 1);
   EXPECT_DOUBLE_EQ(time[1500] - time[1499], 0.5);
-  for (const Segment& one : joined.taken().selection.segments) {
+  for (const Segment& one : joined.raw().selection.segments) {
     EXPECT_EQ(one.begin < 900, one.end <= 900);
     EXPECT_EQ(one.begin < 1500, one.end <= 1500);
   }
@@ -68,7 +68,7 @@ TEST(Join, EachRecordingIsPreparedByItself) {
 
 TEST(Join, LeavesOneRecordingAsItIs) {
   const Measurements m = Recording("a", 300, 1, 7, 1);
-  const Measurements one = Prepare(std::vector{m}).taken().measurements;
+  const Measurements one = Prepare(std::vector{m}).raw().measurements;
   EXPECT_TRUE(one.starts.empty());
   EXPECT_EQ(one.time, m.time);
   EXPECT_EQ(one.source, "a");
@@ -79,7 +79,7 @@ TEST(Join, LeavesOutAColumnThatOneLacks) {
   with.load = Eigen::VectorXd::Ones(300);
   with.temperature = Eigen::VectorXd::Constant(300, 25);
   without.temperature = Eigen::VectorXd::Constant(200, 26);
-  const Measurements joined = Prepare(std::vector{with, without}).taken().measurements;
+  const Measurements joined = Prepare(std::vector{with, without}).raw().measurements;
   EXPECT_FALSE(joined.load);
   EXPECT_THAT(joined.notes, ElementsAre(HasSubstr("load is left out")));
   EXPECT_EQ(joined.temperature->head(300), *with.temperature);
@@ -109,12 +109,12 @@ TEST(Join, RefusesAnotherUnitAndNothing) {
 TEST(PreparedLog, BeforeCutsTheRecordingsAtATime) {
   const Measurements one = Recording("a", 900, 1, 0, 1), other = Recording("b", 600, 1, 1e4, 2);
   const PreparedLog joined = Prepare(std::vector{one, other});
-  const Eigen::VectorXd& time = joined.taken().measurements.time;
+  const Eigen::VectorXd& time = joined.raw().measurements.time;
   for (const Index n : {1, 700, 900, 901, 1300, 1500}) {
     const PreparedLog before = joined.Before(n < 1500 ? time[n] : time[1499] + 1);
-    ASSERT_EQ(before.taken().measurements.size(), n);
-    EXPECT_EQ(before.taken().measurements.time, time.head(n));
-    EXPECT_EQ(before.taken().measurements.starts.size(), n > 900 ? 1 : 0);
+    ASSERT_EQ(before.raw().measurements.size(), n);
+    EXPECT_EQ(before.raw().measurements.time, time.head(n));
+    EXPECT_EQ(before.raw().measurements.starts.size(), n > 900 ? 1 : 0);
     EXPECT_EQ(MovingView(before).measurements.size(), MovingView(before).selection.keep.size());
   }
   EXPECT_THAT(joined.faults(), IsEmpty());

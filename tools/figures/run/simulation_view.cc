@@ -30,7 +30,7 @@ SimulationView MakeSimulationView(const Scenario& scenario, const Simulation& re
   Estimate truth;
   truth.friction = recording.truth.friction;
   // samples as an identifier takes them, less those that only seem to be at constant speed
-  const Measurements m = Prepare(recording.measurements).taken().measurements;
+  const Measurements m = Prepare(recording.measurements).raw().measurements;
   Selection selection =
       scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
   KeepTrulyConstant(recording.truth, selection);
