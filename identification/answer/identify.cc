@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "identification/inference/apply.h"
@@ -88,9 +89,8 @@ Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitPa
 void AddVelocity(const VelocityNoise& taken, JointKind joint, const Fit& fit,
                  std::vector<Cause>& causes) {
   const FitParameter* const viscous = SlopeOf(fit);
-  const std::string_view slope = viscous          ? viscous->name
-                                 : MapsSlope(fit) ? "slopes over speed"
-                                                  : "";
+  std::string slope = MapsSlope(fit) ? "slopes over speed" : "";
+  if (viscous) slope = viscous->name;
   causes.push_back({.source = Source::velocity_averaged,
                     .sentence = ExplainAveraging(taken, joint, slope),
                     .sentence_in = SentenceIn::message});

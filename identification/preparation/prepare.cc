@@ -74,11 +74,13 @@ void KeepAlso(const SampleMask& keep, const Eigen::VectorXd& time, LogView& log)
 /// Makes the logs that Prepare promises, each of one recording.
 struct PreparedLog::Maker {
   /// By the velocity column: one velocity for each segment, where noise would take something off the slopes, and a sample
-  /// at each switch of speed. selection: what moves at constant speed.
-  static Log ByColumn(Measurements measurements, Selection selection) {
+  /// at each switch of speed. selection: what moves at constant speed, before `holds` leaves some of it out.
+  static Log ByColumn(Measurements measurements, Selection selection,
+                      const PrepareSettings& holds) {
     Log log{.raw = {std::move(measurements), std::move(selection)}};
-    log.faults = FindFaults(log.raw.measurements, log.raw.selection);
-    if (auto level = TakeSegmentVelocity(log.raw.measurements, log.raw.selection)) {
+    auto level = TakeSegmentVelocity(log.raw.measurements, log.raw.selection);
+    TakeOptions(holds, log.raw.measurements.time, log.raw.selection);
+    if (level) {
       log.velocity_noise = level->noise;
       log.constant_speed = {std::move(level->measurements), log.raw.selection};
     }
@@ -86,6 +88,7 @@ struct PreparedLog::Maker {
       log.unresolved_path = split->unresolved_path;
       log.constant_speed = std::move(split->view);
     }
+    log.faults = FindFaults(log.raw.measurements, log.raw.selection);
     return log;
   }
 
@@ -94,15 +97,15 @@ struct PreparedLog::Maker {
     measurements.notes.emplace_back(
         "velocity computed from the positions, one value for each segment");
     Log log{.raw = {std::move(measurements), {}}, .source = MotionSource::positions};
-    auto& [taken, selection] = log.raw;
-    ConstantSpeed found = FindFromPositions(taken);
-    FilledLog motion = MotionFromPositions(taken, found);
+    auto& [measured, selection] = log.raw;
+    ConstantSpeed found = FindFromPositions(measured);
+    FilledLog motion = MotionFromPositions(measured, found);
     selection = std::move(found.selection);
     log.constant_speed = std::move(motion.view);
     log.unresolved_path = motion.unresolved_path;
     TakeOptions(holds, log.constant_speed->measurements.time, log.constant_speed->selection);
-    TakeOptions(holds, taken.time, selection);
-    log.faults = FindFaults(taken, selection, MotionSource::positions);
+    TakeOptions(holds, measured.time, selection);
+    log.faults = FindFaults(measured, selection, MotionSource::positions);
     return log;
   }
 
@@ -141,9 +144,7 @@ struct PreparedLog::Maker {
     if (!measurements.position_integrated) {
       if (auto log = WithoutCoarseColumn(measurements, selection, holds)) return std::move(*log);
     }
-    Selection asked = selection;
-    TakeOptions(holds, measurements.time, asked);
-    Log log = ByColumn(measurements, std::move(asked));
+    Log log = ByColumn(measurements, selection, holds);
     if (measurements.position_integrated || !log.faults.empty()) return log;
 
     // the paths from one segment to the next
@@ -196,7 +197,7 @@ PreparedLog Prepare(std::vector<Measurements> recordings, const PrepareSettings&
 }
 
 PreparedLog Prepare(Measurements measurements, Selection known) {
-  return PreparedLog(PreparedLog::Maker::ByColumn(std::move(measurements), std::move(known)));
+  return PreparedLog(PreparedLog::Maker::ByColumn(std::move(measurements), std::move(known), {}));
 }
 
 }  // namespace warmjoint

@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr Index kFewestSamples = 3;  // of a recording, as readers ask
+
 LogView Head(const LogView& all, double time) {
   const Index n = (all.measurements.time.array() < time).count();
   LogView head{FirstSamples(all.measurements, n), {all.selection.keep.head(n), {}}};
@@ -175,12 +177,12 @@ PreparedLog PreparedLog::Before(double time) const {
     if (log_->constant_speed) before.constant_speed = Head(*log_->constant_speed, time);
     return PreparedLog(std::move(before));
   }
-  // as many samples of each recording as are before it
+  // as many samples of each recording as are before it; fewer show no motion
   Index left = (log_->raw.measurements.time.array() < time).count();
   std::vector<PreparedLog> before;
   for (const PreparedLog& one : log_->recordings) {
     const Eigen::VectorXd& own = one.raw().measurements.time;
-    if (left <= 0 && !before.empty()) break;
+    if (left < kFewestSamples && !before.empty()) break;
     before.push_back(left < own.size() ? one.Before(own[left]) : one);
     left -= own.size();
   }

@@ -6,7 +6,6 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/select.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -125,11 +124,9 @@ TEST(SeveralRecordings, KalmanAsksForOne) {
 }
 
 TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
-  const Measurements m = Mornings(0.5);
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options = identifier.options.Read({});
-  const Selection selection = SelectMoving(m);
-  const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3).metrics;
+  const auto held = HoldOut(identifier, {Mornings(0.5), options, {}}, 1.0 / 3).metrics;
   ASSERT_TRUE(held);
   EXPECT_NEAR(held->n, 1800, 1);
   // noise of 0.5 N.m, known from 1800 samples to 0.5 / sqrt(3600), three times, and the parameters
