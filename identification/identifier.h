@@ -17,14 +17,23 @@ namespace warmjoint {
 /// Told what is being tried, for people who wait; may be empty.
 using Narrator = std::function<void(const std::string& words)>;
 
+/// How a fit looks at a log, and which of its samples it sees.
+enum class View {
+  constant_speed,  // PreparedLog::constant_speed: sliding at constant speeds, tau = G + F, Eq. (6)
+  raw,  // PreparedLog::raw: changes of speed too, tau = M a + G + F, Eq. (5), from sample to sample
+  moving,  // MovingView: all that moves clearly, with its acceleration, Eq. (5)
+};
+
+/// The samples of a log as a view shows them; those of `moving` are made when they are first asked for.
+const LogView& SeenThrough(View view, const PreparedLog& log);
+
 /// Everything an identifier may look at. Refers to the log's samples, which must outlive it.
 class IdentifierInput {
  public:
   IdentifierInput(PreparedLog given, const Options& given_options, StartKey key,
                   Narrator listener = {})
-      : IdentifierInput(given, given.constant_speed().measurements,
-                        given.constant_speed().selection, given_options, key, std::move(listener)) {
-  }
+      : IdentifierInput(given, View::constant_speed, given.constant_speed(), given_options, key,
+                        std::move(listener)) {}
 
   /// Tells what is being tried, where someone listens.
   void Tell(const std::string& words) const {
@@ -33,25 +42,26 @@ class IdentifierInput {
 
   /// The same log with other samples taking part. `other` must outlive the answer.
   IdentifierInput With(const Selection& other) const {
-    return {log, measurements, other, options, start, narrator};
+    return {log, view, measurements, other, options, start, narrator};
   }
 
   /// The same samples with other options.
   IdentifierInput With(const Options& other) const {
-    return {log, measurements, selection, other, start, narrator};
+    return {log, view, measurements, selection, other, start, narrator};
   }
 
-  /// The same log through another view of it, which must outlive the answer.
-  IdentifierInput On(const LogView& view) const {
-    return {log, view.measurements, view.selection, options, start, narrator};
+  /// The same log through another view of it.
+  IdentifierInput Through(View other) const {
+    return {log, other, SeenThrough(other, log), options, start, narrator};
   }
 
-  /// The log as it was taken, for fits that follow changes of speed.
-  IdentifierInput AsTaken() const {
-    return {log, log.raw().measurements, log.raw().selection, options, start, narrator};
+  /// Other rows made of the same view, which must outlive the answer.
+  IdentifierInput On(const LogView& rows) const {
+    return {log, view, rows, options, start, narrator};
   }
 
   const PreparedLog log;
+  const View view;
   const Measurements& measurements;
   const Selection& selection;  // filter over all samples, fit on those kept
   const Options options;
@@ -59,23 +69,19 @@ class IdentifierInput {
   const Narrator narrator;
 
  private:
-  IdentifierInput(PreparedLog of, const Measurements& samples, const Selection& kept,
+  IdentifierInput(PreparedLog of, View through, const LogView& seen, const Options& given_options,
+                  StartKey key, Narrator listener)
+      : IdentifierInput(std::move(of), through, seen.measurements, seen.selection, given_options,
+                        key, std::move(listener)) {}
+  IdentifierInput(PreparedLog of, View through, const Measurements& samples, const Selection& kept,
                   const Options& given_options, StartKey key, Narrator listener)
       : log(std::move(of)),
+        view(through),
         measurements(samples),
         selection(kept),
         options(given_options),
         start(key),
         narrator(std::move(listener)) {}
-};
-
-/// The motion that an identifier learns from, and with it how a log must reach it.
-enum class Regime {
-  /// Sliding at constant speeds, tau = G + F, Eq. (6): PreparedLog::steady.
-  steady,
-  /// Changes of speed too, tau = M a + G + F, Eq. (5): PreparedLog::taken, whose acceleration is
-  /// followed from sample to sample.
-  transient,
 };
 
 struct Identifier {
@@ -84,7 +90,8 @@ struct Identifier {
   Options options;  // at their defaults
   /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw.
   Fit (*fit)(const IdentifierInput& input);
-  Regime regime = Regime::steady;
+  /// Through which it learns, unless its option `motion` asks for another.
+  View view = View::constant_speed;
   std::string earlier_name{};  // by which it is still found; or empty
 
   /// Whether that is its name, or was.

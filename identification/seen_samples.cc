@@ -3,6 +3,29 @@
 #include "identification/preparation/moving_view.h"
 
 namespace warmjoint {
+namespace {
+
+View ViewFor(const Identifier& identifier, const IdentifierInput& input) {
+  const auto* asked = input.options.Find<MotionOption>();
+  if (!asked || identifier.view != View::constant_speed) return identifier.view;
+  const bool any = asked->motion == MotionKind::any ||
+                   (asked->motion == MotionKind::chosen && !HoldsSpeeds(input.log));
+  return any ? View::moving : View::constant_speed;
+}
+
+}  // namespace
+
+const LogView& SeenThrough(View view, const PreparedLog& log) {
+  switch (view) {
+    case View::raw:
+      return log.raw();
+    case View::moving:
+      return MovingView(log);
+    case View::constant_speed:
+      break;
+  }
+  return log.constant_speed();
+}
 
 IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input) {
   // of a whole log, what is absurd pulls no less at a loss that bounds its pull than others do
@@ -13,12 +36,9 @@ IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInpu
     return SelectSamples(identifier, {bounded, input.options, input.start, input.narrator});
   }
 
-  if (identifier.regime == Regime::transient) return input.AsTaken();
-  const auto* asked = input.options.Find<MotionOption>();
-  if (!asked) return input;
-  const bool any = asked->motion == MotionKind::any ||
-                   (asked->motion == MotionKind::chosen && !HoldsSpeeds(input.log));
-  return any ? input.On(MovingView(input.log)) : input;
+  const View view = ViewFor(identifier, input);
+  // samples that were chosen from the view stay chosen
+  return view == input.view ? input : input.Through(view);
 }
 
 }  // namespace warmjoint

@@ -41,7 +41,7 @@ struct LossOption {
   }
 };
 
-/// The input with the samples that the identifier learns from: those of its regime; of one that has the
+/// The input with the samples that the identifier learns from: those of its view; of one that has the
 /// option `motion`, all that move where that asks for them, or where the log shows no constant speeds.
 IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input);
 

@@ -107,11 +107,11 @@ Cause OfTheLog(Source source, std::string sentence) {
 /// velocity is left, intervals of viscous and of the levels reach as far as that moves them; of a warming, how far the gain may be off
 /// where reversals happen between two samples, unless that is below half a per cent. Of all: positions that the log
 /// lacks, and torque that was left out as absurd. input: what the identifier saw; by_noise: of the fit.
-std::vector<Cause> PreparationCauses(const Identifier& identifier, const IdentifierInput& input,
-                                     const Fit& fit, const Inference& by_noise) {
+std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fit,
+                                     const Inference& by_noise) {
   std::vector<Cause> causes;
   const PreparedLog& log = input.log;
-  const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
+  const bool steady = input.view == View::constant_speed;
   if (steady && log.faults().empty()) {
     const bool warms = fit.RowOf(Role::heat) && !by_noise.parameters.empty();
     if (warms && log.unresolved_path() >= kUnresolvedPath) {
@@ -148,7 +148,7 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
       if (floor) found.causes.push_back(std::move(*floor));
     }
   }
-  std::ranges::move(PreparationCauses(identifier, input, answer.fit, answer.inferred),
+  std::ranges::move(PreparationCauses(input, answer.fit, answer.inferred),
                     std::back_inserter(found.causes));
   return found;
 }

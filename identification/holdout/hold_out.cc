@@ -8,24 +8,10 @@
 #include "identification/holdout/evaluate.h"
 #include "identification/inference/inference.h"
 #include "identification/physical_bounds.h"
-#include "identification/preparation/moving_view.h"
 #include "identification/seen_samples.h"
 
 namespace warmjoint {
 namespace {
-
-/// Another log with the samples that the identifier learned from in `input`.
-IdentifierInput SeenAs(const IdentifierInput& input, const Identifier& identifier,
-                       const IdentifierInput& other) {
-  if (input.measurements.acceleration) return other.On(MovingView(other.log));
-  return identifier.regime == Regime::transient ? other.AsTaken() : other;
-}
-
-/// Another recording as the fit's model is compared with it.
-const LogView& SeenBy(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
-  if (fit.inertia) return MovingView(other);
-  return identifier.regime == Regime::transient ? other.raw() : other.constant_speed();
-}
 
 /// Why samples that were asked for are not compared.
 std::string WhyNone(const Fit& fit, Eigen::Index asked) {
@@ -47,7 +33,7 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   const double split = input.measurements.time[end];
   // what lies before, seen as the identifier saw the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
-  const IdentifierInput seen = SeenAs(input, identifier, before);
+  const IdentifierInput seen = before.Through(input.view);
   Fit fit = all_data.structure ? all_data.structure(seen) : identifier.fit(seen);
   return FirstPart{split, AtBounds(std::move(fit), seen.measurements)};
 }
@@ -79,7 +65,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
 
 HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
   const CourseStart cold;
-  const LogView& seen = SeenBy(identifier, fit, other);
+  const LogView& seen = SeenThrough(fit.inertia ? View::moving : identifier.view, other);
   if (auto metrics = Evaluate(fit, seen.measurements, seen.selection, cold)) {
     return {std::move(metrics), ""};
   }

@@ -332,7 +332,7 @@ Identifier EnergyAls() {
       "trace per iteration",
       OptionGroups<LawOption, EnergyAlsOptions, GravityOption, NominalMapOptions>{},
       &FitInTurn,
-      Regime::steady,
+      View::constant_speed,
       "energy-em"};
 }
 

@@ -379,7 +379,7 @@ struct LuGreOptions {
 };
 
 Fit FitLugre(const IdentifierInput& given) {
-  const IdentifierInput input = given.AsTaken();
+  const IdentifierInput input = given.Through(View::raw);
   const Measurements& m = input.measurements;
   const auto& options = input.options.Get<LuGreOptions>();
   const FallingLaw& law = *options.law;
@@ -420,7 +420,7 @@ Fit FitLugre(const IdentifierInput& given) {
 
 Identifier LuGreIdentifier() {
   return {kName, "the LuGre law by least squares over turns and constant speeds; needs no start",
-          LuGreOptions{}, &FitLugre, Regime::transient};
+          LuGreOptions{}, &FitLugre, View::raw};
 }
 
 }  // namespace warmjoint

@@ -5,8 +5,8 @@
 
 #include "identification/find_parameter.h"
 #include "identification/gravity.h"
+#include "identification/identifier.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/preparation/moving_view.h"
 #include "identification/score/cramer_rao.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
@@ -85,7 +85,7 @@ double ParameterError(const std::vector<ParameterScore>& parameters) {
 
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
   const bool any = Find(Role::inertia, estimate) && !Find(LawPart::bristle, estimate);
-  return any ? MovingView(log) : log.raw();
+  return SeenThrough(any ? View::moving : View::raw, log);
 }
 
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,

@@ -362,14 +362,14 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   const Selection selection = SelectMoving(log);
   const PreparedLog prepared = Prepare(log, selection);
   const IdentifierInput seen = SelectSamples(GetParam(), {prepared, GetParam().options, {}});
-  const bool steady = GetParam().regime == Regime::steady;
+  const bool steady = GetParam().view == View::constant_speed;
   EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
   EXPECT_GT(prepared.unresolved_path(), 0);
 }
 
-TEST_P(Contract, LearnsFromChangesOfSpeedOnlyWhereItsRegimeIsTransient) {
+TEST_P(Contract, LearnsFromChangesOfSpeedOnlyThroughTheRawView) {
   // the first has rests, the second turns that are no constant speed
-  const bool steady = GetParam().regime == Regime::steady;
+  const bool steady = GetParam().view == View::constant_speed;
   const Measurements& log = steady ? Warm() : Turning();
   const Selection selection = SelectConstantSpeed(log);
   ASSERT_LT(selection.count(), log.size());

@@ -5,8 +5,8 @@
 #include "identification/answer/identify.h"
 #include "identification/find_parameter.h"
 #include "identification/holdout/hold_out.h"
+#include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/moving_view.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
 
@@ -41,14 +41,15 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
   const auto first = FitFirstPart(*identifier, input, HoldOutSource{}.fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
-  const LogView& fitted = first->fit.inertia ? MovingView(before) : before.constant_speed();
+  const LogView& fitted =
+      SeenThrough(first->fit.inertia ? View::moving : View::constant_speed, before);
   Estimate made = ReportFit(first->fit, Infer(first->fit), before, fitted.measurements);
   if (!made.friction) return std::nullopt;
 
   // the rest, with the verdict on the whole
   made.status = estimate.status;
   const auto& [measurements, selection] =
-      Find(Role::inertia, estimate) ? MovingView(log) : log.raw();
+      SeenThrough(Find(Role::inertia, estimate) ? View::moving : View::raw, log);
   return MakeFitView(measurements, From(first->split, measurements, selection), made);
 }
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "identification/find_parameter.h"
-#include "identification/preparation/moving_view.h"
+#include "identification/identifier.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
@@ -89,7 +89,7 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
 
 FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
   const auto& [measurements, selection] =
-      Find(Role::inertia, estimate) ? MovingView(log) : log.raw();
+      SeenThrough(Find(Role::inertia, estimate) ? View::moving : View::raw, log);
   return MakeFitView(measurements, selection, estimate);
 }
 

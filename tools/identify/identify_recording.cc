@@ -61,7 +61,7 @@ void AddMotion(MotionKind motion, const Identifier& identifier,
                std::map<std::string, std::string>& given) {
   if (motion == MotionKind::chosen) return;
   if (!identifier.options.Has("motion")) {
-    if (motion == MotionKind::constant && identifier.regime == Regime::steady) return;
+    if (motion == MotionKind::constant && identifier.view == View::constant_speed) return;
     Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
            identifier.name, Able("motion"));
   }

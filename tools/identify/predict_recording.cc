@@ -9,7 +9,7 @@
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
-#include "identification/preparation/moving_view.h"
+#include "identification/identifier.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_json.h"
 #include "models/recording/measurements.h"
@@ -19,7 +19,7 @@ namespace {
 
 /// The samples that a model is compared with: all that move, where it has an inertia.
 const LogView& ViewOf(const StoredModel& stored, const PreparedLog& log) {
-  return stored.model.inertia ? MovingView(log) : log.constant_speed();
+  return SeenThrough(stored.model.inertia ? View::moving : View::constant_speed, log);
 }
 
 /// What a recording leaves, as a model has it that knows no errors.

@@ -151,7 +151,7 @@ TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   const Options options = stribeck.options;
   const Selection moving = SelectMoving(m);
   const Selection steady =
-      SteadySamples(IdentifierInput(Prepare(m, moving), options, {}).AsTaken(), 0.01);
+      SteadySamples(IdentifierInput(Prepare(m, moving), options, {}).Through(View::raw), 0.01);
   const Estimate other = IdentifyUnchecked(stribeck, {Prepare(m, steady), options, {}});
   ASSERT_EQ(other.status, Status::ok) << other.message;
   for (const char* name : {"viscous", "coulomb", "static", "stribeck_velocity"}) {
