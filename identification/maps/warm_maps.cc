@@ -226,7 +226,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements&
   fit.causes.insert(
       fit.causes.begin(),
       Remark(fmt::format("warming beside them in {} rounds", warm.rounds), SentenceIn::message));
-  if (!warm.gaps.empty()) fit.causes.push_back(Remark(LossesInGaps(warm.gaps, measurements)));
+  RemarkOnHeat(warming, warm.gaps, measurements, fit);
 }
 
 }  // namespace

@@ -347,8 +347,7 @@ Fit Conclude(LawFit law) {
       return WarmJacobian(*loop, rigid, found);
     };
     fit.end_energy = [loop, found] { return WarmEnd(*loop, found); };
-    const std::vector<LogGap>& gaps = law.problem.gaps();
-    if (!gaps.empty()) fit.causes.push_back(Remark(LossesInGaps(gaps, m)));
+    RemarkOnHeat(found, law.problem.gaps(), m, fit);
   }
 
   // structure in the residual
@@ -404,6 +403,16 @@ std::vector<FitParameter> HeatTable(const ThermalFit& warm, const Measurements& 
   }
   std::ranges::copy(JumpParameters(warm.jumps(), measurements), std::back_inserter(rows));
   return rows;
+}
+
+void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
+                  const Measurements& measurements, Fit& fit) {
+  if (!gaps.empty()) fit.causes.push_back(Remark(LossesInGaps(gaps, measurements)));
+  if (warm.estimates_initial_energy() && !measurements.starts.empty()) {
+    fit.causes.push_back(
+        Remark("E(0) is estimated of the first recording, and the others are taken to begin cold; "
+               "identify each by itself if they did not"));
+  }
 }
 
 }  // namespace warmjoint

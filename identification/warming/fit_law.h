@@ -5,6 +5,7 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
+#include "identification/warming/gaps.h"
 #include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
@@ -23,5 +24,10 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat);
 
 /// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps.
 std::vector<FitParameter> HeatTable(const ThermalFit& warm, const Measurements& measurements);
+
+/// Notes with a fit what its heat leaves open: losses within gaps of the log, and how warm the joint was as further
+/// recordings began.
+void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
+                  const Measurements& measurements, Fit& fit);
 
 }  // namespace warmjoint

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "identification/report/end_state.h"
 #include "identification/warming/expected_start.h"
@@ -49,6 +50,19 @@ TEST(ExpectedStart, AWideOneIsNone) {
     EXPECT_NEAR(wide.Find(one.name)->value, one.value, 1e-3 * *one.std) << one.name;
     EXPECT_NEAR(*wide.Find(one.name)->std, *one.std, 1e-3 * *one.std) << one.name;
   }
+}
+
+TEST(EstimatedStart, OfSeveralRecordingsIsThatOfTheFirst) {
+  // the second begins cold
+  const std::vector<Measurements> logs{WarmLog(1), test::RecordHour(test::TableOne(), 3, 0.3)};
+  const std::map<std::string, std::string> given{{"initial_energy", "estimated"}};
+  const Estimate one = Fitted(logs[0], given);
+  const Estimate both = test::Fitted("energy-ml", Prepare(logs), given);
+  ASSERT_EQ(both.status, Status::ok) << both.message;
+  const EstimatedParameter& start = *both.Find("initial_energy");
+  EXPECT_NEAR(start.value, kBegins, 4 * *start.std);
+  // a reader is told of the second
+  EXPECT_EQ(both.warnings.size(), one.warnings.size() + 1);
 }
 
 TEST(ExpectedStart, AnExactOneStaysWhereItIs) {
