@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "identification/fit_data.h"
 #include "identification/uncertainty/tails.h"
@@ -15,6 +16,18 @@ namespace {
 
 constexpr double kBeyondDoubt = 5;   // deviations of a normal variable
 constexpr double kLeastShare = 0.1;  // of the plain fit's variance
+
+/// Why no number has an interval: a clause.
+std::string DescribeDisagreement(const Disagreement& found, const std::string& name) {
+  return fmt::format(
+      "no intervals are given, since the residual holds structure and not only noise: treating its "
+      "slow part as noise would change {} by {:.2g} standard errors",
+      name, found.deviations);
+}
+
+double Rms(const Eigen::VectorXd& values) {
+  return values.norm() / std::sqrt(static_cast<double>(values.size()));
+}
 
 }  // namespace
 
@@ -36,21 +49,6 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
   most.differences = whitened.x - plain.x;
   return most;
 }
-
-std::string DescribeDisagreement(const Disagreement& found, const std::string& name) {
-  return fmt::format(
-      "no intervals are given, since the residual holds structure and not only noise: treating its "
-      "slow part as noise would change {} by {:.2g} standard errors",
-      name, found.deviations);
-}
-
-namespace {
-
-double Rms(const Eigen::VectorXd& values) {
-  return values.norm() / std::sqrt(static_cast<double>(values.size()));
-}
-
-}  // namespace
 
 void AddStructure(const Disagreement& structure, const Eigen::VectorXd& friction, Fit& fit) {
   // columns of gravity may have no name of their own

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 
 #include "identification/fit.h"
 
@@ -31,9 +30,6 @@ struct Disagreement {
 /// counts as a tenth of the plain one's at least. freedom: of the plain fit's variance.
 std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOfRows& whitened,
                                              double freedom);
-
-/// Why no number has an interval: a clause.
-std::string DescribeDisagreement(const Disagreement& found, const std::string& name);
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
 /// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by

@@ -130,8 +130,8 @@ RigidPart PrepareRigid(const IdentifierInput& input) {
   // what takes part so far, and no columns yet
   fit.selection = input.selection;
   fit.columns.resize(input.measurements.size(), 0);
-  const FittedGravity asked = input.options.Get<GravityOption>().gravity;
-  if (asked != FittedGravity::none) PrepareGravity(input, asked, fit);
+  const auto* option = input.options.Find<GravityOption>();
+  if (option && option->gravity != FittedGravity::none) PrepareGravity(input, option->gravity, fit);
 
   // the inertia, behind gravity
   const auto& acceleration = input.measurements.acceleration;

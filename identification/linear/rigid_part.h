@@ -52,7 +52,7 @@ struct RigidPart {
   IdentifierInput Of(const IdentifierInput& given) const;
 };
 
-/// Gravity as the option `gravity` asks for it, and inertia where the log has an acceleration.
+/// Gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration.
 RigidPart PrepareRigid(const IdentifierInput& input);
 
 /// One sentence on columns that the motion cannot tell apart, law parameters before gravity's

@@ -47,16 +47,11 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
 
 std::optional<ChosenMap> MapGivenEnergy(const IdentifierInput& given,
                                         const Eigen::VectorXd& energy) {
-  const RigidPart rigid = PrepareRigid(given);
-  if (rigid.why) return std::nullopt;
-  const IdentifierInput input = rigid.Of(given);
-  const MapModel model = ModelOf(input);
-  MapBeginning begin = BeginMaps(input, "", model.quantities, rigid);
+  MapBeginning begin = BeginModel("", given, ModelOf(given));
   if (begin.refusal) return std::nullopt;
-  // shape and strength of the map beside a course of the energy that is known
-  begin.task.candidates = model.maps(begin.points);
+  // shape and strength of the map beside an energy that is known
   begin.task.energy = energy;
-  const auto chosen = Choose(input, begin.task);
+  const auto chosen = Choose(begin.task.rigid.Of(given), begin.task);
   if (!chosen) return std::nullopt;
   return ChosenMap{chosen->problem.maps.front(), chosen->strength};
 }

@@ -51,16 +51,24 @@ Fit FitWarm(const IdentifierInput& input, const MapTask& task) {
 
 }  // namespace
 
-Fit FitMapModel(const std::string& name, const IdentifierInput& given, const MapModel& model) {
+MapBeginning BeginModel(const std::string& name, const IdentifierInput& given,
+                        const MapModel& model) {
   // gravity and inertia, where they are asked for, and what a map needs
-  RigidPart rigid;
-  const bool asks = given.options.Find<GravityOption>() != nullptr;
-  if (asks) rigid = PrepareRigid(given);
-  if (rigid.why) return Refused(name, {rigid.status, *rigid.why});
-  const IdentifierInput input = asks ? rigid.Of(given) : given;
-  MapBeginning begin = BeginMaps(input, name, model.quantities, rigid);
+  const RigidPart rigid = PrepareRigid(given);
+  MapBeginning begin;
+  if (rigid.why) {
+    begin.refusal = Refusal{rigid.status, *rigid.why};
+    return begin;
+  }
+  begin = BeginMaps(rigid.Of(given), name, model.quantities, rigid);
+  if (!begin.refusal) begin.task.candidates = model.maps(begin.points);
+  return begin;
+}
+
+Fit FitMapModel(const std::string& name, const IdentifierInput& given, const MapModel& model) {
+  const MapBeginning begin = BeginModel(name, given, model);
   if (begin.refusal) return Refused(name, *begin.refusal);
-  begin.task.candidates = model.maps(begin.points);
+  const IdentifierInput input = begin.task.rigid.Of(given);
   if (model.heat == MapHeat::none) return FitCold(input, begin.task);
 
   // E, with these maps beside it

@@ -25,6 +25,11 @@ struct MapModel {
   MapMaker over_energy{};
 };
 
+/// What a model is fitted to: its task with gravity, inertia and all shapes of maps, for the samples that
+/// `task.rigid` keeps; or why there is none.
+MapBeginning BeginModel(const std::string& name, const IdentifierInput& given,
+                        const MapModel& model);
+
 /// By ridge regression on the kernels' weights, with gravity and inertia where the options ask for them; with heat in
 /// turns (warm_maps.h), from the E(0) that the options say. name: of the identifier
 Fit FitMapModel(const std::string& name, const IdentifierInput& given, const MapModel& model);
