@@ -28,7 +28,7 @@ std::string NameOf(Role role, int which) {
     case Role::heat:
       return std::string(which == 0 ? kGainName : kTimeConstantName);
     case Role::start:
-      return "initial_energy";
+      return which == 0 ? "initial_energy" : fmt::format("initial_energy_{}", which + 1);
     case Role::jump:
       return fmt::format("energy_jump_{}", which + 1);
     case Role::inertia:
@@ -79,18 +79,13 @@ std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measureme
   return rows;
 }
 
-FitParameter StartParameter(double energy, const Measurements& measurements) {
-  return {NameOf(Role::start), Role::start, energy, measurements.torque_unit};
+FitParameter StartParameter(int recording, double energy, const Measurements& measurements) {
+  return {NameOf(Role::start, recording), recording == 0 ? Role::start : Role::jump, energy,
+          measurements.torque_unit};
 }
 
-std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
-                                         const Measurements& measurements) {
-  std::vector<FitParameter> rows;
-  for (const double value : values) {
-    rows.push_back({NameOf(Role::jump, static_cast<int>(rows.size())), Role::jump, value,
-                    measurements.torque_unit});
-  }
-  return rows;
+FitParameter JumpParameter(int which, double energy, const Measurements& measurements) {
+  return {NameOf(Role::jump, which), Role::jump, energy, measurements.torque_unit};
 }
 
 std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,

@@ -29,12 +29,11 @@ std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& v
 /// thermal_gain and thermal_time_constant, the latter by its logarithm.
 std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
 
-/// initial_energy: E(0), N.m or N.
-FitParameter StartParameter(double energy, const Measurements& measurements);
+/// initial_energy, initial_energy_2, ...: E with which the recording begins, from 0 on. energy: N.m or N
+FitParameter StartParameter(int recording, double energy, const Measurements& measurements);
 
-/// energy_jump_1, ...: jumps of E at gaps. values: [J] N.m or N
-std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
-                                         const Measurements& measurements);
+/// A change of E where no loss tells it: energy_jump_1, ... at the which-th gap, from 0 on. energy: N.m or N
+FitParameter JumpParameter(int which, double energy, const Measurements& measurements);
 
 /// gravity_sine and gravity_cosine, or gravity_offset; of `paired`, whose knots are many, rows
 /// without an interval that reports leave out.

@@ -176,7 +176,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   known.heating = HeatingForcesOf(model, m, bins);
 
   // the start where it is taken to be known, load and temperature where they are logged
-  if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);
+  if (model.by_initial_energy.cols() > 0) known.initial = bins.Means(model.by_initial_energy);
   if (m.load) known.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
   if (m.temperature) known.temperatures = bins.Means(*m.temperature);
 

@@ -84,43 +84,66 @@ JointCourse CourseFor(const Fit& fit, const Measurements& m) {
   return course;
 }
 
+/// Where E of a fit jumps along its log: at gaps, for the losses that nobody logged, and at further starts, for the heat
+/// from before. A start that was not fitted is an assumption.
+struct Jumps {
+  std::vector<LogGap> at;        // [J]
+  Eigen::VectorXd values;        // [J] N.m or N, 0 where none was fitted
+  std::vector<bool> is_assumed;  // [J]
+};
+
+Jumps JumpsOf(const Fit& fit, const Measurements& m) {
+  Jumps jumps{Merged(FindGaps(m), FurtherStarts(m)), {}, {}};
+  jumps.values = Eigen::VectorXd::Zero(std::ssize(jumps.at));
+  const std::vector<EnergyJump> fitted = fit.Start().jumps;
+  for (const LogGap& at : jumps.at) {
+    const auto found = std::ranges::find(fitted, at.behind, &EnergyJump::sample);
+    const auto i = std::ssize(jumps.is_assumed);
+    if (found != fitted.end()) jumps.values[i] = found->change;
+    jumps.is_assumed.push_back(IsStart(at) && found == fitted.end());
+  }
+  return jumps;
+}
+
 /// Beside a warming that was estimated, the law's parameters act through the losses too. Returns the
-/// derivatives by the jumps at the log's gaps, [N x J].
+/// derivatives by the jumps that are no assumption, [N x J].
 Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Measurements& m,
                            FittedModel& model) {
   const std::vector<double> values = LawValues(fit.friction);
   const Thermal& thermal = *fit.friction.thermal;
   model.thermal = thermal;
 
-  // a jump of E at each gap stands for the losses that nobody logged
-  const std::vector<LogGap> gaps = FindGaps(m);
-  const auto jumps = static_cast<Eigen::Index>(gaps.size());
   // where the log tells mean speeds, these make the losses
   Eigen::MatrixXd of_loss;
   if (m.loss_velocity) {
     of_loss = NominalDerivatives(*FindLaw(fit.friction.law), values, *m.loss_velocity);
   }
+  const Jumps jumps = JumpsOf(fit, m);
   ClosedLoop& loop = model.loop.emplace(ClosedLoop::Along(m, model.derivatives, of_loss));
-  if (!gaps.empty()) loop = loop.WithJumps(Behind(gaps));
+  if (!jumps.at.empty()) loop = loop.WithJumps(Behind(jumps.at));
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
-  // the jumps that were fitted, else none
-  const std::vector<double> fitted = fit.Values(Role::jump);
-  Eigen::VectorXd jump_values = Eigen::VectorXd::Zero(jumps);
-  std::copy(fitted.begin(), fitted.end(), jump_values.begin());
+  const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jumps.values);
 
-  // law, heat and, where it was estimated, the start; else that is an assumption
-  const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jump_values);
+  // law, heat and, where it was estimated, the first start; else that is an assumption, too
   const bool starts = !fit.Values(Role::start).empty();
   model.derivatives = all.leftCols(starts ? d + 3 : d + 2);
-  if (!starts) model.by_initial_energy = all.col(d + 2);
+  std::vector<LogGap> known;
+  std::vector<Eigen::Index> by_known, by_assumed;  // columns
+  if (!starts) by_assumed.push_back(d + 2);
+  for (size_t i = 0; i < jumps.at.size(); ++i) {
+    const bool is_assumed = jumps.is_assumed[i];
+    (is_assumed ? by_assumed : by_known).push_back(d + 3 + static_cast<Eigen::Index>(i));
+    if (!is_assumed) known.push_back(jumps.at[i]);
+  }
+  model.by_initial_energy = all(Eigen::all, by_assumed);
 
   // how far the jumps may be, and what losses held over each step leave out
-  model.jump_spread = JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
+  model.jump_spread = JumpSpread(known, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   if (StepMatters(fit, inference, m.velocity, model.step)) {
     model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());
   }
-  return all.rightCols(jumps);
+  return all(Eigen::all, by_known);
 }
 
 }  // namespace

@@ -18,14 +18,15 @@ struct FittedModel {
   Eigen::VectorXd torque;        // [N] tau less gravity, inertia and what a lag adds, N.m or N
   Eigen::VectorXd residual;      // [N] that less F, N.m or N
   Eigen::MatrixXd derivatives;   // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that
-                                 // E makes at the gaps of the log (gaps.h)
+                                 // E makes at gaps, and at further starts if fitted (gaps.h)
   Eigen::MatrixXd cold;          // [N x d] dFn/dp, by the law's parameters without their heat
   Eigen::Index of_friction = 0;  // the first so many of x are law, heat and start
   std::vector<size_t> rows;      // [p] of x, in the fit's table: the law's parameters, then those
                                  // estimated of heat, start, gravity, inertia
-  std::optional<Eigen::VectorXd> by_initial_energy;  // [N] dF/dE(0), where it is taken to be known
-  Eigen::VectorXd energy;                            // [N] E, N.m or N
-  Eigen::VectorXd jump_spread;                       // [J] how far E may jump at the gaps, N.m or N
+  Eigen::MatrixXd
+      by_initial_energy;        // [N x s] dF/dE(0) of the recordings where it is taken to be known
+  Eigen::VectorXd energy;       // [N] E, N.m or N
+  Eigen::VectorXd jump_spread;  // [J] how far E may jump at the gaps, N.m or N
   std::optional<Eigen::VectorXd> held_loss;  // [N] what (22) leaves out (held_loss.h), N.m or N,
                                              // where that matters
   std::optional<Eigen::VectorXd> maps;       // [N] what they give, N.m or N, where there are any

@@ -100,10 +100,11 @@ void AddHeldLosses(const FittedModel& model, const Bins& bins, Index p,
 void AddAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
                     const Circumstances& known, Index p, const Eigen::MatrixXd& derivatives,
                     const ForceMoves& moves, Examination& examination) {
-  // a start that was not cold
+  // starts that were not cold, all alike
   if (known.initial.cols() > 0) {
     const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
-    examination.Add(Source::cold_start, Action::note, moves.By(energy * known.initial).topRows(p));
+    const Eigen::VectorXd force = energy * known.initial.rowwise().sum();
+    examination.Add(Source::cold_start, Action::note, moves.By(force).topRows(p));
   }
 
   // friction that drifts for another reason than its losses

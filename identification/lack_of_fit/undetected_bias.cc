@@ -119,12 +119,16 @@ void AddUndetectedBias(const FittedModel& model, const Measurements& m, const Bi
   const OpenFactors open(fit, known.residual, forces);
   const MatrixXd moves = fit.By(forces).topRows(p);
 
-  // a start that was not cold
+  // starts that were not cold
   if (starts > 0) {
     const Possible warm{std::min(model.energy.minCoeff(), 0.0),
                         std::max(model.energy.maxCoeff(), 0.0)};
-    const double energy = open.Interval(0, warm).FarEnd();
-    examination.Add(Source::open_start, Action::note, energy * moves.col(0), energy);
+    VectorXd energies(starts);
+    for (Index i = 0; i < starts; ++i) energies[i] = open.Interval(i, warm).FarEnd();
+    Index farthest;
+    energies.cwiseAbs().maxCoeff(&farthest);
+    examination.Add(Source::open_start, Action::note, moves.leftCols(starts) * energies,
+                    energies[farthest]);
   }
 
   // a law that bends over the speed, or follows it late

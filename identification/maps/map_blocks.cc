@@ -72,7 +72,8 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
     : input_(input),
       task_(task),
       initial_(initial),
-      gaps_(FindGaps(input.measurements)),
+      starts_(initial.is_open() ? FurtherStarts(input.measurements) : std::vector<LogGap>()),
+      gaps_(Merged(FindGaps(input.measurements), starts_)),
       kept_(WithoutRest(input.selection, input.measurements).keep.cast<double>()) {}
 
 bool WarmingBlock::FitGiven(const MapBlock& maps) {
@@ -91,12 +92,14 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
 
   // what the maps left is about the noise
   const double scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count()));
-  ThermalRows rows{.loop = loop,
+  const ClosedLoop with_starts = loop.WithJumps(Behind(starts_));
+  ThermalRows rows{.loop = with_starts,
                    .level = level,
                    .offsets = offsets,
                    .weight = kept_,
                    .initial = initial_,
-                   .scale = scale};
+                   .scale = scale,
+                   .jump_spread = JumpSpread(starts_, 0, 1)};
   // jumps first beside a fit without them, which tells how warm the joint was, then with all else
   const bool is_first = !fit_;
   const ClosedLoop with_jumps = loop.WithJumps(Behind(gaps_));
@@ -105,7 +108,7 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
         JumpSpread(gaps_, energy_.cwiseAbs().maxCoeff(), fit_->thermal().time_constant);
   }
   fit_ = FitThermalFriction(is_first ? rows : rows.Along(with_jumps), from);
-  if (is_first && !gaps_.empty()) FitJumps(rows, gaps_, from, *fit_);
+  if (is_first && gaps_.size() > starts_.size()) FitJumps(rows, gaps_, from, *fit_);
   // the energy by this warming, beside which the maps are fitted next
   energy_ = with_jumps.Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
                 .energy;

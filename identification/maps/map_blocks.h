@@ -58,12 +58,13 @@ class WarmingBlock {
 
   const ThermalFit& fit() const { return *fit_; }
   const Eigen::VectorXd& energy() const { return energy_; }  // [N] E, N.m or N
-  const std::vector<LogGap>& gaps() const { return gaps_; }  // where E jumps
+  const std::vector<LogGap>& gaps() const { return gaps_; }  // where E jumps: gaps, further starts
 
  private:
   const IdentifierInput& input_;
   const MapTask& task_;
   const InitialEnergy initial_;
+  const std::vector<LogGap> starts_;  // of further recordings, where E(0) is open
   const std::vector<LogGap> gaps_;
   const Eigen::VectorXd kept_;  // [N] 1 where a sample counts
   std::optional<ThermalFit> fit_;

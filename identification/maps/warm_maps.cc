@@ -218,7 +218,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements&
   fit.initial_energy = warming.initial_energy();
   fit.jump_samples = Behind(warm.gaps);
   // rows of the heat, with errors that law, maps and warming share
-  const std::vector<FitParameter> rows = HeatTable(warming, measurements);
+  const std::vector<FitParameter> rows = HeatTable(warming, warm.gaps, measurements);
   Append(rows, fit);
   fit.errors.known = WithoutWeights(known, warm.fit);
   fit.count += static_cast<int>(rows.size());

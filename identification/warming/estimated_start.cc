@@ -10,12 +10,12 @@ CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) 
   if (const EstimatedParameter* found = Find(Role::start, estimate)) {
     start.energy = found->value;
   }
-  if (!Find(Role::jump, estimate)) return start;
-  // each gap has its jump, 0 where none was estimated
-  const std::vector<LogGap> gaps = FindGaps(measurements);
-  for (size_t i = 0; i < gaps.size(); ++i) {
-    const EstimatedParameter* jump = Find(Role::jump, estimate, static_cast<int>(i));
-    start.jumps.push_back({gaps[i].behind, jump ? jump->value : 0});
+  // each gap and each further recording has its own, 0 where none was estimated
+  int gap = 0, recording = 1;
+  for (const LogGap& at : Merged(FindGaps(measurements), FurtherStarts(measurements))) {
+    const EstimatedParameter* found =
+        IsStart(at) ? Find(Role::start, estimate, recording++) : Find(Role::jump, estimate, gap++);
+    if (found) start.jumps.push_back({at.behind, found->value});
   }
   return start;
 }

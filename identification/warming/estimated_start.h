@@ -7,8 +7,8 @@
 
 namespace warmjoint {
 
-/// E(0) and the jumps of E at the recording's gaps (gaps.h), as far as the estimate has them: its
-/// parameters with Role::start and Role::jump. What is not estimated is 0.
+/// E(0) of each recording and the jumps of E at gaps (gaps.h), as far as the estimate has them. What is
+/// not estimated is 0.
 /// measurements: those that the estimate was fitted to.
 CourseStart StartOf(const Estimate& estimate, const Measurements& measurements);
 

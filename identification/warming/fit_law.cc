@@ -55,11 +55,15 @@ struct LawFit {
 /// Adds the heat by plain squares, with what is known of E(0) and a jump of E at each gap. Returns the clause that the
 /// log contradicts the start that was expected; or an empty text.
 std::string AddHeat(LawFit& law) {
-  // first without gaps, with E(0) as the options have it
+  // first without gaps, with E(0) as the options have it: where it is open, so is that of each further recording
   LawProblem& problem = law.problem;
+  const InitialEnergy initial = InitialEnergyOf(law.input().options);
+  std::vector<LogGap> starts;
+  if (initial.is_open()) starts = FurtherStarts(law.measurements());
+  problem.TakeJumps(starts, JumpSpread(starts, 0, 1));
   law.scanned = problem.Scan(law.measurements().torque, law.fit);
   law.rows.scale = std::sqrt(law.nominal_squares / static_cast<double>(law.rows.torque.size()));
-  law.fit = problem.FitWarm(law.rows, InitialEnergyOf(law.input().options), law.scanned);
+  law.fit = problem.FitWarm(law.rows, initial, law.scanned);
 
   // what was known of E(0), weighed by the noise that this fit leaves
   const ThermalRows rows = problem.WarmRows(law.fit.initial, law.rows.scale);
@@ -73,8 +77,9 @@ std::string AddHeat(LawFit& law) {
   // nobody knows the losses within gaps: E may jump there
   const std::vector<LogGap> gaps = FindGaps(law.measurements());
   if (!gaps.empty()) {
-    const Eigen::VectorXd spread = FitJumps(rows, gaps, law.scanned, law.fit);
-    problem.TakeJumps(gaps, spread);
+    const std::vector<LogGap> all = Merged(gaps, starts);
+    const Eigen::VectorXd spread = FitJumps(rows, all, law.scanned, law.fit);
+    problem.TakeJumps(all, spread);
   }
   law.rows.scale = std::sqrt(law.fit.squares / static_cast<double>(law.rows.torque.size()));
   return contradiction;
@@ -308,7 +313,7 @@ std::string Summary(const LawFit& law) {
 void FillTable(const LawFit& law, Fit& fit) {
   const Measurements& m = law.measurements();
   fit.parameters = LawParameters(law.problem.task().law, law.fit.law(), m);
-  if (law.fit.has_heat()) Append(HeatTable(law.fit, m), fit);
+  if (law.fit.has_heat()) Append(HeatTable(law.fit, law.problem.gaps(), m), fit);
   AddRigid(law.problem.task().gravity, law.fit.rigid(), m, fit);
 }
 
@@ -396,22 +401,32 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
   return fit;
 }
 
-std::vector<FitParameter> HeatTable(const ThermalFit& warm, const Measurements& measurements) {
+std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
+                                    const Measurements& measurements) {
   std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
   if (warm.estimates_initial_energy()) {
-    rows.push_back(StartParameter(warm.initial_energy(), measurements));
+    rows.push_back(StartParameter(0, warm.initial_energy(), measurements));
   }
-  std::ranges::copy(JumpParameters(warm.jumps(), measurements), std::back_inserter(rows));
+  // the jumps in the order of x, each by what it stands at
+  const Eigen::VectorXd jumps = warm.jumps();
+  int gap = 0, recording = 1;
+  for (Eigen::Index i = 0; i < jumps.size(); ++i) {
+    rows.push_back(IsStart(gaps[static_cast<size_t>(i)])
+                       ? StartParameter(recording++, jumps[i], measurements)
+                       : JumpParameter(gap++, jumps[i], measurements));
+  }
   return rows;
 }
 
 void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                   const Measurements& measurements, Fit& fit) {
-  if (!gaps.empty()) fit.causes.push_back(Remark(LossesInGaps(gaps, measurements)));
-  if (warm.estimates_initial_energy() && !measurements.starts.empty()) {
-    fit.causes.push_back(
-        Remark("E(0) is estimated of the first recording, and the others are taken to begin cold; "
-               "identify each by itself if they did not"));
+  std::vector<LogGap> within = gaps;
+  std::erase_if(within, IsStart);
+  if (!within.empty()) fit.causes.push_back(Remark(LossesInGaps(within, measurements)));
+  if (warm.initial.is_expected() && !measurements.starts.empty()) {
+    fit.causes.push_back(Remark(
+        "what is expected of E(0) is taken for the first recording, and the others are taken "
+        "to begin cold; use --start estimated if they did not"));
   }
 }
 

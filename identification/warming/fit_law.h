@@ -15,18 +15,20 @@ enum class HeatFit { none, estimated };
 
 /// (p, k, tau, ...) = argmin sum over the kept samples of (tau - F - G - M a)^2, maximum likelihood for white noise on
 /// the torque: without heat by linear least squares, Eqs. (7)-(9); with heat over the closed loop (19)-(22), from a
-/// scan over tau. The options say what more there is: gravity, inertia beside motion of any kind, E(0), jumps of E at
-/// gaps, Huber's loss, and a lag of the torque. Where the noise is coloured beyond doubt, law and heat are fitted once
+/// scan over tau. The options say what more there is: gravity, inertia beside motion of any kind, E(0) of each recording,
+/// jumps of E at gaps, Huber's loss, and a lag of the torque. Where the noise is coloured beyond doubt, law and heat are fitted once
 /// more to whitened rows, unless that changes more than noise may (hausman_test.h).
 /// not_identifiable where the motion cannot tell the columns apart, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier
 Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat);
 
-/// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps.
-std::vector<FitParameter> HeatTable(const ThermalFit& warm, const Measurements& measurements);
+/// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
+/// further starts among them
+std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
+                                    const Measurements& measurements);
 
 /// Notes with a fit what its heat leaves open: losses within gaps of the log, and how warm the joint was as further
-/// recordings began.
+/// recordings began where that of the first alone was expected.
 void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                   const Measurements& measurements, Fit& fit);
 

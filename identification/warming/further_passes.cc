@@ -17,12 +17,13 @@ ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFi
   return next;
 }
 
-/// FitJumps with the E(0) that the fit has or knows. rows: with the jumps
-Eigen::VectorXd AddJumps(ThermalRows rows, const std::vector<LogGap>& gaps, ThermalFit& fit) {
+/// FitJumps with the E(0) that the fit has or knows. before: the loop of that fit; rows: with the jumps
+Eigen::VectorXd AddJumps(const ClosedLoop& before, ThermalRows rows,
+                         const std::vector<LogGap>& gaps, ThermalFit& fit) {
   const Thermal thermal = fit.thermal();
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gaps.size()));
   // how large jumps may be, by the energy without them
-  const LoopResponse response = rows.loop.Simulate(fit.law(), thermal, fit.initial_energy(), none);
+  const LoopResponse response =
+      before.Simulate(fit.law(), thermal, fit.initial_energy(), fit.jumps());
   rows.jump_spread = JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   fit = Again(rows, fit.initial, fit);
   return rows.jump_spread;
@@ -34,7 +35,7 @@ Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gap
                          const InitialGuess& scanned, ThermalFit& fit) {
   const ClosedLoop loop = rows.loop.WithJumps(Behind(gaps));
   const ThermalRows with = rows.Along(loop);
-  Eigen::VectorXd spread = AddJumps(with, gaps, fit);
+  Eigen::VectorXd spread = AddJumps(rows.loop, with, gaps, fit);
   if (!fit.estimates_initial_energy()) return spread;
 
   // the other order: a cold start, jumps, then E(0)
@@ -44,7 +45,7 @@ Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gap
   ThermalFit other = FitThermalFriction(cold, scanned);
   if (!other.converged) return spread;
   ThermalRows freed_rows = with;
-  freed_rows.jump_spread = AddJumps(with, gaps, other);
+  freed_rows.jump_spread = AddJumps(rows.loop, with, gaps, other);
   ThermalFit freed = Again(freed_rows, fit.initial, other);
   // taken where it converges and leaves smaller squares
   const bool leaves_less = !(fit.converged && fit.squares <= freed.squares);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "models/friction/thermal.h"
 #include "models/recording/sampling.h"
@@ -37,11 +39,26 @@ std::vector<LogGap> FindGaps(const Measurements& measurements) {
   return gaps;
 }
 
+std::vector<LogGap> FurtherStarts(const Measurements& measurements) {
+  std::vector<LogGap> starts;
+  for (const Eigen::Index start : measurements.starts) {
+    starts.push_back({start, std::numeric_limits<double>::infinity()});
+  }
+  return starts;
+}
+
+std::vector<LogGap> Merged(const std::vector<LogGap>& one, const std::vector<LogGap>& other) {
+  std::vector<LogGap> both;
+  std::ranges::merge(one, other, std::back_inserter(both), {}, &LogGap::behind, &LogGap::behind);
+  return both;
+}
+
 Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, double time_constant) {
   Eigen::VectorXd spread(static_cast<Eigen::Index>(gaps.size()));
   for (size_t i = 0; i < gaps.size(); ++i) {
     spread[static_cast<Eigen::Index>(i)] =
-        warmest * HoldOver(gaps[i].length, time_constant).cooling;
+        IsStart(gaps[i]) ? std::numeric_limits<double>::infinity()
+                         : warmest * HoldOver(gaps[i].length, time_constant).cooling;
   }
   return spread;
 }

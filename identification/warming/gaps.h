@@ -1,27 +1,36 @@
-// Gaps of a log while the joint moves: what it loses in them is not known.
+// Where a log does not say what becomes of the heat: gaps while the joint moves, and recordings that may begin warm.
 #pragma once
 
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
 namespace warmjoint {
 
 /// Gaps (models/recording/sampling.h) in order of time; of more than 50 the longest. A joint that
-/// is at rest at one place on both sides of a gap rested in it, and one that is cold after it
-/// (Measurements::starts) keeps nothing of it: neither counts.
+/// is at rest at one place on both sides of a gap rested in it, and a further recording is none.
 std::vector<LogGap> FindGaps(const Measurements& measurements);
 
+/// Starts of all recordings but the first, as gaps of infinite length: after them E is what it then is, and no longer
+/// depends on what was before.
+std::vector<LogGap> FurtherStarts(const Measurements& measurements);
+inline bool IsStart(const LogGap& gap) { return std::isinf(gap.length); }
+
+/// Both in order of time.
+std::vector<LogGap> Merged(const std::vector<LogGap>& one, const std::vector<LogGap>& other);
+
 /// How far the energy behind each gap may lie from what a filter takes it for, which holds the last
-/// loss: by |E| of the warmest moment, (1 - exp(-gap/tau)) of it. [J] N.m or N; warmest: N.m or N.
+/// loss: by |E| of the warmest moment, (1 - exp(-gap/tau)) of it; at a start without bound. [J] N.m or N; warmest: N.m or
+/// N.
 Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, double time_constant);
 
 /// LogGap::behind of each. [J]
 std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps);
 
-/// "a gap of 100 s at 300 s", "5 gaps of up to 60 s, the first at 300 s".
+/// "a gap of 100 s at 300 s", "5 gaps of up to 60 s, the first at 300 s". gaps: without starts
 std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
 
 /// The warning that jumps of E are estimated at them.

@@ -68,7 +68,7 @@ class LawProblem {
             .jump_spread = jump_spread_};
   }
 
-  /// At what samples E jumps, and how far it may. spread: [J] N.m or N
+  /// At what gaps and further starts E jumps, and how far it may. spread: [J] N.m or N
   void TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& spread);
   const std::vector<LogGap>& gaps() const { return gaps_; }
 

@@ -24,6 +24,8 @@ struct InitialEnergy {
   /// N.m or N; a spread so small that it says: exactly.
   static constexpr double kExact = 1e-12;
 
+  /// Whether the log alone tells it.
+  bool is_open() const { return std::isinf(spread); }
   /// Whether there is something to fit it to beside the log.
   bool is_expected() const { return spread > 0 && std::isfinite(spread); }
 };
@@ -64,7 +66,7 @@ struct ThermalRows {
   const Eigen::VectorXd& weight;   // [N] of the squares: 1, 0 or between
   InitialEnergy initial{};
   double scale = 1;               // about the residuals' standard deviation, N.m or N
-  Eigen::VectorXd jump_spread{};  // [J] standard deviation of each jump, N.m or N
+  Eigen::VectorXd jump_spread{};  // [J] standard deviation of each jump, N.m or N, or infinite
   /// Of the rows that count, whose weights are 1 then, as torque; or none.
   const RowTransform* transform = nullptr;
 
@@ -122,7 +124,7 @@ InitialGuess StartFrom(const ThermalFit& fit);
 
 /// Minimises the squared residuals of the samples that count by Ceres' Levenberg-Marquardt with exact
 /// derivatives. start: parameters of the law and of the offsets [d + q]. Each jump counts as a sample
-/// that measured 0, and an expected E(0) as one that measured its mean.
+/// that measured 0 with its spread, and an expected E(0) as one that measured its mean.
 ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start);
 
 /// One log of several that are fitted together.

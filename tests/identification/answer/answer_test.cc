@@ -3,9 +3,12 @@
 #include <warmjoint/prepared_log.h>
 
 #include "identification/answer/check_estimate.h"
+#include "identification/answer/identify.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/warming/estimated_start.h"
+#include "models/recording/course_of.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -106,6 +109,60 @@ TEST(SeveralRecordings, EnergyMlHoldsTheTruthInItsIntervals) {
     // three standard deviations of four parameters: beyond by chance once in a hundred recordings
     EXPECT_NEAR(found.value, truth, 3 * *found.std) << name;
   }
+}
+
+/// The same mornings, of which each begins at an energy of its own, N.m.
+PreparedLog Beginning(const std::vector<double>& energies, double noise) {
+  std::vector<Measurements> recordings;
+  for (const double energy : energies) {
+    const std::uint64_t day = recordings.size() + 1;
+    const Eigen::VectorXd velocity = test::AlternatingSpeeds(1800, day);
+    Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, noise, day);
+    CourseStart start;
+    start.energy = energy;
+    m.torque += PredictFriction(test::TableOne(), m, start).force -
+                PredictFriction(test::TableOne(), m).force;
+    recordings.push_back(std::move(m));
+  }
+  return Prepare(recordings);
+}
+
+const std::vector<std::string> kStarts{"initial_energy", "initial_energy_2", "initial_energy_3"};
+
+TEST(SeveralRecordings, EachHasAStartOfItsOwn) {
+  const std::vector<double> energies{-1, -4, -2.5};
+  const PreparedLog log = Beginning(energies, 0);
+  const Estimate estimate = test::Fitted("energy-ml", log, {{"initial_energy", "estimated"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 1e-3);
+  for (size_t i = 0; i < energies.size(); ++i) {
+    EXPECT_NEAR(estimate.Find(kStarts[i])->value, energies[i], 1e-6) << kStarts[i];
+  }
+  // whoever predicts the log begins each recording there, too
+  const Measurements& m = log.constant_speed().measurements;
+  const Prediction again = PredictFriction(*estimate.friction, m, StartOf(estimate, m));
+  EXPECT_LT((again.force - m.torque).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SeveralRecordings, StartsLieInTheirIntervals) {
+  const std::vector<double> energies{0, -4, -2.5};
+  const Estimate estimate =
+      test::Fitted("energy-ml", Beginning(energies, 0.5), {{"initial_energy", "estimated"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (size_t i = 0; i < energies.size(); ++i) {
+    const EstimatedParameter& found = *estimate.Find(kStarts[i]);
+    EXPECT_NEAR(found.value, energies[i], 3 * *found.std) << kStarts[i];
+  }
+}
+
+TEST(SeveralRecordings, OneThatBeganWarmIsSeen) {
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const auto rejected = [&](const std::vector<double>& energies) {
+    const IdentifierInput input{Beginning(energies, 0.2), identifier.options, {}};
+    return test::Asked(IdentifyAndCheck(identifier, input), "initial_energy").rejected;
+  };
+  EXPECT_FALSE(rejected({0, 0, 0}));
+  EXPECT_TRUE(rejected({0, 0, -4}));
 }
 
 TEST(SeveralRecordings, EnergyAlsStartsColdWithEach) {
