@@ -79,7 +79,7 @@ TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
   const auto identify = [](const IdentifierInput& input) {
     Fit fit = KnowTableOne(input);
     fit.jump_samples = {100};
-    fit.parameters = JumpParameters(Eigen::VectorXd::Constant(1, -2), input.measurements);
+    fit.parameters = {JumpParameter(0, -2, input.measurements)};
     fit.parameters[0].estimated = false;
     return fit;
   };
