@@ -75,10 +75,10 @@ std::string ShapeOf(const std::vector<FrictionMap>& maps) {
 
 /// The table's rows of the law, without intervals and with a warning where kernels can imitate it.
 void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements, Fit& fit) {
-  fit.parameters = LawParameters(law, maps.x.head(maps.free), measurements);
+  fit.parameters = LawParameters(law, maps.law(), measurements);
   std::vector<std::string> imitated;
   // what kernels can imitate has no figure of its own
-  for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free)) {
+  for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free())) {
     if (i >= static_cast<Eigen::Index>(law.parameters.size())) continue;
     FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
     parameter.has_interval = false;
@@ -112,6 +112,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
   // bounds of the law's parameters; gravity and inertia have none
   for (const ParameterInfo& info : law.parameters) problem.lower.push_back(info.lower);
   problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
+  problem.of_law = task.law_count();
   return problem;
 }
 
@@ -240,7 +241,7 @@ MapTask WithGravity(const MapTask& task, const MapWeights& fit, const Eigen::Vec
 bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
   const Measurements& m = input.measurements;
   const bool asks = m.joint == JointKind::rotary && task.rigid.gravity_count() == 0 &&
-                    m.position.allFinite() && input.selection.count() > 2 * maps.free + 6;
+                    m.position.allFinite() && input.selection.count() > 2 * maps.free() + 6;
   if (!asks) return false;
 
   // what the maps hold of it, beside law and constant
@@ -248,7 +249,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   const Eigen::MatrixXd gravity = Kept(with.rigid.columns.leftCols(3), input.selection);
   const Law& law = *task.law;
   const Eigen::MatrixXd columns = Kept(LawColumns(law, m.velocity), input.selection);
-  const Eigen::VectorXd of_law = columns * maps.x.head(columns.cols());
+  const Eigen::VectorXd of_law = columns * maps.law();
   const Eigen::VectorXd of_maps =
       EvaluateMaps(maps.maps, Kept(PointsOf(m, task.energy), input.selection));
   const LeastSquares held = SolveLeastSquares(ConcatColumns(gravity, columns), of_maps);
@@ -260,7 +261,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   const std::optional<MapChoice> choice = ChooseAndFit(input, with);
   if (!choice) return false;
   const Uncertainty known = MapCovariance(choice->problem, choice->fit);
-  const Eigen::Index first = task.law_count();
+  const Eigen::Index first = choice->fit.layout.rigid.begin;
   return std::abs(choice->fit.x[first]) > kBeyondDoubt * known.Deviation(first) ||
          std::abs(choice->fit.x[first + 1]) > kBeyondDoubt * known.Deviation(first + 1);
 }
@@ -273,10 +274,10 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
   // the law, and the maps beside it
   Fit fit;
   fit.identifier = task.identifier;
-  fit.friction = FrictionOf(law, maps.x.head(maps.free), m);
+  fit.friction = FrictionOf(law, maps.law(), m);
   fit.friction.maps = maps.maps;
   AddLaw(law, maps, m, fit);
-  AddRigid(task.rigid, maps.x.segment(task.law_count(), task.rigid.count()), m, fit);
+  AddRigid(task.rigid, maps.rigid(), m, fit);
 
   // how well they fit
   fit.used = input.selection;
@@ -308,7 +309,7 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
 
 /// Of the law and what stands beside it, without the weights.
 Uncertainty OfTable(Uncertainty known, const MapFit& maps) {
-  known.covariance = known.covariance.topLeftCorner(maps.free, maps.free).eval();
+  known.covariance = known.covariance.topLeftCorner(maps.free(), maps.free()).eval();
   return known;
 }
 
@@ -325,7 +326,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
   const FrictionMap& first = maps.maps.front();
   if (first.axes.front().quantity != MapQuantity::motor_position) return fit;
   const auto count = static_cast<Eigen::Index>(first.size());
-  DescribeMotorRipple(first, known.covariance.block(maps.free, maps.free, count, count),
+  DescribeMotorRipple(first, known.covariance.block(maps.free(), maps.free(), count, count),
                       input.measurements, fit);
   return fit;
 }

@@ -97,7 +97,7 @@ struct MeanRows {
 /// Rows whose products with a fit's x are law and maps at places of its which-th map.
 Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, const MapPoints& places,
                        const MeanRows& means) {
-  const Index size = places.rows(), q = fit.x.size() - fit.free;
+  const Index size = places.rows(), q = fit.layout.weights.size;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
   // a map that knows directions stands with the law and the mean of the others in its direction
   if (!IsAlikeBothWays(fit.maps[which])) {
@@ -110,7 +110,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
     }
   }
   // its own kernels stand at their own places instead of their mean
-  Index first = fit.free;
+  Index first = fit.free();
   for (size_t i = 0; i < which; ++i) first += static_cast<Index>(fit.maps[i].size());
   const auto own = static_cast<Index>(fit.maps[which].size());
   rows.middleCols(first, own) = DenseKernels({fit.maps[which]}, places, 0, size);
@@ -121,7 +121,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
 double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
   double share = 0;
   for (size_t k = 0; k < fit.unseen.size(); ++k) {
-    if (fit.unseen[k]) share += row[fit.free + static_cast<Index>(k)];
+    if (fit.unseen[k]) share += row[fit.free() + static_cast<Index>(k)];
   }
   return share;
 }
@@ -194,8 +194,7 @@ void MakeBands(const Law& law, const MapFit& maps, const Uncertainty& known, con
       const Eigen::VectorXd by_noise = MissedByNoise(*finer, rows, more);
       variance += AlongFirstAxis(map, missed.cwiseAbs2() - by_noise);
     }
-    const std::vector<double> doubt =
-        DoubtOfHoles(map, first, maps.unseen, maps.x.tail(maps.x.size() - maps.free));
+    const std::vector<double> doubt = DoubtOfHoles(map, first, maps.unseen, maps.weights());
     first += map.size();
     for (Index i = 0; i < places.rows(); ++i) {
       // where the map has no data it may be as far off as it varies elsewhere

@@ -15,7 +15,7 @@ namespace {
 ClosedLoop LoopOf(const Measurements& m, const Law& law, const MapBlock& maps) {
   const Eigen::MatrixXd columns = LawColumns(law, m.velocity), of_loss = LossColumns(law, m);
   const Eigen::VectorXd values = maps.Everywhere();
-  if (!(values.norm() > 1e-9 * (columns * maps.fit().x.head(columns.cols())).norm())) {
+  if (!(values.norm() > 1e-9 * (columns * maps.fit().law()).norm())) {
     return ClosedLoop::Along(m, columns, of_loss);
   }
   return ClosedLoop::Along(m, ConcatColumns(columns, values),
@@ -58,7 +58,7 @@ bool MapBlock::FitGiven(const Eigen::VectorXd& energy) {
 
 Eigen::VectorXd MapBlock::Everywhere() const {
   if (!all_rows_) return EvaluateMaps(fit_->maps, everywhere_);
-  return all_rows_->Times(fit_->x.tail(fit_->x.size() - fit_->free));
+  return all_rows_->Times(fit_->weights());
 }
 
 MapTask MapBlock::Settled() const {
@@ -83,12 +83,12 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
 
   // gravity and inertia make no heat: out of the scan, beside the loop in the fit
   const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task_.rigid.columns;
-  const Eigen::VectorXd weights = maps.fit().x.segment(task_.law_count(), task_.rigid.count());
-  InitialGuess from = ScanTimeConstant(loop, level - offsets * weights, kept_);
+  const Eigen::VectorXd rigid = maps.fit().rigid();
+  InitialGuess from = ScanTimeConstant(loop, level - offsets * rigid, kept_);
   if (fit_) from.thermal = fit_->thermal();
   const Eigen::Index d = from.parameters.size();
-  from.parameters.conservativeResize(d + weights.size());
-  from.parameters.tail(weights.size()) = weights;
+  from.parameters.conservativeResize(d + rigid.size());
+  from.parameters.tail(rigid.size()) = rigid;
 
   // what the maps left is about the noise
   const double scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count()));

@@ -230,11 +230,15 @@ RepeatedFit::RepeatedFit(const MapProblem& problem, NormalEquations normal, doub
 std::optional<MapWeights> RepeatedFit::Fit() {
   std::optional<Eigen::VectorXd> x = system_.Solve(normal_);
   if (!x) return std::nullopt;
-  MapWeights fit{problem_.free.cols(), std::move(*x), strength_, {}, {}, unseen_};
+  const Eigen::Index free = problem_.free.cols();
+  const Layout layout = Layout::InOrder({{&Layout::law, problem_.of_law},
+                                         {&Layout::rigid, free - problem_.of_law},
+                                         {&Layout::weights, x->size() - free}});
+  MapWeights fit{layout, std::move(*x), strength_, {}, {}, unseen_};
   // fitted torque: law by its columns, maps by their weights
-  const Eigen::VectorXd weights = fit.x.tail(fit.x.size() - fit.free);
+  const Eigen::VectorXd weights = fit.weights();
   fit.maps = WithWeights(problem_.maps, weights);
-  fit.fitted = problem_.free * fit.x.head(fit.free);
+  fit.fitted = problem_.free * fit.x.head(free);
   fit.fitted +=
       problem_.rows ? problem_.rows->Times(weights) : EvaluateMaps(fit.maps, problem_.points);
   return fit;
@@ -305,15 +309,9 @@ Uncertainty MapCovariance(const MapProblem& problem, const MapFit& fit) {
   const auto correlation = [&](double length) {
     return CorrelationInLines(fit.maps, fit.unseen, length);
   };
-  return PenalisedCovariance({fit.gram,
-                              fit.inverse,
-                              fit.free,
-                              fit.x.tail(d - fit.free),
-                              fit.strength,
-                              fit.unseen,
-                              {},
-                              correlation},
-                             rows, problem.torque - fit.fitted, problem.selection);
+  return PenalisedCovariance(
+      {fit.gram, fit.inverse, fit.free(), fit.weights(), fit.strength, fit.unseen, {}, correlation},
+      rows, problem.torque - fit.fitted, problem.selection);
 }
 
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/layout.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/ridge/ridge.h"
 #include "identification/uncertainty/uncertainty.h"
@@ -101,6 +102,7 @@ struct MapProblem {
   Eigen::VectorXd torque;         // [n] y, N.m or N
   Selection selection;            // n of its samples are kept
   std::vector<double> lower{};    // [p] bounds of the parameters; or empty: none
+  Eigen::Index of_law = 0;  // the first so many of p are the law's, the others gravity and inertia
   /// Of `maps` at `points`, where they are made already; null: made anew.
   std::shared_ptr<const KernelRows> rows{};
 };
@@ -109,12 +111,17 @@ struct MapProblem {
 NormalEquations NormalOf(const MapProblem& problem);
 
 struct MapWeights {
-  Eigen::Index free = 0;          // p
-  Eigen::VectorXd x;              // [p + q] parameters, weights
+  Layout layout;                  // law, gravity and inertia, p in all, then weights, q
+  Eigen::VectorXd x;              // [p + q]
   double strength = 0;            // s
   Eigen::VectorXd fitted;         // [n] N.m or N
   std::vector<FrictionMap> maps;  // with their weights
   std::vector<bool> unseen;       // [q] kernels without data (holes.h)
+
+  Eigen::Index free() const { return layout.weights.begin; }  // p
+  Eigen::VectorXd law() const { return layout.law.Of(x); }
+  Eigen::VectorXd rigid() const { return layout.rigid.Of(x); }
+  Eigen::VectorXd weights() const { return layout.weights.Of(x); }
 };
 
 /// And how sure they are.

@@ -21,7 +21,7 @@ double Range(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
 /// E that law, maps and warming predict together, [N] N.m or N.
 Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& warm,
                          const Measurements& measurements) {
-  Friction friction = FrictionOf(*task.law, maps.x.head(maps.free), measurements);
+  Friction friction = FrictionOf(*task.law, maps.law(), measurements);
   friction.thermal = warm.friction.thermal;
   friction.maps = maps.maps;
   return PredictFriction(friction, measurements, warm.Start()).energy;

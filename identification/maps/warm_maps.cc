@@ -107,9 +107,9 @@ class Visibility {
   double latest_ = 0, last_ = 0, before_last_ = 0;
 };
 
-/// How sure law, maps and warming are together. Order: law, rigid part, weights, k, log tau, E(0) where it was estimated,
-/// jumps.
+/// How sure law, maps and warming are together. Order: law, rigid part, weights, heat, start, jumps.
 struct JointUncertainty {
+  Layout layout;
   Uncertainty known;
   double end_energy_std = 0;  // of E at the end of the log, N.m or N
 };
@@ -117,30 +117,38 @@ struct JointUncertainty {
 /// Law, maps and warming as one fit of a law that has the kernels as further columns.
 ThermalFit Joined(const WarmMaps& warm) {
   const ThermalFit& warming = warm.warming;
-  const Eigen::Index d = warm.task.law_count(), q = warm.fit.x.size() - warm.fit.free;
-  const ThermalLayout& of = warming.layout;
+  const Layout &of = warming.layout, &maps = warm.fit.layout;
   ThermalFit joined;
-  joined.layout =
-      ThermalLayout::Of(d + q, of.heat.size, of.start.size, of.jumps.size, warm.task.rigid.count());
+  joined.layout = Layout::InOrder({{&Layout::law, maps.law.size + maps.weights.size},
+                                   {&Layout::heat, of.heat.size},
+                                   {&Layout::start, of.start.size},
+                                   {&Layout::jumps, of.jumps.size},
+                                   {&Layout::rigid, maps.rigid.size}});
   const Eigen::Index heat = of.rigid.begin - of.heat.begin;
   joined.x.resize(joined.layout.size());
-  joined.x << warm.fit.x.head(d), warm.fit.x.tail(q), warming.x.segment(of.heat.begin, heat),
-      warm.fit.x.segment(d, warm.task.rigid.count());
+  joined.x << warm.fit.law(), warm.fit.weights(), warming.x.segment(of.heat.begin, heat),
+      warm.fit.rigid();
   joined.prior = Eigen::VectorXd::Zero(joined.layout.size());
   joined.prior.segment(joined.layout.heat.begin, heat) = warming.prior.segment(of.heat.begin, heat);
   return joined;
 }
 
-/// Where the unknowns of a joined fit stand in the order of JointUncertainty: which one comes at each place.
-std::vector<Eigen::Index> InOrder(const ThermalLayout& layout, Eigen::Index law) {
-  std::vector<Eigen::Index> order;
-  const auto take = [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) order.push_back(i);
-  };
-  take(0, law);
-  take(layout.rigid.begin, layout.rigid.end());
-  take(law, layout.rigid.begin);
-  return order;
+/// The order of a joined fit by its parts, and that of JointUncertainty.
+Layout JoinedLayout(const Layout& maps, const Layout& joined) {
+  return Layout::InOrder({{&Layout::law, maps.law.size},
+                          {&Layout::weights, maps.weights.size},
+                          {&Layout::heat, joined.heat.size},
+                          {&Layout::start, joined.start.size},
+                          {&Layout::jumps, joined.jumps.size},
+                          {&Layout::rigid, maps.rigid.size}});
+}
+Layout JointLayout(const Layout& maps, const Layout& joined) {
+  return Layout::InOrder({{&Layout::law, maps.law.size},
+                          {&Layout::rigid, maps.rigid.size},
+                          {&Layout::weights, maps.weights.size},
+                          {&Layout::heat, joined.heat.size},
+                          {&Layout::start, joined.start.size},
+                          {&Layout::jumps, joined.jumps.size}});
 }
 
 /// Of all unknowns. jacobian: [n x p]; prior: [p]; residual: [n]
@@ -148,7 +156,7 @@ Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
                          const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& prior,
                          const Eigen::VectorXd& residual) {
   const Eigen::Index d = jacobian.cols();
-  const Eigen::Index q = warm.fit.x.size() - warm.fit.free;
+  const Slice& weights = warm.fit.layout.weights;
   // normal matrix of law, maps and warming together
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(d, d);
   gram.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
@@ -156,7 +164,7 @@ Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
 
   // columns of norm 1 for the inverse: the gain's are far from the others'
   Eigen::MatrixXd penalised = gram;
-  auto of_weights = penalised.block(warm.fit.free, warm.fit.free, q, q);
+  auto of_weights = penalised.block(weights.begin, weights.begin, weights.size, weights.size);
   of_weights += PenaltyOf(warm.fit.maps, of_weights, warm.fit.unseen, warm.fit.strength);
   // what is known of the heat beforehand
   penalised.diagonal() += prior;
@@ -169,9 +177,9 @@ Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
     return jacobian.middleRows(first, last - first);
   };
   // independent weights: with those that go together gain and time constant are off by half of what is said
-  return PenalisedCovariance(
-      {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, warm.fit.unseen, prior},
-      rows, residual, input.selection);
+  return PenalisedCovariance({gram, inverse, warm.fit.free(), warm.fit.weights(), warm.fit.strength,
+                              warm.fit.unseen, prior},
+                             rows, residual, input.selection);
 }
 
 /// residual: [n] of law, maps and heat, N.m or N
@@ -189,14 +197,17 @@ JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& w
 
   // derivatives of torque and of E at the end by all unknowns
   const ThermalFit joined = Joined(warm);
-  const std::vector<Eigen::Index> order = InOrder(joined.layout, law.cols());
+  JointUncertainty result;
+  result.layout = JointLayout(warm.fit.layout, joined.layout);
+  const std::vector<Eigen::Index> order =
+      JoinedLayout(warm.fit.layout, joined.layout).PlacesOf(result.layout);
   const Eigen::MatrixXd jacobian =
       Kept(WarmJacobian(loop, warm.task.rigid.columns, joined), input.selection)(Eigen::all, order);
   Eigen::VectorXd of_end = Eigen::VectorXd::Zero(joined.layout.size());
   of_end.head(joined.layout.rigid.begin) = WarmEnd(loop, joined).slopes;
   of_end = of_end(order).eval();
 
-  JointUncertainty result{CovarianceOf(input, warm, jacobian, joined.prior(order), residual)};
+  result.known = CovarianceOf(input, warm, jacobian, joined.prior(order), residual);
   result.end_energy_std = std::sqrt(of_end.dot(result.known.covariance * of_end));
   return result;
 }
@@ -205,7 +216,8 @@ JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& w
 Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   std::vector<Eigen::Index> places(static_cast<size_t>(known.covariance.cols()));
   std::iota(places.begin(), places.end(), 0);
-  places.erase(places.begin() + maps.free, places.begin() + maps.x.size());
+  places.erase(places.begin() + maps.layout.weights.begin,
+               places.begin() + maps.layout.weights.end());
   known.covariance = known.covariance(places, places).eval();
   return known;
 }
@@ -293,7 +305,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   if (fit.refusal) return fit;
 
   // the warming; the friction predicts its own energy from here on
-  const double log_deviation = known.Deviation(warm.fit.x.size() + 1);
+  const double log_deviation = known.Deviation(joint.layout.log_time_constant());
   const double time_constant = warm.warming.thermal().time_constant;
   if (auto why = UnidentifiableWarming({warm.visible, log_deviation, time_constant}, kContext)) {
     return Refused(name, Status::not_identifiable, *why);

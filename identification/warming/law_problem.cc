@@ -22,7 +22,7 @@ Eigen::VectorXd AtSamples(const Eigen::VectorXd& kept, const Selection& selectio
 
 /// Columns of the loop's derivatives, which are by (p, k, log tau, E0, jumps), that a fit has: E0 only where it was
 /// estimated. of: [N x (d + 3 + J)] or a row
-Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const ThermalLayout& layout) {
+Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const Layout& layout) {
   Eigen::MatrixXd kept(of.rows(), layout.rigid.begin);
   kept << of.leftCols(layout.jumps.begin), of.rightCols(layout.jumps.size);
   return kept;
@@ -58,7 +58,8 @@ ThermalFit LawProblem::FitCold(const RowTreatment& rows) const {
 
   LeastSquares solved = SolveLeastSquares(A, y);
   ThermalFit fit;
-  fit.layout = ThermalLayout::Of(task_.law_count(), 0, 0, 0, task_.gravity.count());
+  fit.layout =
+      Layout::InOrder({{&Layout::law, task_.law_count()}, {&Layout::rigid, task_.gravity.count()}});
   fit.converged = solved.rank == A.cols();
   fit.mixed = std::move(solved.mixed);
   fit.squares = kInfinity;

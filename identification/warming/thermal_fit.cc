@@ -20,7 +20,7 @@ namespace {
 
 /// The residuals' variance over that of each unknown beside the log, or 0: of jumps, and of an E(0) that is expected. [p]
 Eigen::VectorXd Prior(const ThermalRows& rows) {
-  const ThermalLayout layout = rows.layout();
+  const Layout layout = rows.layout();
   const auto weight = [&](double spread) {
     return std::pow(rows.scale / std::max(spread, 1e-9 * rows.scale), 2);
   };
@@ -44,7 +44,7 @@ class LogProducts {
         weight_(rows.weight.cwiseSqrt()),
         prior_(Prior(rows)) {}
 
-  const ThermalLayout& layout() const { return layout_; }
+  const Layout& layout() const { return layout_; }
 
   /// [J r]^T [J r] at x, r = measured - modelled level, over the log's variance. x: [p]; returns [p + 1 x p + 1]
   Eigen::MatrixXd At(const Eigen::VectorXd& x);
@@ -66,7 +66,7 @@ class LogProducts {
   void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const;
 
   ThermalRows rows_;
-  ThermalLayout layout_;
+  Layout layout_;
   Eigen::VectorXd weight_;    // [N] of each row, the root of its square's
   Eigen::VectorXd prior_;     // [p]
   Eigen::VectorXd measured_;  // [N] level less what the offsets explain
@@ -235,25 +235,12 @@ constexpr int kMostIterations = 50;
 
 }  // namespace
 
-ThermalLayout ThermalLayout::Of(Eigen::Index law, Eigen::Index heat, Eigen::Index start,
-                                Eigen::Index jumps, Eigen::Index rigid) {
-  ThermalLayout layout;
-  Eigen::Index next = 0;
-  const auto take = [&](Eigen::Index size) {
-    return Slice{std::exchange(next, next + size), size};
-  };
-  layout.law = take(law);
-  layout.heat = take(heat);
-  layout.start = take(start);
-  layout.jumps = take(jumps);
-  layout.rigid = take(rigid);
-  return layout;
-}
-
-ThermalLayout ThermalRows::layout() const {
-  // E(0) is unknown where it is not held
-  return ThermalLayout::Of(loop.levels().cols(), 2, initial.spread > 0 ? 1 : 0,
-                           static_cast<Eigen::Index>(loop.jumps().size()), offsets.cols());
+Layout ThermalRows::layout() const {
+  return Layout::InOrder({{&Layout::law, loop.levels().cols()},
+                          {&Layout::heat, 2},
+                          {&Layout::start, initial.spread > 0 ? 1 : 0},
+                          {&Layout::jumps, std::ssize(loop.jumps())},
+                          {&Layout::rigid, offsets.cols()}});
 }
 
 Thermal ThermalFit::thermal() const {
@@ -304,13 +291,13 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
   fit.initial = rows.initial;
   fit.prior = Prior(rows);
   // from the scanned law and heat, without jumps, with the E(0) that is expected
-  const auto& [law, heat, initial, jumps, rigid] = fit.layout;
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(fit.layout.size());
-  x.segment(law.begin, law.size) = start.parameters.head(law.size);
-  x[fit.layout.gain()] = start.thermal.gain;
-  x[fit.layout.log_time_constant()] = std::log(start.thermal.time_constant);
-  if (initial.size > 0) x[initial.begin] = rows.initial.mean;
-  x.tail(rigid.size) = start.parameters.tail(rigid.size);
+  const Layout& at = fit.layout;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(at.size());
+  x.segment(at.law.begin, at.law.size) = start.parameters.head(at.law.size);
+  x[at.gain()] = start.thermal.gain;
+  x[at.log_time_constant()] = std::log(start.thermal.time_constant);
+  if (at.start.size > 0) x[at.start.begin] = rows.initial.mean;
+  x.segment(at.rigid.begin, at.rigid.size) = start.parameters.tail(at.rigid.size);
 
   // all unknowns are those of the one log; squares are the torque's
   std::vector<Eigen::Index> places(static_cast<size_t>(x.size()));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
+#include "identification/layout.h"
 #include "identification/uncertainty/row_transform.h"
 #include "identification/warming/scan_time_constant.h"
 
@@ -33,31 +34,6 @@ struct InitialEnergy {
 inline constexpr InitialEnergy InitialEnergy::zero{0, 0};
 inline constexpr InitialEnergy InitialEnergy::estimated{0, std::numeric_limits<double>::infinity()};
 
-/// Unknowns that stand together in x.
-struct Slice {
-  Eigen::Index begin = 0, size = 0;
-
-  Eigen::Index end() const { return begin + size; }
-  /// Of a vector over x. [size]
-  Eigen::VectorXd Of(const Eigen::VectorXd& x) const { return x.segment(begin, size); }
-};
-
-/// Where the unknowns x of one log stand, in this order.
-struct ThermalLayout {
-  Slice law;    // parameters of the law, d
-  Slice heat;   // gain and log(tau), or none
-  Slice start;  // E(0), or none
-  Slice jumps;  // of E at the loop's jumps, J
-  Slice rigid;  // gravity and inertia, q
-
-  /// Of so many unknowns each.
-  static ThermalLayout Of(Eigen::Index law, Eigen::Index heat, Eigen::Index start,
-                          Eigen::Index jumps, Eigen::Index rigid);
-  Eigen::Index size() const { return rigid.end(); }
-  Eigen::Index gain() const { return heat.begin; }
-  Eigen::Index log_time_constant() const { return heat.begin + 1; }
-};
-
 /// A log, and how its rows count in a fit. Refers to what it is given.
 struct ThermalRows {
   const ClosedLoop& loop;          // over the columns of the law, with the jumps of E
@@ -70,7 +46,8 @@ struct ThermalRows {
   /// Of the rows that count, whose weights are 1 then, as torque; or none.
   const RowTransform* transform = nullptr;
 
-  ThermalLayout layout() const;
+  /// Law, heat, E(0) where it is not held, jumps, gravity and inertia.
+  Layout layout() const;
   /// The same rows along another loop, which must outlive what is returned.
   ThermalRows Along(const ClosedLoop& other) const {
     return {.loop = other,
@@ -86,13 +63,13 @@ struct ThermalRows {
 
 /// One iterate of a fit.
 struct ThermalIterate {
-  Eigen::VectorXd x;   // [p] as ThermalLayout has it
+  Eigen::VectorXd x;   // [p] as Layout has it
   double squares = 0;  // sum of squared residuals over the samples that count
 };
 
 /// What a fit of law, heat, gravity and inertia to one log came to.
 struct ThermalFit {
-  ThermalLayout layout;
+  Layout layout;
   Eigen::VectorXd x;                  // [p]
   double squares = 0;                 // infinite where the columns cannot be told apart
   Eigen::MatrixXd cofactor;           // [p x p] (J^T J + P)^-1 of the rows as fitted
