@@ -52,19 +52,6 @@ TEST(ExpectedStart, AWideOneIsNone) {
   }
 }
 
-TEST(EstimatedStart, OfSeveralRecordingsIsThatOfTheFirst) {
-  // the second begins cold
-  const std::vector<Measurements> logs{WarmLog(1), test::RecordHour(test::TableOne(), 3, 0.3)};
-  const std::map<std::string, std::string> given{{"initial_energy", "estimated"}};
-  const Estimate one = Fitted(logs[0], given);
-  const Estimate both = test::Fitted("energy-ml", Prepare(logs), given);
-  ASSERT_EQ(both.status, Status::ok) << both.message;
-  const EstimatedParameter& start = *both.Find("initial_energy");
-  EXPECT_NEAR(start.value, kBegins, 4 * *start.std);
-  // a reader is told of the second
-  EXPECT_EQ(both.warnings.size(), one.warnings.size() + 1);
-}
-
 TEST(ExpectedStart, AnExactOneStaysWhereItIs) {
   const Estimate estimate = Expecting(WarmLog(2), kBegins, 0);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
