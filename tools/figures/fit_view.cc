@@ -57,8 +57,10 @@ Eigen::VectorXd MotorAngle(const Measurements& measurements) {
   return MotorPosition(measurements).unaryExpr(turn);
 }
 
-/// The file with the folder that it is in: many are called recording.csv.
-std::string NameInFolder(const std::filesystem::path& path) {
+/// The file with the folder that it is in: many are called recording.csv. Of several recordings all, as they were given.
+std::string SourceOf(const Measurements& measurements) {
+  if (!measurements.starts.empty()) return measurements.source;
+  const std::filesystem::path path = measurements.source;
   return path.parent_path().filename() / path.filename();
 }
 
@@ -66,7 +68,7 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
                    const Estimate& estimate) {
   FitView view;
   // the recording, its time counted from the first sample
-  view.source = NameInFolder(measurements.source);
+  view.source = SourceOf(measurements);
   view.joint = measurements.joint;
   view.torque_unit = UnitText(measurements.torque_unit);
   view.estimate = estimate;
