@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "identification/uncertainty/between_ends.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {

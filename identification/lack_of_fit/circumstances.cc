@@ -161,6 +161,9 @@ Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& tim
   return late.leftCols(kMemories).colwise() - bins.Means(speed).col(0);
 }
 
+constexpr double kMovingShare = 0.05;  // of the largest speed: slower samples rest or turn
+constexpr double kAlikeSpeeds = 0.02;
+
 }  // namespace
 
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
@@ -187,6 +190,24 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   const Eigen::VectorXd sign = bins.velocity.array().sign();
   known.late_speeds = sign.asDiagonal() * LateSpeeds(m, known.past, bins, filter);
   return known;
+}
+
+std::optional<double> OneSpeed(const Measurements& m) {
+  const double largest = m.velocity.cwiseAbs().maxCoeff();
+  std::vector<double> speeds;
+  for (const double v : m.velocity) {
+    if (std::abs(v) > kMovingShare * largest) speeds.push_back(std::abs(v));
+  }
+  if (speeds.empty()) return std::nullopt;
+  std::ranges::sort(speeds);
+  const auto at = [&](double share) {
+    return speeds[static_cast<std::size_t>(share * static_cast<double>(speeds.size() - 1))];
+  };
+
+  // all but the slowest and the fastest tenth must be alike
+  const double middle = at(0.5);
+  if (at(0.9) - at(0.1) > kAlikeSpeeds * middle) return std::nullopt;
+  return middle;
 }
 
 }  // namespace warmjoint

@@ -1,7 +1,10 @@
 // What a joint went through while a log was recorded, as far as tests for lack of fit ask about it.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "identification/lack_of_fit/bins.h"
@@ -42,5 +45,9 @@ struct Circumstances {
 
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& measurements,
                               const Bins& bins);
+
+/// The speed |v|, rad/s or m/s, of a log that moves at one alone: those between its tenth and its ninetieth percentile, rests
+/// left out, differ by less than 2 %. What turns with the joint then looks like what is periodic in time for fifty turns.
+std::optional<double> OneSpeed(const Measurements& measurements);
 
 }  // namespace warmjoint

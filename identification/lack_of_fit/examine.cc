@@ -12,7 +12,6 @@
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
-#include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/sensitivity.h"

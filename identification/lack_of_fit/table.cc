@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/features.h"
-#include "identification/lack_of_fit/one_speed.h"
 #include "identification/lack_of_fit/remedies.h"
 
 namespace warmjoint {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "identification/lack_of_fit/sensitivity.h"
@@ -103,6 +104,24 @@ VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
   return (moves * factors.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
 }
 
+constexpr double kDegree = std::numbers::pi / 180;  // rad
+constexpr double kClock = 1.01;  // as fast as it should be; why: the slip that is asked about
+
+/// The most that an end of each interval moves. [p]
+Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inference& inference,
+                              const std::vector<size_t>& rows) {
+  Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const FitParameter& parameter = fit.parameters[rows[i]];
+    const ParameterInterval& known = inference.parameters[rows[i]];
+    const double factor = std::pow(way, parameter.way_power) * std::pow(time, parameter.time_power);
+    // the end of the interval that is farther from 0 moves most
+    const double farthest = std::abs(known.value) + known.HalfWidth();
+    moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, known.value);
+  }
+  return moves;
+}
+
 }  // namespace
 
 void AddUndetectedBias(const FittedModel& model, const Measurements& m, const Bins& bins,
@@ -154,6 +173,16 @@ void AddUndetectedBias(const FittedModel& model, const Measurements& m, const Bi
   until_last.col(kCourses) -= at_end.col(1);
   examination.Add(Source::open_drift, Action::note,
                   Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors)));
+}
+
+void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
+                   Examination& examination) {
+  if (joint == JointKind::rotary) {
+    examination.Add(Source::degrees, Action::note,
+                    FarthestMoves(kDegree, 1, fit, inference, examination.rows));
+  }
+  examination.Add(Source::clock, Action::note,
+                  FarthestMoves(1, kClock, fit, inference, examination.rows));
 }
 
 }  // namespace warmjoint

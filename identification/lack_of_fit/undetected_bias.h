@@ -12,7 +12,7 @@
 namespace warmjoint {
 
 /// Adds the rows open_start, open_drift, open_curve and open_memory. A force f that an assumption leaves out has a factor c, which joins the fit
-/// for one step of least squares. Its interval at the level of the log's tests for lack of fit (error_level.h),
+/// for one step of least squares. Its interval at the level of the log's tests for lack of fit (significance.h),
 /// for noise of any colour, is what no test can rule out. The farther end of that, as far as it is possible at all, moves the parameters by -(J^T W J)^-1 J^T W f c.
 ///   start: f = dF/dE(0); E(0) lies between 0 and the most that the joint warms up.
 ///   curve: f = s v^2, with its heat or without; c at most the friction at the highest speed.
@@ -25,5 +25,12 @@ namespace warmjoint {
 void AddUndetectedBias(const FittedModel& model, const Measurements& measurements, const Bins& bins,
                        const Circumstances& known, Eigen::Index p, const ForceMoves& fit,
                        Examination& examination);
+
+/// Adds the rows degrees and clock: no residual shows either, where all columns of way or of time share the slip.
+/// A parameter of dimension torque way^a time^b is f = w^a t^b times as large once way and time are w and t
+/// times as large; each end of its interval moves by (f - 1) of itself, and the farther move counts.
+/// degrees: w = pi/180; clock: t = 1.01.
+void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
+                   Examination& examination);
 
 }  // namespace warmjoint

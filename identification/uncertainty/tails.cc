@@ -16,6 +16,10 @@ using Policy = boost::math::policies::policy<boost::math::policies::promote_doub
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+// of ReachBeyondEnds; why: the normal quantiles of 95 and 97.5 %, rounded outwards
+constexpr double kLeastReach = 1.64, kMostReach = 1.96;
+constexpr int kHalvings = 40;  // why: to the last digit
+
 }  // namespace
 
 double PValueOfNormal(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
@@ -46,6 +50,16 @@ double PValueOfF(double f, double m, double n) {
   if (std::isinf(f)) return 0;
   const boost::math::fisher_f_distribution<double, Policy> fisher(m, n);
   return cdf(complement(fisher, f));
+}
+
+double ReachBeyondEnds(double range) {
+  double low = kLeastReach, high = kMostReach;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double missed = 0.5 * (PValueOfNormal(middle + range) + PValueOfNormal(middle));
+    (missed > 1 - kIntervalLevel ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace warmjoint

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "identification/inference/covariance.h"
-#include "identification/uncertainty/between_ends.h"
+#include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/whitening.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/coloured_noise.h"

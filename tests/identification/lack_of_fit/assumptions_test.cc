@@ -9,9 +9,8 @@
 #include <string>
 
 #include "identification/identifiers/identifier_list.h"
+#include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/held_loss.h"
-#include "identification/lack_of_fit/one_speed.h"
-#include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/undetected_bias.h"
 #include "models/foundation/random_stream.h"
