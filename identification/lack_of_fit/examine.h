@@ -37,7 +37,7 @@ struct Examination {
   std::vector<const Finding*> Hints() const;
 };
 
-/// Makes all tests at one error level (error_level.h). Where they cannot be made each says why.
+/// Makes all tests at one error level (significance.h). Where they cannot be made each says why.
 /// by_noise: what noise says of the fit; selection: samples at constant speed.
 Examination ExamineResidual(const Fit& fit, const Inference& by_noise,
                             const Measurements& measurements, const Selection& selection);

@@ -18,7 +18,7 @@ struct LackOfFit {
 };
 
 /// Examines a fit by the table of tests for lack of fit (table.h), made at one error level for the log
-/// (error_level.h). What they find is relevant where one finding changes the friction of law and heat by
+/// (significance.h). What they find is relevant where one finding changes the friction of law and heat by
 /// more than the share `judging.relevance` of its rms over the kept samples (Harm), or where all together
 /// amount to a quarter of it. Then a row refuses the answer, inadequate_model, and names what the
 /// residual depends on and what to try. Of less a row widens the intervals as far as the

@@ -14,7 +14,7 @@ struct Finding {
   bool made = false;
   std::string reason;     // why not made
   double p = 1;           // by chance, the candidates within the test counted
-  double p_adjusted = 1;  // the tests of the log counted (error_level.h)
+  double p_adjusted = 1;  // the tests of the log counted (significance.h)
   bool rejected = false;
   double explained = 0;  // squares of the residual's samples that it explains, less the noise's
   double gain = 0;       // the same less ln(m) times the noise's variance for each feature, as BIC
