@@ -46,7 +46,7 @@ struct LackOfFitTest {
   Harm harm = Harm::of_moves;
   SeenOver over = SeenOver::time;
   /// Features over the bins, the best of several candidates beside the fit; of a test that looks
-  /// at samples (lag.h, fading.h, ripple.h): none.
+  /// at samples (lag.h, ripple.h): none.
   Features (*features)(const Bins& bins, const Circumstances& known,
                        const GrowingFit& fit) = nullptr;
   /// What the residual depends on, in a message.
