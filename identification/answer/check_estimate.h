@@ -4,7 +4,7 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/prepared_log.h>
 
-#include "identification/lack_of_fit/lack_of_fit_settings.h"
+#include "identification/lack_of_fit/find_lack_of_fit.h"
 
 namespace warmjoint {
 

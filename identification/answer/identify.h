@@ -5,7 +5,7 @@
 
 #include "identification/identifier.h"
 #include "identification/inference/inference.h"
-#include "identification/lack_of_fit/lack_of_fit_settings.h"
+#include "identification/lack_of_fit/find_lack_of_fit.h"
 
 namespace warmjoint {
 

@@ -1,6 +1,6 @@
 #include "identification/holdout/blocked_hold_out.h"
 
-#include "identification/holdout/evaluate.h"
+#include "identification/holdout/predict_torque.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {

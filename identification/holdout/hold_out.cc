@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "identification/holdout/evaluate.h"
+#include "identification/holdout/predict_torque.h"
 #include "identification/inference/inference.h"
 #include "identification/physical_bounds.h"
 #include "identification/seen_samples.h"

@@ -1,4 +1,4 @@
-// The torque that a model predicts along a log.
+// The torque that a model predicts along a log, and the figures of that.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "identification/fit.h"
 #include "models/friction/along_motion.h"
 
 namespace warmjoint {
@@ -29,5 +30,15 @@ struct TorquePrediction {
 /// acceleration (MovingView). asked: samples that are to be compared.
 TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& measurements,
                                Selection asked, const CourseStart& start);
+
+/// What the fit knows of the torque, its lag on the way into the log too.
+TorqueModel ModelOf(const Fit& fit);
+
+/// Compares the torque that the fit's friction, gravity and inertia predict along a log with the samples that
+/// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction
+/// runs from the first sample on, from `start`. Nothing where the fit gives no
+/// friction or no sample is left.
+std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
+                                const CourseStart& start);
 
 }  // namespace warmjoint

@@ -8,9 +8,16 @@
 #include "identification/identifier.h"
 #include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
-#include "identification/lack_of_fit/lack_of_fit_settings.h"
 
 namespace warmjoint {
+
+/// How strict a verdict is, and what it takes for granted.
+struct LackOfFitSettings {
+  /// Change of the friction of law and heat by what was found (Harm), rms as a share of the friction's, from
+  /// which a model is refused. A smaller one widens the intervals. 0 < relevance <= 1.
+  double relevance = kDefaultRelevance;
+  StartBelief start = StartBelief::cold;
+};
 
 struct LackOfFit {
   std::vector<Diagnostic> diagnostics;  // of every test

@@ -20,7 +20,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
-#include "identification/holdout/evaluate.h"
+#include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
 #include "identification/seen_samples.h"

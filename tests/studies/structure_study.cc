@@ -18,7 +18,6 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
-#include "identification/holdout/evaluate.h"
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/lack_of_fit/lack_of_fit_settings.h"
+#include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite_identifier.h"
 #include "tools/suite/prepared_identifier.h"
