@@ -70,7 +70,9 @@ std::string AddHeat(LawFit& law) {
   const std::string contradiction = RefitStart(
       rows,
       [&](const ThermalFit& alone) {
-        return problem.CovarianceOf(alone).Deviation(alone.layout.start.begin);
+        const Eigen::VectorXd left =
+            law.rows.torque - Kept(problem.Respond(alone).torque, law.input().selection);
+        return problem.CovarianceOf(alone, left).Deviation(alone.layout.start.begin);
       },
       law.fit);
 
@@ -142,7 +144,7 @@ void Whiten(LawFit& law) {
   if (!white.converged) return;
 
   // back to the plain fit where whitening changes too much, or leaves the bounds
-  const Uncertainty known = law.problem.CovarianceOf(plain);
+  const Uncertainty known = law.problem.CovarianceOf(plain, left);
   law.unwhitened = FindDisagreement({plain.x, known.covariance},
                                     {white.x, innovation * white.cofactor}, known.freedom);
   const Law& nominal = law.problem.task().law;

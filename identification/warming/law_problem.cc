@@ -123,8 +123,8 @@ Eigen::MatrixXd LawProblem::JacobianOf(const ThermalFit& fit) const {
   return fit.has_heat() ? WarmJacobian(loop_, task_.gravity.columns, fit) : task_.columns;
 }
 
-Uncertainty LawProblem::CovarianceOf(const ThermalFit& plain) const {
-  const Eigen::VectorXd residual = torque_ - Kept(Respond(plain).torque, input_.selection);
+Uncertainty LawProblem::CovarianceOf(const ThermalFit& plain,
+                                     const Eigen::VectorXd& residual) const {
   return EstimateCovariance(Kept(JacobianOf(plain), input_.selection), plain.cofactor, residual,
                             input_.selection, {}, plain.prior);
 }

@@ -51,8 +51,8 @@ class LawProblem {
   ThermalResponse Respond(const ThermalFit& fit) const;
   /// d(F + G + M a)/dx over all samples, without lag. [N x p]
   Eigen::MatrixXd JacobianOf(const ThermalFit& fit) const;
-  /// How sure a fit to plain squares is of its x, whatever the colour of the noise.
-  Uncertainty CovarianceOf(const ThermalFit& plain) const;
+  /// How sure a fit to plain squares is of its x, whatever the colour of the noise. residual: [n] that it leaves
+  Uncertainty CovarianceOf(const ThermalFit& plain, const Eigen::VectorXd& residual) const;
 
   const IdentifierInput& input() const { return input_; }
   const LinearTask& task() const { return task_; }
