@@ -29,13 +29,11 @@ std::vector<Change> ChangesBy(const std::vector<Cause>& causes, std::size_t coun
     }
     if (cause.action == Action::note || cause.bias.size() == 0) continue;
     for (std::size_t i = 0; i < cause.rows.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      const double bias = cause.bias[at];
-      const double spread = cause.spread.size() > 0 ? cause.spread[at] : 0;
+      const double bias = cause.bias[static_cast<Eigen::Index>(i)], reach = ReachOf(cause, i);
       Change& change = changes[cause.rows[i]];
       if (cause.action == Action::shift) change.shift += bias;
-      if (cause.action == Action::widen) change.reach += std::abs(bias) + kNormal95 * spread;
-      if (cause.action == Action::cover) (bias < 0 ? change.below : change.above) += std::abs(bias);
+      if (cause.action == Action::widen) change.reach += reach;
+      if (cause.action == Action::cover) (bias < 0 ? change.below : change.above) += reach;
     }
   }
   return changes;
@@ -106,6 +104,15 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
   }
   std::ranges::move(causes, std::back_inserter(answer.causes));
   return answer;
+}
+
+double ReachOf(const Cause& cause, std::size_t i) {
+  if (cause.bias.size() == 0) return 0;
+  const auto at = static_cast<Eigen::Index>(i);
+  const double bias = std::abs(cause.bias[at]);
+  if (cause.action == Action::cover) return bias;
+  if (cause.action != Action::widen) return 0;
+  return bias + kNormal95 * (cause.spread.size() > 0 ? cause.spread[at] : 0);
 }
 
 FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives) {

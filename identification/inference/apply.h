@@ -1,6 +1,7 @@
 // What a list of causes leaves of an answer.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "identification/inference/cause.h"
@@ -13,6 +14,9 @@ namespace warmjoint {
 /// bad_data, inadequate_model, not_identifiable, not_converged. Sentences stand in the order of their sources.
 /// by_noise: what noise alone says.
 Inference Apply(Inference by_noise, std::vector<Cause> causes);
+
+/// How much farther a cause lets either end of the interval of its i-th row reach, 0 of one that does not widen.
+double ReachOf(const Cause& cause, std::size_t i);
 
 /// What the causes of an answer do to a figure that depends on its parameters, to first order.
 struct FigureChange {

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
+#include <warmjoint/field.h>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +50,28 @@ enum class Source {
   velocity_noise,
   recording
 };
+
+/// Names in estimate.json, of assumptions and of what makes intervals reach farther.
+inline std::span<const Word<Source>> WordsOf(Source) {
+  using enum Source;
+  static constexpr std::array words{Word{"cold_start", cold_start},
+                                    Word{"open_start", open_start},
+                                    Word{"no_slow_drift", slow_drift},
+                                    Word{"open_drift", open_drift},
+                                    Word{"open_curve", open_curve},
+                                    Word{"open_memory", open_memory},
+                                    Word{"no_dead_band", dead_band},
+                                    Word{"angles_in_radians", degrees},
+                                    Word{"true_clock", clock},
+                                    Word{"held_losses", held_losses},
+                                    Word{"gaps", gaps},
+                                    Word{"hidden_steps", hidden_steps},
+                                    Word{"findings", findings},
+                                    Word{"hidden_means", hidden_means},
+                                    Word{"hints", hints},
+                                    Word{"velocity_noise", velocity_noise}};
+  return words;
+}
 
 /// What a row does to an answer.
 enum class Action {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/inference/apply.h"
 #include "identification/lack_of_fit/remedies.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/table.h"
@@ -49,31 +50,28 @@ std::string Describe(const Examination& examination, const Finding& finding,
 /// An assumption as estimate.json has it. meaning: with a place for its size and the torque's unit
 struct AssumptionWords {
   Source source;
-  const char* name;
   const char* meaning;
 };
 
 constexpr AssumptionWords kAssumptions[] = {
-    {Source::cold_start, "cold_start",
+    {Source::cold_start,
      "the joint was cold at the start, not at a tenth of the warmth that it reaches"},
-    {Source::open_start, "open_start",
+    {Source::open_start,
      "the joint was cold at the start, though for all that this log tells E(0) may be {:.2g} {}"},
-    {Source::slow_drift, "no_slow_drift",
-     "nothing outside of the model changed the friction by 1 % over the log"},
-    {Source::open_drift, "open_drift",
+    {Source::slow_drift, "nothing outside of the model changed the friction by 1 % over the log"},
+    {Source::open_drift,
      "nothing outside of the model changed the friction slowly, though this log cannot rule it "
      "out"},
-    {Source::open_curve, "open_curve",
+    {Source::open_curve,
      "friction depends on the speed as the law has it, though this log cannot rule out that it "
      "bends"},
-    {Source::open_memory, "open_memory",
+    {Source::open_memory,
      "friction follows the speed at once, though this log cannot rule out that a part of it is "
      "late"},
-    {Source::dead_band, "no_dead_band",
+    {Source::dead_band,
      "the torque's sensor has no dead band, though one of {:.2g} {} would stay unseen"},
-    {Source::degrees, "angles_in_radians",
-     "positions and speeds are in radians, not both in degrees"},
-    {Source::clock, "true_clock", "the clock of the log is right, not off by 1 %"},
+    {Source::degrees, "positions and speeds are in radians, not both in degrees"},
+    {Source::clock, "the clock of the log is right, not off by 1 %"},
 };
 
 }  // namespace
@@ -225,7 +223,8 @@ std::vector<Assumption> AssumptionsOf(const std::vector<Cause>& causes, const Fi
   for (const AssumptionWords& words : kAssumptions) {
     const auto cause = std::ranges::find(causes, words.source, &Cause::source);
     if (cause == causes.end() || cause->bias.size() == 0) continue;
-    assumptions.push_back({words.name, fmt::format(fmt::runtime(words.meaning), cause->size, unit),
+    assumptions.push_back({std::string(NameOf(words.source)),
+                           fmt::format(fmt::runtime(words.meaning), cause->size, unit),
                            NamedMoves(cause->rows, cause->bias, fit)});
   }
   return assumptions;

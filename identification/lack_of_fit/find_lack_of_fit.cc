@@ -76,7 +76,7 @@ std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const Role role = fit.parameters[i].role;
-    if (role == Role::heat || role == Role::start) rows.push_back(i);
+    if (role == Role::heat || role == Role::start || role == Role::jump) rows.push_back(i);
   }
   return rows;
 }

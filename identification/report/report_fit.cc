@@ -4,6 +4,7 @@
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -159,6 +160,24 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   return of;
 }
 
+/// What the half widths of intervals that reach farther than noise has them are made of, of each first the noise.
+std::vector<HalfWidthPart> HalfWidths(const Fit& fit, const Inference& inference) {
+  std::vector<HalfWidthPart> parts;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const std::string& name = fit.parameters[i].name;
+    const ParameterInterval& known = inference.parameters[i];
+    if (name.empty() || !known.interval95 || !(known.widened > 0)) continue;
+    parts.push_back({name, "noise", known.HalfWidth() - known.widened});
+    for (const Cause& cause : inference.causes) {
+      const auto at = std::ranges::find(cause.rows, i);
+      if (at == cause.rows.end()) continue;
+      const double reach = ReachOf(cause, static_cast<size_t>(at - cause.rows.begin()));
+      if (reach > 0) parts.push_back({name, std::string(NameOf(cause.source)), reach});
+    }
+  }
+  return parts;
+}
+
 /// Moves a figure by what the causes did to the law's parameters. by_law: [d] its derivatives by these, which come first in
 /// the table
 void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double& value,
@@ -219,6 +238,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog
 
   // the numbers
   estimate.parameters = ParametersOf(fit, inference, h);
+  estimate.half_widths = HalfWidths(fit, inference);
   estimate.metrics = ComputeMetrics(fit.torque, fit.fitted, fit.count, fit.effective_parameters);
   estimate.gravity = fit.gravity;
   if (!inference.gives_friction) return estimate;

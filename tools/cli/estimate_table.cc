@@ -107,11 +107,21 @@ std::string AssumptionsText(const Estimate& estimate) {
   return text.empty() ? "" : "\nassumptions\n" + text;
 }
 
-/// Every test for lack of fit and every assumption.
+/// What makes intervals reach farther than noise.
+Table HalfWidthTable(const Estimate& estimate) {
+  Table table{{"half width of the interval", "by", "value"}, {}};
+  for (const HalfWidthPart& part : estimate.half_widths) {
+    table.rows.push_back({part.parameter, part.by, fmt::format("{:.2g}", part.half_width)});
+  }
+  return table;
+}
+
+/// What intervals are made of, every test for lack of fit and every assumption.
 std::string Explanation(const Estimate& estimate) {
-  const Table tests = DiagnosticTable(estimate);
   std::string text;
-  if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size());
+  for (const Table& table : {HalfWidthTable(estimate), DiagnosticTable(estimate)}) {
+    if (!table.rows.empty()) text += "\n" + TableToText(table, table.header.size());
+  }
   return text + AssumptionsText(estimate);
 }
 

@@ -226,6 +226,23 @@ struct Assumption {
   }
 };
 
+/// A part of the half width of a parameter's interval.
+struct HalfWidthPart {
+  std::string parameter;
+  std::string
+      by;  // "noise", or what makes the interval reach farther: "findings", "open_drift", ...
+  double half_width = 0;  // in the parameter's unit
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("parameter", &parameter, {.needed = "name it"});
+    a->Field("by", &by,
+             {.meaning = "noise, or what else is known of the answer", .needed = "name it"});
+    a->Field("half_width", &half_width,
+             {.meaning = "in the parameter's unit", .needed = kGiveNumber});
+  }
+};
+
 /// The effect of a diagnostic as files have it.
 struct EffectFields {
   double value = 0;
@@ -384,6 +401,8 @@ struct Estimate {
   std::optional<ParameterCovariance> covariance;
   std::vector<Diagnostic> diagnostics;
   std::vector<Assumption> assumptions;
+  /// Of the intervals that reach farther than noise alone has them; the parts of one add up.
+  std::vector<HalfWidthPart> half_widths;
   std::vector<EstimatedParameter> state_end;  // empty where nothing warms or nothing is trusted
   std::optional<StructureChoice> choice;
   std::optional<CarriedHeat> follows;
@@ -439,6 +458,9 @@ struct Estimate {
              LeftOut("every test for lack of fit; figures of one that was not made are null"));
     a->Field("assumptions", &assumptions,
              LeftOut("what no test can see, and how far the answer would move if it were wrong"));
+    a->Field(
+        "half_widths", &half_widths,
+        LeftOut("parts of the half width of each interval that reaches farther than noise has it"));
     a->Named(
         "state_end", &state_end,
         LeftOut("heat at the end of the log, `energy` and `second_energy`, and its stamp, `time`"));

@@ -2,7 +2,9 @@
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
@@ -215,6 +217,14 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   EXPECT_GT(narrow[0], 15);  // the true level
   EXPECT_LT(wide[0], 15);
   EXPECT_GT(wide[1], 15);
+
+  // of what the half width is made: noise as without the verdict, and what was found
+  std::map<std::string, double> parts;
+  for (const HalfWidthPart& part : judged.half_widths) {
+    if (part.parameter == "coulomb") parts[part.by] += part.half_width;
+  }
+  EXPECT_NEAR(parts["noise"], 0.5 * (narrow[1] - narrow[0]), 1e-9);
+  EXPECT_NEAR(parts["noise"] + parts["findings"], 0.5 * (wide[1] - wide[0]), 1e-9);
 }
 
 /// An hour whose velocity is in revolutions a minute.
