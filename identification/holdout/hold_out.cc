@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <warmjoint/friction_model.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "identification/holdout/predict_torque.h"
 #include "identification/inference/inference.h"
@@ -17,6 +19,11 @@ namespace {
 std::string WhyNone(const Fit& fit, Eigen::Index asked) {
   if (asked > 0 && fit.gravity) return "the fit knows gravity at none of the places it reaches";
   return fit.inertia ? "no sample moves clearly" : "no sample moves at a constant speed";
+}
+
+/// Whether the heat with which recordings begin is free, so that a fit knows that of no recording that it has not seen.
+bool HasOwnStarts(const Fit& fit, const Measurements& measurements) {
+  return fit.RowOf(Role::start) && !measurements.starts.empty();
 }
 
 }  // namespace
@@ -49,6 +56,12 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
   Selection test = input.selection;
   const auto before = (input.measurements.time.array() < first->split).count();
   test.keep.head(before) = false;
+  const bool own_starts = HasOwnStarts(first->fit, input.measurements);
+  if (own_starts) {
+    const std::vector<Eigen::Index>& starts = input.measurements.starts;
+    const auto unseen = std::ranges::lower_bound(starts, before);
+    if (unseen != starts.end()) test.keep.tail(input.measurements.size() - *unseen) = false;
+  }
   if (auto metrics = Evaluate(first->fit, input.measurements, test, first->fit.Start())) {
     return {std::move(metrics), ""};
   }
@@ -58,9 +71,10 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
   if (!inferred.gives_friction) {
     return {{}, fmt::format("a fit to {} gives no friction ({})", part, inferred.message)};
   }
-  return {{},
-          fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction,
-                      WhyNone(first->fit, test.keep.count()))};
+  const std::string why = own_starts && test.keep.count() == 0
+                              ? "each recording begins with a heat of its own"
+                              : WhyNone(first->fit, test.keep.count());
+  return {{}, fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction, why)};
 }
 
 HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {

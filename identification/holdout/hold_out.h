@@ -29,8 +29,9 @@ struct HeldOut {
 
 /// FitFirstPart, evaluated on the kept samples of the
 /// rest. The prediction starts with the recording, at E(0) where the fit estimates it, so that the
-/// joint comes to the test part as warm as it was. 0 < fraction < 1. None where that fit gives
-/// no friction or the rest keeps no sample.
+/// joint comes to the test part as warm as it was. Where each recording has an E(0) of its own, those
+/// that begin in the rest are left out. 0 < fraction < 1. None where that fit gives no friction or the
+/// rest keeps no sample.
 HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& input, double fraction,
                 const Fit& all_data = {});
 

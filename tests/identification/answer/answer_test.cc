@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
+#include <cmath>
+
 #include "identification/answer/check_estimate.h"
 #include "identification/answer/identify.h"
 #include "identification/forward/thermal_filter.h"
@@ -188,6 +190,17 @@ TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
   EXPECT_NEAR(held->n, 1800, 1);
   // noise of 0.5 N.m, known from 1800 samples to 0.5 / sqrt(3600), three times, and the parameters
   EXPECT_NEAR(held->rmse, 0.5, 3 * 0.5 / 60 + 0.01);
+}
+
+TEST(SeveralRecordings, NoneIsHeldOutWhoseStartIsNotKnown) {
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options = identifier.options.Read({{"initial_energy", "estimated"}});
+  const IdentifierInput input{Beginning({0, -4, -2.5, -4}, 0.5), options, {}};
+  // of four recordings the last half of the third, and not the fourth
+  const auto held = HoldOut(identifier, input, 0.375).metrics;
+  ASSERT_TRUE(held);
+  EXPECT_NEAR(held->n, 900, 1);
+  EXPECT_NEAR(held->rmse, 0.5, 3 * 0.5 / std::sqrt(2 * 900) + 0.02);
 }
 
 }  // namespace
