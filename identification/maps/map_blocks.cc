@@ -72,7 +72,8 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
     : input_(input),
       task_(task),
       initial_(initial),
-      starts_(initial.is_open() ? FurtherStarts(input.measurements) : std::vector<LogGap>()),
+      starts_(initial.is_open() ? FurtherStarts(input.measurements, input.selection)
+                                : std::vector<LogGap>()),
       gaps_(Merged(FindGaps(input.measurements), starts_)),
       kept_(WithoutRest(input.selection, input.measurements).keep.cast<double>()) {}
 

@@ -59,7 +59,7 @@ std::string AddHeat(LawFit& law) {
   LawProblem& problem = law.problem;
   const InitialEnergy initial = InitialEnergyOf(law.input().options);
   std::vector<LogGap> starts;
-  if (initial.is_open()) starts = FurtherStarts(law.measurements());
+  if (initial.is_open()) starts = FurtherStarts(law.measurements(), law.input().selection);
   problem.TakeJumps(starts, JumpSpread(starts, 0, 1));
   law.scanned = problem.Scan(law.measurements().torque, law.fit);
   law.rows.scale = std::sqrt(law.nominal_squares / static_cast<double>(law.rows.torque.size()));
@@ -411,11 +411,13 @@ std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<Lo
   }
   // the jumps in the order of x, each by what it stands at
   const Eigen::VectorXd jumps = warm.jumps();
-  int gap = 0, recording = 1;
+  const std::vector<Eigen::Index>& starts = measurements.starts;
+  int gap = 0;
   for (Eigen::Index i = 0; i < jumps.size(); ++i) {
-    rows.push_back(IsStart(gaps[static_cast<size_t>(i)])
-                       ? StartParameter(recording++, jumps[i], measurements)
-                       : JumpParameter(gap++, jumps[i], measurements));
+    const LogGap& at = gaps[static_cast<size_t>(i)];
+    const auto recording = std::ranges::upper_bound(starts, at.behind) - starts.begin();
+    rows.push_back(IsStart(at) ? StartParameter(static_cast<int>(recording), jumps[i], measurements)
+                               : JumpParameter(gap++, jumps[i], measurements));
   }
   return rows;
 }

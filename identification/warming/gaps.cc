@@ -47,6 +47,19 @@ std::vector<LogGap> FurtherStarts(const Measurements& measurements) {
   return starts;
 }
 
+std::vector<LogGap> FurtherStarts(const Measurements& measurements, const Selection& kept) {
+  std::vector<LogGap> starts = FurtherStarts(measurements);
+  for (size_t i = starts.size(); i-- > 0;) {
+    const Eigen::Index begin = measurements.starts[i];
+    const Eigen::Index end =
+        i + 1 < measurements.starts.size() ? measurements.starts[i + 1] : measurements.size();
+    if (!kept.keep.segment(begin, end - begin).any()) {
+      starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return starts;
+}
+
 std::vector<LogGap> Merged(const std::vector<LogGap>& one, const std::vector<LogGap>& other) {
   std::vector<LogGap> both;
   std::ranges::merge(one, other, std::back_inserter(both), {}, &LogGap::behind, &LogGap::behind);

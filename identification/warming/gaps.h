@@ -15,8 +15,9 @@ namespace warmjoint {
 std::vector<LogGap> FindGaps(const Measurements& measurements);
 
 /// Starts of all recordings but the first, as gaps of infinite length: after them E is what it then is, and no longer
-/// depends on what was before.
+/// depends on what was before. kept: of recordings that keep samples; the others tell nothing of theirs
 std::vector<LogGap> FurtherStarts(const Measurements& measurements);
+std::vector<LogGap> FurtherStarts(const Measurements& measurements, const Selection& kept);
 inline bool IsStart(const LogGap& gap) { return std::isinf(gap.length); }
 
 /// Both in order of time.

@@ -157,6 +157,22 @@ TEST(SeveralRecordings, StartsLieInTheirIntervals) {
   }
 }
 
+TEST(SeveralRecordings, OneWithoutSamplesHasNoStart) {
+  // nothing of the second is left: the third keeps its number
+  const PreparedLog log = Beginning({-1, -4, -2.5}, 0);
+  const LogView& view = log.constant_speed();
+  Selection others = view.selection;
+  others.keep.segment(1800, 1800) = false;
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options = identifier.options.Read({{"initial_energy", "estimated"}});
+  const IdentifierInput input{log, options, {}};
+  const Fit fit = identifier.fit(input.With(others));
+  ASSERT_FALSE(fit.refusal) << fit.refusal->message;
+  EXPECT_NEAR(fit.parameters[*fit.RowOf(Role::start)].value, -1, 1e-6);
+  EXPECT_EQ(fit.parameters[*fit.RowOf(Role::jump)].name, "initial_energy_3");
+  EXPECT_NEAR(fit.parameters[*fit.RowOf(Role::jump)].value, -2.5, 1e-6);
+}
+
 TEST(SeveralRecordings, OneThatBeganWarmIsSeen) {
   const Identifier& identifier = FindIdentifier("energy-ml");
   const auto rejected = [&](const std::vector<double>& energies) {
