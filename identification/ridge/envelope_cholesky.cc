@@ -86,12 +86,6 @@ EnvelopeCholesky::EnvelopeCholesky(const Eigen::MatrixXd& matrix) {
   for (Eigen::Index i = 1; i < n; ++i) end_[i] = std::max(end_[i], end_[i - 1]);
 }
 
-Eigen::Index EnvelopeCholesky::size() const {
-  Eigen::Index size = 0;
-  for (size_t i = 0; i < end_.size(); ++i) size += end_[i] - static_cast<Eigen::Index>(i);
-  return size;
-}
-
 Eigen::Index EnvelopeCholesky::BlockSize(Eigen::Index begin) const {
   return std::min(kBlock, static_cast<Eigen::Index>(order_.size()) - begin);
 }

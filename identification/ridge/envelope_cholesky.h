@@ -21,9 +21,6 @@ class EnvelopeCholesky {
   /// (A + shift I)^-1 right, of the latest shift. right: [n x k].
   Eigen::MatrixXd Solve(const Eigen::MatrixXd& right) const;
 
-  /// Entries of L within the envelope.
-  Eigen::Index size() const;
-
  private:
   Eigen::Index BlockSize(Eigen::Index begin) const;
 
