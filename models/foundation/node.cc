@@ -5,7 +5,6 @@
 #include <string>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
 

@@ -1,12 +1,10 @@
 #include "models/foundation/read_json.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/json_turn.h"
 
 namespace warmjoint {
 namespace {

@@ -1,8 +1,10 @@
-// JSON files.
+// JSON files, and numbers in them.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <mutex>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "models/foundation/bad_input.h"
@@ -22,5 +24,17 @@ Json ReadJsonFile(const std::filesystem::path& path);
 /// no UTF-8, numbers that no double holds, more levels than kDeepestJson.
 template <typename Json = nlohmann::json>
 Json ParseJson(const std::string& text, const std::string& file);
+
+/// The turn of a thread to read or write JSON: held while nlohmann's parser or writer works on a thread of several.
+/// Both ask localeconv() for the decimal point, which glibc calls unsafe for threads.
+inline std::unique_lock<std::mutex> JsonTurn() {
+  static std::mutex turn;
+  return std::unique_lock(turn);
+}
+
+/// The number; null where it is not finite.
+inline nlohmann::json NumberOrNull(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
 
 }  // namespace warmjoint

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "models/friction/law.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/survey_work.h"

@@ -11,7 +11,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/letter_case.h"
 #include "models/foundation/parse_number.h"
 #include "models/recording/clock.h"
 #include "models/recording/units.h"

@@ -3,7 +3,6 @@
 #include <regex>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
 namespace {

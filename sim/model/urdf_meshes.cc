@@ -7,7 +7,6 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/letter_case.h"
 #include "models/foundation/xml_tags.h"
 #include "sim/model/spec_elements.h"
 

@@ -10,7 +10,6 @@
 #include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
 #include "sim/plant/motion_of.h"

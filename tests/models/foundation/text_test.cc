@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
 #include "models/foundation/sha256.h"
