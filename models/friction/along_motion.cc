@@ -53,8 +53,8 @@ class LawAlong {
   const JointCourse& course_;
 };
 
-/// A law that follows the motion with hidden state of its own.
-template <LawWithCourse L>
+/// A law whose own bristle follows the motion.
+template <LawWithBristle L>
 class LawAlong<L> {
  public:
   LawAlong(const JointFriction& joint, const JointCourse& course)
@@ -106,7 +106,7 @@ class LawAlong<L> {
   const JointFriction& joint_;
   const JointCourse& course_;
   MotionPieces pieces_;
-  typename L::template Course<double> state_;
+  BristleCourse<L> state_;
   JointPlace before_;  // at the sample before
 };
 

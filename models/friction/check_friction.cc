@@ -5,9 +5,8 @@
 #include <numbers>
 
 #include "models/foundation/excerpt.h"
-#include "models/friction/law.h"
+#include "models/friction/level_terms.h"
 #include "models/friction/parameter_rows.h"
-#include "models/friction/survey_work.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {

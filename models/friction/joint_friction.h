@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "models/friction/bristle.h"
-#include "models/friction/heat.h"
 #include "models/friction/level_terms.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint {
 
@@ -168,6 +168,7 @@ class JointFriction {
   Friction friction_;  // without its maps
   Law law_;
   std::vector<StateMember> state_;
+  std::vector<size_t> others_;  // the numbers beside the law's own that this friction has
   std::optional<Bristle> own_bristle_;
   Heat heat_;
   Bristle unit_;  // of an effective inertia of 1

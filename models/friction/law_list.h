@@ -1,15 +1,8 @@
 // The one list of laws, as types: for code that is made anew for each law.
 #pragma once
 
-#include "models/friction/asymmetric.h"
-#include "models/friction/asymmetric_lugre.h"
-#include "models/friction/asymmetric_stribeck.h"
-#include "models/friction/coulomb.h"
-#include "models/friction/dahl.h"
-#include "models/friction/lugre.h"
-#include "models/friction/stiction.h"
-#include "models/friction/stribeck.h"
-#include "models/friction/viscous_coulomb.h"
+#include "models/friction/bristle_laws.h"
+#include "models/friction/steady_laws.h"
 
 namespace warmjoint {
 
@@ -30,20 +23,19 @@ concept LawAtAnySpeed = requires {
   L::level_at_any_speed;
 };
 
-/// Whether a law brings hidden state that follows a motion: a Course<T> as BristleCourse is one,
-/// with BeginSliding, BeginBent, Follow, Force, Loss and load.
+/// Whether a law brings a bristle of its own, by BristleOf, which follows a motion as BristleCourse does.
 template <typename L>
-concept LawWithCourse = requires {
-  typename L::template Course<double>;
+concept LawWithBristle = requires(const double* p) {
+  L::BristleOf(p);
 };
 
 template <typename... L>
 struct LawList {
-  static_assert(((LawWithCourse<L> == (L::pre_sliding == PreSliding::bristle)) && ...),
-                "a law with a bristle of its own needs a Course, and no other law has one");
+  static_assert(((LawWithBristle<L> == (L::pre_sliding == PreSliding::bristle)) && ...),
+                "a law with a bristle of its own needs BristleOf, and no other law has one");
 };
 
-/// All laws: a new one is its own header and one line here.
+/// All laws: a new one is a struct and its name here.
 using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, AsymmetricStribeck,
                         Dahl, LuGre, AsymmetricLuGre>;
 

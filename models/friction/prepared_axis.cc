@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "models/friction/even_grid.h"
+#include "models/friction/row_table.h"
 
 namespace warmjoint {
 namespace {

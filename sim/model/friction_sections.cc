@@ -8,7 +8,7 @@
 #include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
-#include "models/friction/law.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
 #include "sim/plugin/register.h"
 

@@ -84,7 +84,6 @@ inline constexpr double kSmallestPositive = 1e-9;
 ///   elastoplastic: a spring that yields at the level of sliding (bristle.h)
 ///   breakaway:     the same, but held it bears up to a static level above that of sliding, Eq. (4)
 ///   bristle:       a spring with given stiffness and damping that relaxes with travel
-///                  (lugre_bristle.h)
 enum class PreSliding { elastoplastic, breakaway, bristle };
 
 /// A nominal law behind one interface, made from the law's own struct.

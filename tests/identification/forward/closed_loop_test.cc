@@ -9,7 +9,7 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
-#include "models/friction/viscous_coulomb.h"
+#include "models/friction/steady_laws.h"
 #include "models/recording/course_of.h"
 #include "tests/support/vectors.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/bristle.h"
 #include "models/friction/check_friction.h"
-#include "models/friction/lugre_bristle.h"
 
 namespace warmjoint {
 namespace {
