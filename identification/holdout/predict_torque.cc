@@ -1,7 +1,7 @@
 #include "identification/holdout/predict_torque.h"
 
 #include "models/foundation/low_pass.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 

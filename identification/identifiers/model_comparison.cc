@@ -15,7 +15,6 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/steady_laws.h"
-#include "models/recording/course_of.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

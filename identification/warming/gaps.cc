@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "models/friction/thermal.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

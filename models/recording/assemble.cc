@@ -11,9 +11,8 @@
 #include <string_view>
 
 #include "models/foundation/excerpt.h"
-#include "models/recording/clock.h"
 #include "models/recording/measurements.h"
-#include "models/recording/unwrap.h"
+#include "models/recording/mend.h"
 
 namespace warmjoint {
 namespace {

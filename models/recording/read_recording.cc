@@ -12,10 +12,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
-#include "models/recording/hdf5.h"
-#include "models/recording/matlab.h"
 #include "models/recording/measurements.h"
-#include "models/recording/read_apart.h"
 
 namespace warmjoint {
 namespace {
@@ -155,13 +152,6 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
   Measurements made = AssembleContent(std::move(content), name, settings);
   TakeTorqueConstant(settings.torque_constant, made);
   return made;
-}
-
-Measurements FirstSamples(Measurements log, Eigen::Index n) {
-  ForEachColumn(
-      log, [n](Eigen::VectorXd& column) { column.conservativeResize(std::min(n, column.size())); });
-  if (log.gaps) std::erase_if(*log.gaps, [n](const LogGap& gap) { return gap.behind >= n; });
-  return log;
 }
 
 }  // namespace warmjoint

@@ -12,7 +12,6 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
-#include "models/recording/clock.h"
 #include "models/recording/units.h"
 
 namespace warmjoint {

@@ -1,6 +1,8 @@
-// The family of robots: what is known of each folder of models/robots.
+// The family of robots: what is known of each folder of models/robots; URDF files, read by urdfdom.
 #pragma once
 
+#include <urdf_model/model.h>
+#include <urdf_world/types.h>
 #include <warmjoint/friction.h>
 
 #include <filesystem>
@@ -33,5 +35,9 @@ struct RobotInfo {
 /// All robots, sorted by name, read from their folders: a new robot is its folder alone.
 /// Throws BadInput that names the file that is missing or wrong.
 std::vector<RobotInfo> Robots();
+
+/// The robot that a URDF file describes. Throws BadInput with the file's name and what urdfdom
+/// refuses.
+urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path);
 
 }  // namespace warmjoint

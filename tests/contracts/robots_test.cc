@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "models/foundation/random_stream.h"
-#include "models/robots/read_urdf.h"
 #include "models/robots/robot_list.h"
 #include "sim/model/load_model.h"
 

@@ -10,7 +10,7 @@
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
 #include "models/friction/steady_laws.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {

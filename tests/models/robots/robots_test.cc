@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "models/foundation/bad_input.h"
-#include "models/robots/read_urdf.h"
 #include "models/robots/robot_folder.h"
 #include "models/robots/robot_list.h"
 #include "tests/models/recording/temporary_file.h"
