@@ -1,14 +1,18 @@
-// What Python calls in the shared library, by ctypes: text in, text out, both JSON.
+// What is called in the shared library. MuJoCo: its entry, when the library is loaded. Python, by ctypes: text in, text out,
+// both JSON.
 //
 // Each answer is an object; {"error": "..."} where the request is refused. It stays until the thread's next call.
+#include <link.h>
 #include <mujoco/mujoco.h>
 #include <warmjoint/attach.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
@@ -154,8 +158,40 @@ const char* Answer(const Call& call) {
   return answer.c_str();
 }
 
+/// The paths of MuJoCo's libraries in this process.
+struct Engines {
+  int count = 0;
+  std::string paths;
+};
+
+int AddEngine(dl_phdr_info* library, size_t, void* data) {
+  const std::string_view path = library->dlpi_name;
+  const size_t name = path.rfind('/') == std::string_view::npos ? 0 : path.rfind('/') + 1;
+  if (!path.substr(name).starts_with("libmujoco.so")) return 0;
+  auto& engines = *static_cast<Engines*>(data);
+  engines.paths += (engines.count++ == 0 ? "" : ", ") + std::string(path);
+  return 0;
+}
+
 }  // namespace
 }  // namespace warmjoint
+
+/// Registers the plugin, unless the program runs another MuJoCo than the one that the library was
+/// linked with and brought along: models of the program's would not find the plugin.
+mjPLUGIN_LIB_INIT(warmjoint_friction) {
+  warmjoint::Engines engines;
+  // one MuJoCo, of the version whose structures this library knows
+  dl_iterate_phdr(warmjoint::AddEngine, &engines);
+  if (engines.count > 1 || mj_version() != mjVERSION_HEADER) {
+    std::fprintf(stderr,
+                 "warmjoint.friction is built for MuJoCo %d.%d.%d and cannot serve this program, "
+                 "which holds %s; run it with that version of MuJoCo\n",
+                 mjVERSION_HEADER / 1000000, mjVERSION_HEADER / 1000 % 1000,
+                 mjVERSION_HEADER % 1000, engines.paths.c_str());
+    return;
+  }
+  warmjoint::RegisterFrictionPlugin();
+}
 
 extern "C" {
 

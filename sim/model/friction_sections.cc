@@ -1,5 +1,3 @@
-#include "sim/model/friction_sections.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "models/friction/joint_friction.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
+#include "sim/model/friction_actuator.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint {

@@ -1,11 +1,10 @@
-#include "sim/model/light_joints.h"
-
 #include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "models/foundation/parse_number.h"
 #include "models/friction/joint_friction.h"
+#include "sim/model/friction_actuator.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/stability.h"
 

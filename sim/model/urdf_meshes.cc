@@ -1,5 +1,3 @@
-#include "sim/model/urdf_meshes.h"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/xml_tags.h"
+#include "sim/model/load_model.h"
 #include "sim/model/spec_elements.h"
 
 namespace warmjoint {

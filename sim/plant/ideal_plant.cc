@@ -4,7 +4,6 @@
 #include "models/foundation/bad_input.h"
 #include "models/friction/along_motion.h"
 #include "models/friction/check_friction.h"
-#include "sim/plant/disturb_log.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/velocity_drive.h"
 

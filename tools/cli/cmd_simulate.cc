@@ -12,7 +12,6 @@
 #include "models/foundation/excerpt.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
-#include "sim/plant/motion_of.h"
 #include "sim/plant/plant.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
