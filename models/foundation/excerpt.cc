@@ -119,6 +119,13 @@ std::string ExcerptOfList(const std::vector<std::string>& texts) {
   return more == 0 ? list : fmt::format("{} and {} more", list, more);
 }
 
+std::string_view Trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string Lowercase(std::string_view text) {
   std::string lower(text);
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });

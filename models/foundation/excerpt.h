@@ -40,6 +40,9 @@ std::string Excerpt(std::string_view text, std::size_t longest = kLongestValue);
 /// "a, b, c": excerpts of all, or of the first 24 and how many more there are.
 std::string ExcerptOfList(const std::vector<std::string>& texts);
 
+/// The text without blanks and line ends around it.
+std::string_view Trimmed(std::string_view text);
+
 /// The text in small letters. ASCII alone: other characters stay as they are.
 std::string Lowercase(std::string_view text);
 

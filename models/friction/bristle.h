@@ -31,11 +31,6 @@ inline Bristle ScaleBristle(const Bristle& unit, double inertia) {
   return {inertia * unit.stiffness, inertia * unit.damping};
 }
 
-/// The bristle of a joint with effective inertia M (kg.m^2 or kg) at step h (s).
-inline Bristle MakeBristle(double inertia, double h) {
-  return ScaleBristle(UnitBristle(h), inertia);
-}
-
 struct BristleStep {
   double force = 0;      // friction, N.m or N; opposes the motion when it has the sign of v
   double load = 0;       // elastic part of the force after the step, the bristle's state
@@ -69,7 +64,7 @@ BristleStep StepBristle(const Bristle& bristle, double load, double v, double h,
 }
 
 /// A bristle weakened so far that an explicit step carries it: its stiffness and damping
-/// together are at most what MakeBristle gives. inertia: M, kg.m^2 or kg; h: s.
+/// together are at most those of UnitBristle. inertia: M, kg.m^2 or kg; h: s.
 inline Bristle LimitBristle(const Bristle& bristle, double inertia, double h) {
   const double asked = h * (bristle.stiffness * h + 2 * bristle.damping);
   const double carried = (kBristleStiffness + 2 * kBristleDamping) * inertia;

@@ -65,7 +65,7 @@ class JointFriction {
   double OwnLevelAtRest(int side) const { return level_(false, side, 0, values_.data()); }
   bool level_follows_heat_alone() const { return same_at_any_speed_ && !has_terms_ && !slips_; }
 
-  /// The law's own bristle; none where the step chooses it (MakeBristle).
+  /// The law's own bristle; none where the step chooses it (UnitBristle).
   const std::optional<Bristle>& own_bristle() const { return own_bristle_; }
 
   /// The members of the state that it needs (StateOf).

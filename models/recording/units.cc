@@ -63,9 +63,7 @@ constexpr std::size_t kLongest = 24;                 // bytes of any unit in bra
 /// The text in the characters of Units, without brackets around it.
 std::string Plain(std::string_view text) {
   constexpr std::string_view open = "([{<", close = ")]}>";
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  text = Trimmed(text);
   const bool bracketed = text.size() > 2 && open.find(text.front()) != std::string_view::npos &&
                          open.find(text.front()) == close.find(text.back());
   if (bracketed) text = text.substr(1, text.size() - 2);

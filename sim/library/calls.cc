@@ -28,23 +28,9 @@
 namespace warmjoint {
 namespace {
 
-/// Friction for the joints that a name or pattern means.
-struct JointRequest {
-  std::string joint;
-  Friction friction;
-  std::vector<double> initial_energy;
-
-  template <class A>
-  void Serialize(A* a) {
-    a->Field("joint", &joint, {.needed = "give a name or pattern"});
-    a->Field("friction", &friction, {.needed = "give a friction"});
-    a->Field("initial_energy", &initial_energy, {.unit = "N.m"});
-  }
-};
-
 struct AttachRequest {
-  std::string model;  // its name, in messages
-  std::vector<JointRequest> frictions;
+  std::string model;                        // its name, in messages
+  std::vector<FrictionForJoint> frictions;  // each for the joints that a name or pattern means
   AttachOptions options;
   std::map<std::string, double> armatures;
 
@@ -62,11 +48,8 @@ struct AttachRequest {
 
 Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
   auto request = ReadAs<AttachRequest>(ParseJsonNode(text, "attach"));
-  std::vector<FrictionForJoint> frictions;
-  for (const auto& [joint, friction, energy] : request.frictions) {
-    RefuseAmperes(friction, {joint});
-    frictions.push_back({joint, friction, energy});
-  }
+  const std::vector<FrictionForJoint>& frictions = request.frictions;
+  for (const FrictionForJoint& one : frictions) RefuseAmperes(one.friction, {one.joint});
   for (const auto& [joints, armature] : request.armatures) {
     request.options.armatures.push_back({joints, armature});
   }
@@ -124,8 +107,7 @@ Tree Describe(const mjModel* m) {
     if (m->plugin[instance] != plugin) continue;
     const BoundJoints bound(m, instance, kFrictionReports);
     const std::string name = NameIn(m, mjOBJ_PLUGIN, instance);
-    const auto prepared = PrepareInstance(m, instance, {name});
-    const std::vector<ActingJoint> acting = FindJoints(m, instance, *prepared);
+    const std::vector<ActingJoint> acting = FindJoints(m, instance);
     for (size_t i = 0; i < acting.size(); ++i) {
       std::vector<std::string> states;
       for (const StateMember& member : acting[i].prepared->friction.state()) {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/bound_joints.h"

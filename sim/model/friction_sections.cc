@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "models/friction/parameter_rows.h"

@@ -93,8 +93,7 @@ class BoundJoints {
   bool ReadArrays(const mjModel* m);
   bool SetNumber(const NumberArray& array, size_t joint, double value);
   void WarnOfNumber(const mjModel* m, NumberArray& array, size_t joint, double value) const;
-  void BindActuators(const mjModel* m);
-  void BindPassive(const mjModel* m, int states);
+  void BindJoints(const mjModel* m, int states);
   void BindSensors(const mjModel* m);
   void BindNumbers(const mjModel* m);
 

@@ -302,6 +302,13 @@ struct FrictionForJoint {
   std::string joint;
   Friction friction;
   std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("joint", &joint, {.needed = "give a name or pattern"});
+    a->Field("friction", &friction, {.needed = "give a friction"});
+    a->Field("initial_energy", &initial_energy, {.unit = "N.m"});
+  }
 };
 
 /// What beside a law's own parameters shapes friction and is a number: its name and bounds, and
@@ -347,7 +354,7 @@ void Friction::Serialize(A* a) {
 void FillDefaults(Friction& friction);
 
 /// The law's parameter values in the order of its table. The description must have been checked
-/// (check_friction.h).
+/// (CheckFriction).
 std::vector<double> LawValues(const Friction& friction);
 
 /// Checks names and bounds against the parameter tables, and that all parts make sense together:

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "models/friction/law_list.h"
 #include "tests/support/bristle_recording.h"
 

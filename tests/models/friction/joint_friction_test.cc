@@ -7,7 +7,7 @@
 
 #include "models/foundation/random_stream.h"
 #include "models/friction/bristle.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace {
@@ -139,7 +139,7 @@ TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
     const JointFriction joint = Make(friction);
     const Bristle bristle = joint.own_bristle()
                                 ? LimitBristle(*joint.own_bristle(), kInertia, kStep)
-                                : MakeBristle(kInertia, kStep);
+                                : ScaleBristle(UnitBristle(kStep), kInertia);
 
     // a wild motion: white acceleration, pulled back to rest
     FrictionState state;
