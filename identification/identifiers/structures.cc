@@ -16,7 +16,7 @@
 #include "identification/lagged/seen_lag.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/expected_start.h"
-#include "models/friction/steady_laws.h"
+#include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

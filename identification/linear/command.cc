@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "models/friction/steady_laws.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "models/foundation/serialize.h"
-#include "models/friction/steady_laws.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 

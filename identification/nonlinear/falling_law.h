@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "models/foundation/serialize.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "models/friction/intervals.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {

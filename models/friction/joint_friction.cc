@@ -6,7 +6,7 @@
 #include <span>
 
 #include "models/friction/bristle.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
 

@@ -1,9 +1,8 @@
-#include "models/friction/prepared_axis.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "models/friction/prepared_map.h"
 #include "models/friction/row_table.h"
 
 namespace warmjoint {

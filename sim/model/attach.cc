@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -136,14 +137,11 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
         const mjsActuator& servo = *mjs_asActuator(element);
         const bool follows = servo.biastype == mjBIAS_AFFINE && servo.biasprm[2] > 0;
         if (!follows || mjs_getString(servo.target) != joint) continue;
-        servos.push_back(mjs_getString(mjs_getName(element)));
+        servos.push_back(NameOf(element));
       }
     }
   }
-  if (!servos.empty()) {
-    notices.push_back(fmt::format("{}: --armature changes their kv, which follows from dampratio",
-                                  fmt::join(servos, ", ")));
-  }
+  Note(servos, "--armature changes their kv, which follows from dampratio", notices);
   if (options.integrator) spec.option.integrator = *options.integrator;
   if (!options.timestep) return;
   if (!(std::isfinite(*options.timestep) && *options.timestep > 0)) {
@@ -156,9 +154,9 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
 /// that drive them, cut to what these had: a joint's limit clips the sum of its actuators, and
 /// would clip a friction that is one of them. A limit R of the joint is R / gear of an actuator.
 /// Of a joint that no actuator drives by itself the limit is taken away, and nothing added.
-/// Returns what was done, one sentence each.
-std::vector<std::string> MoveEffortLimits(mjSpec& spec, const std::vector<std::string>& joints,
-                                          const Place& place) {
+/// Notes what was done, one sentence each.
+void MoveEffortLimits(mjSpec& spec, const std::vector<std::string>& joints, const Place& place,
+                      std::vector<std::string>& notices) {
   std::vector<std::string> moved, shared, dropped;
   // motors take the joint's limit over, so that it clips them and not friction
   for (const std::string& name : joints) {
@@ -173,7 +171,6 @@ std::vector<std::string> MoveEffortLimits(mjSpec& spec, const std::vector<std::s
     }
     joint->actfrclimited = mjLIMITED_FALSE;
   }
-  std::vector<std::string> notices;
   Note(moved, "the joint's effort limit now limits its actuator alone; it would clip friction too",
        notices);
   Note(shared,
@@ -184,32 +181,23 @@ std::vector<std::string> MoveEffortLimits(mjSpec& spec, const std::vector<std::s
        "the joint's effort limit was taken away, since it would clip friction and no actuator "
        "drives the joint; give this range to the actuator that you add, as its forcerange",
        notices);
-  return notices;
 }
 
-/// Takes away what the friction replaces and what would clip it. Returns notices.
-std::vector<std::string> MakeRoom(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                                  FrictionForm form, const Place& place) {
+/// Takes away what the friction replaces and what would clip it.
+void MakeRoom(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, FrictionForm form,
+              const Place& place, std::vector<std::string>& notices) {
   // the joints' own damping and dry friction
-  std::vector<std::string> joints, replaced, notices;
+  std::vector<std::string> joints, replaced;
   for (const FrictionForJoint& friction : frictions) {
     joints.push_back(friction.joint);
     if (ClearOwnFriction(*FindJoint(spec, friction.joint, place))) {
       replaced.push_back(friction.joint);
     }
   }
-  if (!replaced.empty()) {
-    notices.push_back(fmt::format(
-        "{}: damping and frictionloss of the model were removed; the friction replaces them",
-        fmt::join(replaced, ", ")));
-  }
-
+  Note(replaced, "damping and frictionloss of the model were removed; the friction replaces them",
+       notices);
   // passive forces are not clipped by limits on actuators
-  if (form == FrictionForm::passive) return notices;
-  for (std::string& notice : MoveEffortLimits(spec, joints, place)) {
-    notices.push_back(std::move(notice));
-  }
-  return notices;
+  if (form == FrictionForm::actuator) MoveEffortLimits(spec, joints, place, notices);
 }
 
 /// Refuses joints on which friction acts before any is attached.
@@ -239,18 +227,14 @@ Attached AttachFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frict
 
   // what changes of the model besides friction
   Change(spec, options, place, attached.notices);
-  for (std::string& notice : MakeRoom(spec, each, options.form, place)) {
-    attached.notices.push_back(std::move(notice));
-  }
+  MakeRoom(spec, each, options.form, place, attached.notices);
 
   // what cannot carry its friction is told with its remedy before the plugin sees it
   CheckJoints(spec, each, place);
   const ModelPtr before = CompileModel(spec, place, files);
   RefuseSecond(before.get(), each, place);
   RefuseLightJoints(before.get(), each, place);
-  for (std::string& notice : NoticesOfHolding(before.get(), each)) {
-    attached.notices.push_back(std::move(notice));
-  }
+  std::ranges::move(NoticesOfHolding(before.get(), each), std::back_inserter(attached.notices));
   // an instance that acts by itself has its joints in the order of the model
   if (options.form == FrictionForm::passive) {
     std::ranges::sort(each, {}, [&](const FrictionForJoint& friction) {

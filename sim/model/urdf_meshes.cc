@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file:";
 
-std::string NameOf(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
-
 bool MujocoReads(const fs::path& file) {
   const std::string extension = Lowercase(file.extension().native());
   return extension == ".stl" || extension == ".obj" || extension == ".msh";

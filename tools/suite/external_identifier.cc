@@ -16,7 +16,7 @@
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/node.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"
 #include "models/recording/measurements.h"

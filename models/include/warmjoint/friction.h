@@ -99,7 +99,7 @@ struct Law {
   PreSliding pre_sliding;
 };
 
-/// All laws, in the order of law_list.h.
+/// All laws, in the order of their list (models/friction/laws.h).
 const std::vector<Law>& Laws();
 
 /// The law of that name, or nullptr.

@@ -1,5 +1,5 @@
 // Robots as URDF.
-#include "models/robots/robot_list.h"
+#include "models/robots/robot_folder.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
-#include "models/friction/steady_laws.h"
+#include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 #include "tests/support/vectors.h"
 

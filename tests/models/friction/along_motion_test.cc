@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "models/friction/friction_json.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "models/friction/joint_friction.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {

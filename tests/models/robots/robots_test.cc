@@ -6,7 +6,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
-#include "models/robots/robot_list.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/refusal.h"
 
