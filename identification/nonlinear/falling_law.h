@@ -47,15 +47,6 @@ constexpr int LevelsOf() {
   return levels;
 }
 
-/// f.operator()<L>() of the law of a list that has that name; it must have one.
-template <typename First, typename... Rest, typename F>
-auto ForLawNamed(LawList<First, Rest...>, std::string_view name, const F& f) {
-  if constexpr (sizeof...(Rest) > 0) {
-    if (name != First::name) return ForLawNamed(LawList<Rest...>{}, name, f);
-  }
-  return f.template operator()<First>();
-}
-
 /// name: of one of the laws above.
 const FallingLaw& FindFallingLaw(std::string_view name);
 

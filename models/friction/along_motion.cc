@@ -195,21 +195,14 @@ Prediction Run(const Friction& friction, const JointFriction& joint, const Joint
   return result;
 }
 
-template <typename... L>
-Prediction RunLaw(LawList<L...>, const Friction& friction, const JointFriction& joint,
-                  const JointCourse& course, const CourseStart& start) {
-  Prediction result;
-  ((friction.law == L::name ? void(result = Run<L>(friction, joint, course, start)) : void()), ...);
-  return result;
-}
-
 }  // namespace
 
 AlongMotion::AlongMotion(const Friction& friction) : friction_(friction), joint_(friction) {}
 
 Prediction AlongMotion::Predict(const JointCourse& course, const CourseStart& start) const {
   assert(FitsTogether(course));
-  return RunLaw(AllLaws{}, friction_, joint_, course, start);
+  return ForLawNamed(AllLaws{}, friction_.law,
+                     [&]<typename L>() { return Run<L>(friction_, joint_, course, start); });
 }
 
 }  // namespace warmjoint

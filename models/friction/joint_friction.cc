@@ -20,21 +20,6 @@ double BristleLoss(const Bristle& bristle, double load, const BristleStep& step,
   return std::max(0.0, step.force * v - stored);
 }
 
-/// The bristle that a law brings in its header; nothing where it has none.
-template <typename... L>
-std::optional<Bristle> BristleOfLaw(LawList<L...>, std::string_view name, const double* p) {
-  std::optional<Bristle> bristle;
-  const auto take = [&]<typename One>(const One*) {
-    if constexpr (One::pre_sliding == PreSliding::bristle) {
-      if (name != One::name) return;
-      const LawBristle<double> own = One::BristleOf(p);
-      bristle = Bristle{own.stiffness, own.damping};
-    }
-  };
-  (take(static_cast<const L*>(nullptr)), ...);
-  return bristle;
-}
-
 /// A number beside the law's own that may be set where the friction has it.
 struct OtherNumber {
   std::string_view prefix;  // before the name of its table
@@ -100,7 +85,13 @@ JointFriction::JointFriction(const Friction& friction)
     if (OtherNumbers()[i].is_given(friction)) others_.push_back(i);
   }
   friction_.maps.clear();
-  ChooseLevel(AllLaws{});
+  // the levels of the law by this name, compiled for it
+  ForLawNamed(AllLaws{}, law_.name, [this]<typename L>() {
+    same_at_any_speed_ = LawAtAnySpeed<L>;
+    level_ = [](bool sliding, int side, double speed, const double* p) {
+      return sliding ? L::Level(side, speed, p) : HoldingLevelOf<L>(side, speed, p);
+    };
+  });
   Derive();
 }
 
@@ -116,7 +107,13 @@ void JointFriction::Derive() {
       sliding_[side > 0] = level_(true, side, 0, values_.data());
     }
   }
-  own_bristle_ = BristleOfLaw(AllLaws{}, law_.name, values_.data());
+  // the bristle that a law brings
+  ForLawNamed(AllLaws{}, law_.name, [this]<typename L>() {
+    if constexpr (LawWithBristle<L>) {
+      const LawBristle<double> own = L::BristleOf(values_.data());
+      own_bristle_ = Bristle{own.stiffness, own.damping};
+    }
+  });
 }
 
 std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
@@ -171,19 +168,6 @@ bool JointFriction::SetNumber(size_t place, double value) {
   load_gain_ = friction_.load_gain;
   if (h_ > 0) heat_ = DiscretiseHeat(friction_, h_);
   return true;
-}
-
-template <typename... L>
-void JointFriction::ChooseLevel(LawList<L...>) {
-  const auto choose = [&]<typename One>(const One*) {
-    // the levels of the law by this name, compiled for it
-    if (law_.name != One::name) return;
-    same_at_any_speed_ = LawAtAnySpeed<One>;
-    level_ = [](bool sliding, int side, double speed, const double* p) {
-      return sliding ? One::Level(side, speed, p) : HoldingLevelOf<One>(side, speed, p);
-    };
-  };
-  (choose(static_cast<const L*>(nullptr)), ...);
 }
 
 void JointFriction::SetTimestep(double h) {

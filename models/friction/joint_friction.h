@@ -17,9 +17,6 @@
 
 namespace warmjoint {
 
-template <typename... L>
-struct LawList;
-
 /// One member of the state: its name for people, and where it is.
 struct StateMember {
   std::string_view name;
@@ -135,8 +132,6 @@ class JointFriction {
   FrictionStep Complete(const FrictionState& state, const JointMotion& motion,
                         const BristleStep& bristle, double loss) const;
   void TakeDeficit(const FrictionState& state, const JointMotion& motion, FrictionStep& step) const;
-  template <typename... L>
-  void ChooseLevel(LawList<L...>);
   void Derive();
   /// What load and maps add to the level.
   double TermsAt(int side, double speed, const JointPlace& place) const {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
@@ -306,5 +307,14 @@ struct LawList {
 /// All laws: a new one is a struct and its name here.
 using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, AsymmetricStribeck,
                         Dahl, LuGre, AsymmetricLuGre>;
+
+/// f.operator()<L>() of the law of a list that has that name; it must have one.
+template <typename First, typename... Rest, typename F>
+auto ForLawNamed(LawList<First, Rest...>, std::string_view name, const F& f) {
+  if constexpr (sizeof...(Rest) > 0) {
+    if (name != First::name) return ForLawNamed(LawList<Rest...>{}, name, f);
+  }
+  return f.template operator()<First>();
+}
 
 }  // namespace warmjoint
