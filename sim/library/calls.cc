@@ -21,7 +21,6 @@
 #include "models/friction/friction_json.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/bound_joints.h"
-#include "sim/plugin/friction_reports.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
 
@@ -105,7 +104,7 @@ Tree Describe(const mjModel* m) {
   Tree joints = Tree::array();
   for (int instance = 0; instance < m->nplugin; ++instance) {
     if (m->plugin[instance] != plugin) continue;
-    const BoundJoints bound(m, instance, kFrictionReports);
+    const BoundJoints bound(m, instance);
     const std::string name = NameIn(m, mjOBJ_PLUGIN, instance);
     const std::vector<ActingJoint> acting = FindJoints(m, instance);
     for (size_t i = 0; i < acting.size(); ++i) {

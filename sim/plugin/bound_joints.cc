@@ -45,24 +45,24 @@ void BindActuator(const mjModel* m, int actuator, const Place& place, BoundJoint
 
 }  // namespace
 
-BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
+BoundJoints::BoundJoints(const mjModel* m, int instance)
     : instance_(instance),
       model_(m),
       text_(AttributeText(m, instance)),
       signature_(m->signature),
       passive_(!DrivenByActuators(m, instance)) {
   // what moves the joints, what reads them, and numbers that a user may change
-  BindJoints(m, states);
+  BindJoints(m);
   ReadDrives(m);
   BindSensors(m);
   BindNumbers(m);
 }
 
-void BoundJoints::BindJoints(const mjModel* m, int states) {
+void BoundJoints::BindJoints(const mjModel* m) {
   // in the order of actuators, or of joints in the passive form, whose states stand behind those of the reports
   const std::string name = InstanceName(m, instance_);
   const OtherInstances others = FindOthers(m, instance_);
-  int state = m->plugin_stateadr[instance_] + states;
+  int state = m->plugin_stateadr[instance_] + kFrictionReports;
   for (const auto& [joint, actuator, prepared] : FindJoints(m, instance_)) {
     // refuse what the engine would accept and friction cannot
     const Place place{passive_ ? fmt::format("{}: {}", name, JointName(m, joint))

@@ -13,7 +13,6 @@
 
 #include "sim/plugin/attributes.h"
 #include "sim/plugin/friction_instance.h"
-#include "sim/plugin/friction_reports.h"
 #include "sim/plugin/plugin_instances.h"
 
 namespace warmjoint {

@@ -265,6 +265,19 @@ TEST(JointFriction, HoldsWithinTheIntervalThatAMapShifts) {
   EXPECT_NEAR(Step(joint, {-1.1}, 0).force, -1, 1e-15);
 }
 
+TEST(JointFriction, SetsANumberThatWasSetTo0Again) {
+  Friction friction = Asymmetric(0, 3, 3);
+  friction.load_gain = 0.2;
+  JointFriction joint = Make(friction);
+  const auto place = joint.FindNumber("load_gain");
+  ASSERT_TRUE(place);
+  for (const double gain : {0.0, 0.1}) {
+    EXPECT_TRUE(joint.SetNumber(*place, gain));
+    EXPECT_EQ(joint.Number(*place), gain);
+    EXPECT_EQ(joint.FindNumber("load_gain"), place);
+  }
+}
+
 TEST(JointFriction, StatesAreThoseThatTheLawNeeds) {
   EXPECT_EQ(StateOf(Asymmetric(1, 1, 1)).size(), 2);
   ASSERT_EQ(StateOf(Sticky()).size(), 3);
