@@ -1,6 +1,5 @@
 #include "models/friction/along_motion.h"
 
-#include <cassert>
 #include <cmath>
 
 #include "models/friction/intervals.h"
@@ -133,18 +132,6 @@ class HeatAlong {
   std::vector<Heat> heats_;
 };
 
-bool IsColumn(const Eigen::VectorXd& column, Index n) {
-  return column.size() == 0 || column.size() == n;
-}
-
-[[maybe_unused]] bool FitsTogether(const JointCourse& c) {
-  const Index n = c.velocity.size();
-  return c.time.size() == n && IsColumn(c.position, n) && IsColumn(c.motor_position, n) &&
-         IsColumn(c.load, n) && IsColumn(c.ambient_rise, n) && IsColumn(c.level, n) &&
-         IsColumn(c.torque, n) && IsColumn(c.mean_speed, n) &&
-         c.loss_velocity.size() == c.mean_speed.size();
-}
-
 JointPlace PlaceAt(const JointCourse& course, Index i, double energy) {
   JointPlace place{At(course.position, i), energy, At(course.load, i)};
   if (course.motor_position.size() > 0) place.motor_position = course.motor_position[i];
@@ -200,7 +187,6 @@ Prediction Run(const Friction& friction, const JointFriction& joint, const Joint
 AlongMotion::AlongMotion(const Friction& friction) : friction_(friction), joint_(friction) {}
 
 Prediction AlongMotion::Predict(const JointCourse& course, const CourseStart& start) const {
-  assert(FitsTogether(course));
   return ForLawNamed(AllLaws{}, friction_.law,
                      [&]<typename L>() { return Run<L>(friction_, joint_, course, start); });
 }

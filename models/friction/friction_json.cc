@@ -99,9 +99,7 @@ void CheckHeat(const Friction& friction, const Place& place) {
   if (friction.level_per_temperature != 0) needs("level_per_temperature");
   if (friction.viscous_per_energy != 0) needs("viscous_per_energy");
   for (const FrictionMap& map : friction.maps) {
-    for (const MapAxis& axis : map.axes) {
-      if (axis.quantity == MapQuantity::energy) needs("a map over energy");
-    }
+    if (FindAxis(map, MapQuantity::energy)) needs("a map over energy");
   }
 }
 
