@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "identification/fit_parameters.h"
-#include "models/friction/law.h"
+#include "models/friction/parameter_rows.h"
 
 namespace warmjoint {
 

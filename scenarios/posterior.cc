@@ -7,7 +7,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace {

@@ -3,7 +3,7 @@
 #include "identification/fit_data.h"
 #include "identification/physical_bounds.h"
 #include "models/foundation/low_pass.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 

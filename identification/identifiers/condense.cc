@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "models/recording/measurements.h"
-#include "models/recording/sampling.h"
 
 namespace warmjoint {
 namespace {

@@ -14,8 +14,7 @@
 #include "identification/identifiers/structures.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/physical_bounds.h"
-#include "models/friction/coulomb.h"
-#include "models/recording/course_of.h"
+#include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

@@ -27,7 +27,7 @@
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/thermal_fit.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

@@ -16,10 +16,7 @@
 #include "identification/lagged/seen_lag.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/expected_start.h"
-#include "models/friction/asymmetric.h"
-#include "models/friction/asymmetric_stribeck.h"
-#include "models/friction/coulomb.h"
-#include "models/friction/viscous_coulomb.h"
+#include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

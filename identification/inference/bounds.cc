@@ -10,7 +10,7 @@
 #include "identification/linear/command.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/parameter_rows.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

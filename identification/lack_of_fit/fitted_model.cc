@@ -12,7 +12,7 @@
 #include "identification/warming/estimated_start.h"
 #include "identification/warming/gaps.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

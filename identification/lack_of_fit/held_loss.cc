@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

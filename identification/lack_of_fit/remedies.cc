@@ -12,7 +12,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/expected_start.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "models/friction/asymmetric.h"
-#include "models/friction/asymmetric_stribeck.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "models/foundation/serialize.h"
-#include "models/friction/viscous_coulomb.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 

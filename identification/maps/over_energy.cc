@@ -8,7 +8,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/physical_bounds.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

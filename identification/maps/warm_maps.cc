@@ -22,7 +22,7 @@
 #include "identification/warming/fit_law.h"
 #include "identification/warming/law_problem.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "models/foundation/serialize.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 
@@ -45,15 +45,6 @@ constexpr int LevelsOf() {
   int levels = 0;
   while (L::parameters[static_cast<size_t>(levels)].name != kStribeckVelocityRow.name) ++levels;
   return levels;
-}
-
-/// f.operator()<L>() of the law of a list that has that name; it must have one.
-template <typename First, typename... Rest, typename F>
-auto ForLawNamed(LawList<First, Rest...>, std::string_view name, const F& f) {
-  if constexpr (sizeof...(Rest) > 0) {
-    if (name != First::name) return ForLawNamed(LawList<Rest...>{}, name, f);
-  }
-  return f.template operator()<First>();
 }
 
 /// name: of one of the laws above.

@@ -9,7 +9,6 @@
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/velocity_scale.h"
 #include "models/recording/measurements.h"
-#include "models/recording/sampling.h"
 
 namespace warmjoint {
 namespace {

@@ -8,7 +8,7 @@
 #include "identification/preparation/position_noise.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

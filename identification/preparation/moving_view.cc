@@ -8,7 +8,7 @@
 #include "identification/preparation/local_motion.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "models/foundation/robust_noise.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

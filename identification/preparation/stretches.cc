@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "identification/preparation/position_noise.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

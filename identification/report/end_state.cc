@@ -10,7 +10,7 @@
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "models/friction/thermal.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace warmjoint {
 
-/// Gaps (models/recording/sampling.h) in order of time; of more than 50 the longest. A joint that
+/// Gaps (GapsOf of models/recording/measurements.h) in order of time; of more than 50 the longest. A joint that
 /// is at rest at one place on both sides of a gap rested in it, and a further recording is none.
 std::vector<LogGap> FindGaps(const Measurements& measurements);
 

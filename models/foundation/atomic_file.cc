@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/output_failed.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;

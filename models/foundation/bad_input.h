@@ -1,4 +1,4 @@
-// Refusal of input that cannot be used: the one exception that users meet.
+// Refusal of input that cannot be used, and of output that cannot be written: the exceptions that users meet.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,5 +23,8 @@ template <typename... Args>
   if (!where.empty()) where += ": ";
   throw BadInput(where + fmt::format(format, std::forward<Args>(args)...));
 }
+
+/// Throws OutputFailed: "target: output could not be written: ...". error: an errno.
+[[noreturn]] void FailOutput(const std::string& target, int error);
 
 }  // namespace warmjoint

@@ -1,4 +1,4 @@
-// Text from outside: its characters of UTF-8, and what messages and terminals show of it.
+// Text from outside: its characters of UTF-8, what messages and terminals show of it, and which name a mistyped one means.
 #pragma once
 
 #include <cstddef>
@@ -39,5 +39,24 @@ std::string Excerpt(std::string_view text, std::size_t longest = kLongestValue);
 
 /// "a, b, c": excerpts of all, or of the first 24 and how many more there are.
 std::string ExcerptOfList(const std::vector<std::string>& texts);
+
+/// The text without blanks and line ends around it.
+std::string_view Trimmed(std::string_view text);
+
+/// The text in small letters. ASCII alone: other characters stay as they are.
+std::string Lowercase(std::string_view text);
+
+/// Whether two texts differ in nothing but the case of their letters in ASCII.
+bool EqualIgnoringCase(std::string_view a, std::string_view b);
+
+/// Number of single-character insertions, deletions, substitutions and swaps of neighbours
+/// between two words (optimal string alignment distance).
+int EditDistance(std::string_view a, std::string_view b);
+
+/// A sentence that ends a refusal of `name`: "; did you mean 'x'? Known: a, b, c", where x is the
+/// nearest of `known`: its beginning or its end of three letters or more, or a slip of the fingers away (distance
+/// of at most a third of the length). Without such a name: "; known: a, b, c". A list that is long is left out
+/// beside a nearest name, and shortened without one.
+std::string Suggestion(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace warmjoint

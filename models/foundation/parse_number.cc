@@ -5,15 +5,14 @@
 #include <cstdlib>
 #include <string>
 
+#include "models/foundation/excerpt.h"
+
 namespace warmjoint {
 namespace {
 
-std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  text = text.substr(first, text.find_last_not_of(blanks) - first + 1);
-
+/// What from_chars reads of a text.
+std::string_view Readable(std::string_view text) {
+  text = Trimmed(text);
   // from_chars knows no plus sign
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   return text;
@@ -21,7 +20,7 @@ std::string_view Trimmed(std::string_view text) {
 
 template <typename T>
 std::optional<T> Parse(std::string_view text) {
-  const std::string_view trimmed = Trimmed(text);
+  const std::string_view trimmed = Readable(text);
   const char* end = trimmed.data() + trimmed.size();
   T value{};
   const auto [rest, error] = std::from_chars(trimmed.data(), end, value);
@@ -36,7 +35,7 @@ std::optional<double> ParseNumber(std::string_view text) {
   if (const auto number = Parse<double>(text)) return number;
 
   // from_chars tells overflow from underflow by nothing, strtod by its value
-  const std::string_view trimmed = Trimmed(text);
+  const std::string_view trimmed = Readable(text);
   double ignored = 0;
   const char* end = trimmed.data() + trimmed.size();
   const auto [rest, error] = std::from_chars(trimmed.data(), end, ignored);

@@ -16,6 +16,18 @@ double QuantileInPlace(Eigen::VectorXd& x, double quantile) {
   return *value;
 }
 
+double Quantile(const std::vector<double>& sorted, double share) {
+  // between two neighbours in proportion; no difference of infinities is taken
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double position = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const double beyond = position - static_cast<double>(below);
+  const double lower = sorted[below];
+  if (beyond == 0) return lower;
+  const double upper = sorted[below + 1];
+  return lower == upper ? lower : lower + beyond * (upper - lower);  // may be infinite
+}
+
 double MedianStep(const Eigen::VectorXd& time) {
   const Eigen::Index n = time.size() - 1;
   Eigen::VectorXd steps = time.tail(n) - time.head(n);

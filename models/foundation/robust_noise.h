@@ -1,7 +1,8 @@
-// Noise and resolution of a signal, read from the signal itself.
+// Noise and resolution of a signal, read from the signal itself, and quantiles of samples.
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace warmjoint {
 
@@ -27,6 +28,10 @@ double Resolution(const Eigen::VectorXd& x);
 /// The value below which a share `quantile` of x lies; x is reordered. x: [N], N at least 1;
 /// quantile: 0 to 1.
 double QuantileInPlace(Eigen::VectorXd& x, double quantile);
+
+/// The quantile of `sorted` (ascending) at `share` in [0, 1], linear between neighbours; NaN where
+/// it is empty.
+double Quantile(const std::vector<double>& sorted, double share);
 
 /// Median of x, which is reordered. x: [N], N at least 1.
 inline double MedianInPlace(Eigen::VectorXd& x) { return QuantileInPlace(x, 0.5); }

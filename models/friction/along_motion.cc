@@ -1,10 +1,9 @@
 #include "models/friction/along_motion.h"
 
-#include <cassert>
 #include <cmath>
 
 #include "models/friction/intervals.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 namespace {
@@ -53,8 +52,8 @@ class LawAlong {
   const JointCourse& course_;
 };
 
-/// A law that follows the motion with hidden state of its own.
-template <LawWithCourse L>
+/// A law whose own bristle follows the motion.
+template <LawWithBristle L>
 class LawAlong<L> {
  public:
   LawAlong(const JointFriction& joint, const JointCourse& course)
@@ -106,7 +105,7 @@ class LawAlong<L> {
   const JointFriction& joint_;
   const JointCourse& course_;
   MotionPieces pieces_;
-  typename L::template Course<double> state_;
+  BristleCourse<L> state_;
   JointPlace before_;  // at the sample before
 };
 
@@ -132,18 +131,6 @@ class HeatAlong {
   Intervals intervals_;
   std::vector<Heat> heats_;
 };
-
-bool IsColumn(const Eigen::VectorXd& column, Index n) {
-  return column.size() == 0 || column.size() == n;
-}
-
-[[maybe_unused]] bool FitsTogether(const JointCourse& c) {
-  const Index n = c.velocity.size();
-  return c.time.size() == n && IsColumn(c.position, n) && IsColumn(c.motor_position, n) &&
-         IsColumn(c.load, n) && IsColumn(c.ambient_rise, n) && IsColumn(c.level, n) &&
-         IsColumn(c.torque, n) && IsColumn(c.mean_speed, n) &&
-         c.loss_velocity.size() == c.mean_speed.size();
-}
 
 JointPlace PlaceAt(const JointCourse& course, Index i, double energy) {
   JointPlace place{At(course.position, i), energy, At(course.load, i)};
@@ -195,21 +182,13 @@ Prediction Run(const Friction& friction, const JointFriction& joint, const Joint
   return result;
 }
 
-template <typename... L>
-Prediction RunLaw(LawList<L...>, const Friction& friction, const JointFriction& joint,
-                  const JointCourse& course, const CourseStart& start) {
-  Prediction result;
-  ((friction.law == L::name ? void(result = Run<L>(friction, joint, course, start)) : void()), ...);
-  return result;
-}
-
 }  // namespace
 
 AlongMotion::AlongMotion(const Friction& friction) : friction_(friction), joint_(friction) {}
 
 Prediction AlongMotion::Predict(const JointCourse& course, const CourseStart& start) const {
-  assert(FitsTogether(course));
-  return RunLaw(AllLaws{}, friction_, joint_, course, start);
+  return ForLawNamed(AllLaws{}, friction_.law,
+                     [&]<typename L>() { return Run<L>(friction_, joint_, course, start); });
 }
 
 }  // namespace warmjoint

@@ -11,8 +11,8 @@ namespace warmjoint {
 /// steadily wherever the joint moves, by JointFriction::SlidingForce,
 ///   F = Fn(v) + b E v + sign(v) (E + A + c |load|) + maps                           (20)
 ///   W = |F v|, or the mean speed times F at the loss velocity where both are given  (19)
-/// and carry at rest what the motion does not tell, for which F is 0. Others bring a Course in
-/// their own header (bristle_course.h) that follows the motion, and lose what they do not store.
+/// and carry at rest what the motion does not tell, for which F is 0. The bristle of others follows
+/// the motion (BristleCourse), and they lose what it does not store.
 /// E1 and E2 take the exact step of Heat, Eq. (22), over each interval.
 class AlongMotion {
  public:

@@ -1,7 +1,9 @@
-// The elasto-plastic bristle: friction that holds a joint at rest and slides at its level.
+// Bristles, step by step: the elasto-plastic one, which holds a joint at rest and slides at its level, and that of Dahl and
+// LuGre, a spring that relaxes towards its level with travel.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/friction/sign.h"
 
@@ -27,11 +29,6 @@ inline Bristle UnitBristle(double h) { return {kBristleStiffness / (h * h), kBri
 /// `unit` for a joint with effective inertia M, kg.m^2 or kg.
 inline Bristle ScaleBristle(const Bristle& unit, double inertia) {
   return {inertia * unit.stiffness, inertia * unit.damping};
-}
-
-/// The bristle of a joint with effective inertia M (kg.m^2 or kg) at step h (s).
-inline Bristle MakeBristle(double inertia, double h) {
-  return ScaleBristle(UnitBristle(h), inertia);
 }
 
 struct BristleStep {
@@ -64,6 +61,39 @@ BristleStep StepBristle(const Bristle& bristle, double load, double v, double h,
                            ? side * std::min(side * damped, limit)
                            : -side * std::min(-side * damped, std::max(0.0, level(-side)));
   return {force, next, yields && side * v > 0};
+}
+
+/// A bristle weakened so far that an explicit step carries it: its stiffness and damping
+/// together are at most those of UnitBristle. inertia: M, kg.m^2 or kg; h: s.
+inline Bristle LimitBristle(const Bristle& bristle, double inertia, double h) {
+  const double asked = h * (bristle.stiffness * h + 2 * bristle.damping);
+  const double carried = (kBristleStiffness + 2 * kBristleDamping) * inertia;
+  const double share = asked > carried ? carried / asked : 1;
+  return {share * bristle.stiffness, share * bristle.damping};
+}
+
+/// One step of ds/dt = sigma0 (v - |v| s / g), f = s + (sigma1 / sigma0) ds/dt, exact for a
+/// velocity that is constant during the step:
+///   s' = g sign(v) + (s - g sign(v)) exp(-sigma0 h |v| / g),  f = s' + sigma1 (s' - s) / (sigma0
+///   h)
+/// f takes the end of the step, which makes it passive: f v h >= (s'^2 - s^2) / (2 sigma0). Where
+/// the level falls below the load, LuGre's damper would push; f is then not less than 0.
+/// load: s, N.m or N; v: rad/s or m/s; h: s; level(side): g on each side of motion, N.m or N, a
+/// level below 0 counts as 0.
+template <typename Level>
+BristleStep StepLugreBristle(const Bristle& bristle, double load, double v, double h,
+                             const Level& level) {
+  if (v == 0) return {load, load, false};
+  const int side = Sign(v);
+  const double target = side * std::max(0.0, level(side));
+  const double travel = bristle.stiffness * h * v;  // N.m or N, of a bristle that does not yield
+  const double change =
+      target == 0 ? -load : (target - load) * -std::expm1(-std::abs(travel / target));
+  const double next = load + change;
+
+  double force = next + bristle.damping / (bristle.stiffness * h) * change;
+  if (change * v < 0) force = side * std::max(0.0, side * force);
+  return {force, next, side * next > 0};
 }
 
 }  // namespace warmjoint

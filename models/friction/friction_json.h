@@ -1,4 +1,4 @@
-// Friction files: one joint's friction as JSON.
+// One joint's friction as JSON, and whether it makes sense.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"
 
 namespace warmjoint {
@@ -26,5 +27,15 @@ std::vector<FrictionMap> MapsFrom(const Node& node);
 
 /// Throws BadInput where a friction is in amperes, which no simulator can use.
 void RefuseAmperes(const Friction& friction, const Place& place);
+
+/// Refuses, from `place`, sizes that do not fit, widths or periods that are not positive, centres
+/// that do not ascend, an axis with its sides apart that has a centre at 0, numbers not finite.
+void CheckMap(const FrictionMap& map, const Place& place);
+
+/// The same as CheckFriction of the public header, refusing from `place`.
+void CheckFriction(const Friction& friction, const Place& place);
+
+/// With what was left out at its default (FillDefaults), then checked.
+Friction Completed(Friction friction, const Place& place);
 
 }  // namespace warmjoint

@@ -6,7 +6,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/friction/along_motion.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <span>
 
-#include "models/friction/law.h"
-#include "models/friction/law_list.h"
-#include "models/friction/lugre_bristle.h"
+#include "models/friction/bristle.h"
+#include "models/friction/laws.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
@@ -20,30 +20,12 @@ double BristleLoss(const Bristle& bristle, double load, const BristleStep& step,
   return std::max(0.0, step.force * v - stored);
 }
 
-/// The bristle that a law brings in its header; nothing where it has none.
-template <typename... L>
-std::optional<Bristle> BristleOfLaw(LawList<L...>, std::string_view name, const double* p) {
-  std::optional<Bristle> bristle;
-  const auto take = [&]<typename One>(const One*) {
-    if constexpr (One::pre_sliding == PreSliding::bristle) {
-      if (name != One::name) return;
-      const LawBristle<double> own = One::BristleOf(p);
-      bristle = Bristle{own.stiffness, own.damping};
-    }
-  };
-  (take(static_cast<const L*>(nullptr)), ...);
-  return bristle;
-}
-
-/// A number beside the law's own that may be set, and where it is; null where it is not given.
+/// A number beside the law's own that may be set where the friction has it.
 struct OtherNumber {
   std::string_view prefix;  // before the name of its table
   const ParameterInfo& info;
-  double* (*find)(Friction& friction);
-
-  bool IsCalled(std::string_view name) const {
-    return name.starts_with(prefix) && name.substr(prefix.size()) == info.name;
-  }
+  bool (*is_given)(const Friction& friction);
+  double& (*in)(Friction& friction);
 };
 
 /// The row of FrictionOptions for a member.
@@ -52,27 +34,24 @@ const ParameterInfo& InfoOf(double Friction::*member) {
 }
 
 std::span<const OtherNumber> OtherNumbers() {
-  using Friction = Friction;
-  // numbers that a run may change, where the friction has them
+  using F = Friction;
+  constexpr auto& stage = Thermal::parameters;
+  constexpr auto warms = [](const F& f) { return f.thermal.has_value(); };
+  constexpr auto warms_twice = [](const F& f) { return f.second_thermal.has_value(); };
   static const std::array numbers{
-      OtherNumber{"", Thermal::parameters[0],
-                  [](Friction& f) { return f.thermal ? &f.thermal->gain : nullptr; }},
-      OtherNumber{"", Thermal::parameters[1],
-                  [](Friction& f) { return f.thermal ? &f.thermal->time_constant : nullptr; }},
-      OtherNumber{kSecondStage, Thermal::parameters[0],
-                  [](Friction& f) { return f.second_thermal ? &f.second_thermal->gain : nullptr; }},
-      OtherNumber{kSecondStage, Thermal::parameters[1],
-                  [](Friction& f) {
-                    return f.second_thermal ? &f.second_thermal->time_constant : nullptr;
-                  }},
-      OtherNumber{"", InfoOf(&Friction::level_per_temperature),
-                  [](Friction& f) {
-                    return f.level_per_temperature != 0 ? &f.level_per_temperature : nullptr;
-                  }},
-      OtherNumber{"", InfoOf(&Friction::load_gain),
-                  [](Friction& f) { return f.load_gain != 0 ? &f.load_gain : nullptr; }},
-      OtherNumber{"", InfoOf(&Friction::viscous_per_energy),
-                  [](Friction& f) { return f.thermal ? &f.viscous_per_energy : nullptr; }},
+      OtherNumber{"", stage[0], warms, [](F& f) -> double& { return f.thermal->gain; }},
+      OtherNumber{"", stage[1], warms, [](F& f) -> double& { return f.thermal->time_constant; }},
+      OtherNumber{kSecondStage, stage[0], warms_twice,
+                  [](F& f) -> double& { return f.second_thermal->gain; }},
+      OtherNumber{kSecondStage, stage[1], warms_twice,
+                  [](F& f) -> double& { return f.second_thermal->time_constant; }},
+      OtherNumber{"", InfoOf(&F::level_per_temperature),
+                  [](const F& f) { return f.level_per_temperature != 0; },
+                  [](F& f) -> double& { return f.level_per_temperature; }},
+      OtherNumber{"", InfoOf(&F::load_gain), [](const F& f) { return f.load_gain != 0; },
+                  [](F& f) -> double& { return f.load_gain; }},
+      OtherNumber{"", InfoOf(&F::viscous_per_energy), warms,
+                  [](F& f) -> double& { return f.viscous_per_energy; }},
   };
   return numbers;
 }
@@ -102,8 +81,17 @@ JointFriction::JointFriction(const Friction& friction)
       state_(StateOf(friction)) {
   second_stage_ = friction.second_thermal.has_value();
   slips_ = law_.pre_sliding == PreSliding::breakaway;
+  for (size_t i = 0; i < OtherNumbers().size(); ++i) {
+    if (OtherNumbers()[i].is_given(friction)) others_.push_back(i);
+  }
   friction_.maps.clear();
-  ChooseLevel(AllLaws{});
+  // the levels of the law by this name, compiled for it
+  ForLawNamed(AllLaws{}, law_.name, [this]<typename L>() {
+    same_at_any_speed_ = LawAtAnySpeed<L>;
+    level_ = [](bool sliding, int side, double speed, const double* p) {
+      return sliding ? L::Level(side, speed, p) : HoldingLevelOf<L>(side, speed, p);
+    };
+  });
   Derive();
 }
 
@@ -119,29 +107,27 @@ void JointFriction::Derive() {
       sliding_[side > 0] = level_(true, side, 0, values_.data());
     }
   }
-  own_bristle_ = BristleOfLaw(AllLaws{}, law_.name, values_.data());
+  // the bristle that a law brings
+  ForLawNamed(AllLaws{}, law_.name, [this]<typename L>() {
+    if constexpr (LawWithBristle<L>) {
+      const LawBristle<double> own = L::BristleOf(values_.data());
+      own_bristle_ = Bristle{own.stiffness, own.damping};
+    }
+  });
 }
 
 std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
-  for (size_t i = 0; i < law_.parameters.size(); ++i) {
-    if (law_.parameters[i].name == name) return i;
-  }
-  // numbers beside the law's own count only where this friction has them
-  for (size_t i = 0; i < OtherNumbers().size(); ++i) {
-    const OtherNumber& number = OtherNumbers()[i];
-    if (!number.IsCalled(name)) continue;
-    Friction friction = friction_;
-    if (number.find(friction)) return law_.parameters.size() + i;
-  }
-  return std::nullopt;
+  const std::vector<std::string> names = NumberNames();
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<size_t>(found - names.begin());
 }
 
 std::vector<std::string> JointFriction::NumberNames() const {
   std::vector<std::string> names;
   for (const ParameterInfo& info : law_.parameters) names.emplace_back(info.name);
-  for (const OtherNumber& number : OtherNumbers()) {
-    Friction friction = friction_;
-    if (!number.find(friction)) continue;
+  for (const size_t i : others_) {
+    const OtherNumber& number = OtherNumbers()[i];
     names.push_back(std::string(number.prefix) + std::string(number.info.name));
   }
   return names;
@@ -150,13 +136,13 @@ std::vector<std::string> JointFriction::NumberNames() const {
 double JointFriction::Number(size_t place) const {
   if (place < values_.size()) return values_[place];
   Friction friction = friction_;
-  return *OtherNumbers()[place - values_.size()].find(friction);
+  return OtherNumbers()[others_[place - values_.size()]].in(friction);
 }
 
 Bounds JointFriction::NumberBounds(size_t place) const {
   const bool own = place < values_.size();
   const ParameterInfo& info =
-      own ? law_.parameters[place] : OtherNumbers()[place - values_.size()].info;
+      own ? law_.parameters[place] : OtherNumbers()[others_[place - values_.size()]].info;
   // a time constant is above 0, a gain no larger than any joint's
   const auto& [gain, time] = Thermal::parameters;
   if (info.name == time.name) return {.above = 0};
@@ -177,24 +163,11 @@ bool JointFriction::SetNumber(size_t place, double value) {
   }
 
   // of warming or options: the step of the heat may follow from it
-  *OtherNumbers()[place - values_.size()].find(friction_) = value;
+  OtherNumbers()[others_[place - values_.size()]].in(friction_) = value;
   per_energy_ = friction_.viscous_per_energy;
   load_gain_ = friction_.load_gain;
   if (h_ > 0) heat_ = DiscretiseHeat(friction_, h_);
   return true;
-}
-
-template <typename... L>
-void JointFriction::ChooseLevel(LawList<L...>) {
-  const auto choose = [&]<typename One>(const One*) {
-    // the levels of the law by this name, compiled for it
-    if (law_.name != One::name) return;
-    same_at_any_speed_ = LawAtAnySpeed<One>;
-    level_ = [](bool sliding, int side, double speed, const double* p) {
-      return sliding ? One::Level(side, speed, p) : HoldingLevelOf<One>(side, speed, p);
-    };
-  };
-  (choose(static_cast<const L*>(nullptr)), ...);
 }
 
 void JointFriction::SetTimestep(double h) {

@@ -12,13 +12,10 @@
 #include <vector>
 
 #include "models/friction/bristle.h"
-#include "models/friction/heat.h"
 #include "models/friction/level_terms.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint {
-
-template <typename... L>
-struct LawList;
 
 /// One member of the state: its name for people, and where it is.
 struct StateMember {
@@ -65,7 +62,7 @@ class JointFriction {
   double OwnLevelAtRest(int side) const { return level_(false, side, 0, values_.data()); }
   bool level_follows_heat_alone() const { return same_at_any_speed_ && !has_terms_ && !slips_; }
 
-  /// The law's own bristle; none where the step chooses it (MakeBristle).
+  /// The law's own bristle; none where the step chooses it (UnitBristle).
   const std::optional<Bristle>& own_bristle() const { return own_bristle_; }
 
   /// The members of the state that it needs (StateOf).
@@ -135,8 +132,6 @@ class JointFriction {
   FrictionStep Complete(const FrictionState& state, const JointMotion& motion,
                         const BristleStep& bristle, double loss) const;
   void TakeDeficit(const FrictionState& state, const JointMotion& motion, FrictionStep& step) const;
-  template <typename... L>
-  void ChooseLevel(LawList<L...>);
   void Derive();
   /// What load and maps add to the level.
   double TermsAt(int side, double speed, const JointPlace& place) const {
@@ -168,6 +163,7 @@ class JointFriction {
   Friction friction_;  // without its maps
   Law law_;
   std::vector<StateMember> state_;
+  std::vector<size_t> others_;  // the numbers beside the law's own that this friction has
   std::optional<Bristle> own_bristle_;
   Heat heat_;
   Bristle unit_;  // of an effective inertia of 1

@@ -5,25 +5,61 @@
 #include <limits>
 #include <numbers>
 
-#include "models/friction/survey_work.h"
-
 namespace warmjoint {
 namespace {
 
 /// A speed that is on its side of 0 and changes nothing else.
 constexpr double kStill = std::numeric_limits<double>::min();
 
-bool Depends(const FrictionMap& map, MapQuantity quantity) {
-  return std::any_of(map.axes.begin(), map.axes.end(),
-                     [&](const MapAxis& axis) { return axis.quantity == quantity; });
+/// The most kernels of an axis that lie within reach of one point.
+size_t WithinReach(const GaussianAxis& axis) {
+  constexpr double reach = 7.6;  // widths to each side, as in PreparedAxis
+  const std::vector<double>& centres = axis.centres;
+  size_t most = 0;
+  for (size_t first = 0, last = 0; last < centres.size(); ++last) {
+    while (centres[last] - centres[first] > 2 * reach * axis.width) ++first;
+    most = std::max(most, last - first + 1);
+  }
+  return most;
 }
 
 }  // namespace
 
+std::vector<double> SurveySamples(const FrictionMap& map, MapQuantity quantity) {
+  const bool is_speed = quantity == MapQuantity::velocity;
+  const MapAxis* const axis = FindAxis(map, quantity);
+  if (!axis) return is_speed ? std::vector<double>{0, 1} : std::vector<double>{0};
+  const GaussianAxis& kernels = axis->kernels;
+  if (!is_speed) return kernels.centres;
+  // speeds from 0 to some widths beyond the outermost centre
+  const double reach = 3 * kernels.width + std::max(std::abs(kernels.centres.front()),
+                                                    std::abs(kernels.centres.back()));
+  const int count = static_cast<int>(std::min(500.0, std::ceil(4 * reach / kernels.width)));
+  std::vector<double> speeds;
+  for (int i = 0; i <= count; ++i) speeds.push_back(reach * i / count);
+  return speeds;
+}
+
+double SurveyWork(const FrictionMap& map) {
+  double samples = 2, kernels = 1, longest = 1;
+  // samples of all quantities, in both directions
+  for (const auto& [name, quantity] : WordsOf(MapQuantity{})) {
+    samples *= static_cast<double>(SurveySamples(map, quantity).size());
+  }
+
+  // kernels that count at one of them
+  for (const MapAxis& axis : map.axes) {
+    const auto within = static_cast<double>(WithinReach(axis.kernels));
+    kernels *= within;
+    longest = std::max(longest, within);
+  }
+  return samples * kernels / longest;
+}
+
 bool NeedsLoad(const Friction& friction) {
-  return friction.load_gain != 0 ||
-         std::any_of(friction.maps.begin(), friction.maps.end(),
-                     [](const FrictionMap& map) { return Depends(map, MapQuantity::load); });
+  return friction.load_gain != 0 || std::ranges::any_of(friction.maps, [](const FrictionMap& map) {
+           return FindAxis(map, MapQuantity::load) != nullptr;
+         });
 }
 
 LevelTerms::LevelTerms(const Friction& friction) : gear_(friction.gear) {

@@ -1,6 +1,7 @@
-// What maps add to the level of friction.
+// What maps add to the level of friction, and how they are sampled before a joint moves.
 #pragma once
 
+#include <warmjoint/friction.h>
 #include <warmjoint/friction_model.h>
 
 #include <vector>
@@ -8,6 +9,17 @@
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint {
+
+/// Values of one quantity at which a map is surveyed for its slope over speed and its size at rest: its centres; speeds from 0 to three widths
+/// beyond the centres, four to a width and 500 at most; 0 alone, or speeds 0 and 1, where the map does not depend on it.
+std::vector<double> SurveySamples(const FrictionMap& map, MapQuantity quantity);
+
+/// Evaluations of a kernel that surveying a map takes: its samples over all quantities, each in both directions, times the
+/// kernels within reach, those of the longest axis counted as one. map: its axes checked.
+double SurveyWork(const FrictionMap& map);
+
+/// The most that a friction's maps may need together; some 10 s.
+inline constexpr double kMostSurveyWork = 2e9;
 
 /// Whether friction depends on the load that the joint transmits.
 bool NeedsLoad(const Friction& friction);

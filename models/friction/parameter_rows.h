@@ -1,7 +1,10 @@
-// Rows that the parameter tables of several laws share.
+// Parameter tables of laws: rows that several share, and what code must know of a table.
 #pragma once
 
 #include <warmjoint/friction.h>
+
+#include <optional>
+#include <string_view>
 
 namespace warmjoint {
 
@@ -112,5 +115,13 @@ inline constexpr ParameterInfo kBristleDampingRow{
     .default_value = 0,
     .meaning = "damping of the bristle's motion",
 };
+
+/// What the parameter of that name is in the laws that have it, for what was read from a file;
+/// LawPart::other where none has.
+LawPart PartOf(std::string_view name);
+
+/// The place in the law's table of the first parameter that is that part; nothing where there is
+/// none.
+std::optional<size_t> PlaceOf(LawPart part, const Law& law);
 
 }  // namespace warmjoint

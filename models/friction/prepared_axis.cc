@@ -1,10 +1,9 @@
-#include "models/friction/prepared_axis.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "models/friction/even_grid.h"
+#include "models/friction/prepared_map.h"
+#include "models/friction/row_table.h"
 
 namespace warmjoint {
 namespace {

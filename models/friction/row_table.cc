@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "models/friction/evaluate_map.h"
-#include "models/friction/even_grid.h"
 
 namespace warmjoint {
 namespace {
@@ -38,6 +38,25 @@ std::vector<double> Nodes(int count, double shift) {
 }
 
 }  // namespace
+
+double SpacingOf(const GaussianAxis& axis, size_t begin, size_t end) {
+  return (axis.centres[end - 1] - axis.centres[begin]) / static_cast<double>(end - 1 - begin);
+}
+
+bool IsEvenGrid(const GaussianAxis& axis, size_t begin, size_t end) {
+  if (end - begin < 2) return false;
+  const double spacing = SpacingOf(axis, begin, end);
+  const auto near = [&](double a, double b) {
+    const double size = std::max(std::abs(a), std::abs(b));
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    return std::abs(a - b) <= 1e-13 * spacing + rounding * size;
+  };
+  for (size_t i = begin; i < end; ++i) {
+    const double even = axis.centres[begin] + static_cast<double>(i - begin) * spacing;
+    if (!near(axis.centres[i], even)) return false;
+  }
+  return !axis.period || near(static_cast<double>(end - begin) * spacing, *axis.period);
+}
 
 RowTable::RowTable(const GaussianAxis& axis, KernelKind kind, const std::vector<double>& weights) {
   if (axis.sides == Sides::apart || !IsEvenGrid(axis, 0, axis.size())) return;

@@ -1,4 +1,4 @@
-// Weighted sums of one axis's kernels as piecewise polynomials, for maps that an engine evaluates.
+// Axes of even centres, and weighted sums of their kernels as piecewise polynomials, for maps that an engine evaluates.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -12,6 +12,13 @@
 #include "models/foundation/four.h"
 
 namespace warmjoint {
+
+/// Spacing of the centres from `begin` to before `end`, which are two at least.
+double SpacingOf(const GaussianAxis& axis, size_t begin, size_t end);
+
+/// Whether two or more centres are even to 1e-13 of their spacing and their own rounding, and close
+/// evenly where they lie on a circle.
+bool IsEvenGrid(const GaussianAxis& axis, size_t begin, size_t end);
 
 /// The functions sum_j kappa_j(x) w_(row, j), one for each row of weights, where they are smooth
 /// and their centres even: polynomials of degree 9 in cells of a half, a quarter or an eighth of a

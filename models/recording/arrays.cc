@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kMostOfMatrix = 1000;        // columns
-constexpr std::size_t kMostNames = 100'000;  // as many as an answer of read_apart.h has
+constexpr std::size_t kMostNames = 100'000;  // as many as an answer of read_apart.cc has
 
 /// Dimensions that are not 1, of an array of numbers: one of a vector, two of a matrix.
 std::vector<std::size_t> LongDimensions(const FileObject& object) {

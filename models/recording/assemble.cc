@@ -11,9 +11,8 @@
 #include <string_view>
 
 #include "models/foundation/excerpt.h"
-#include "models/recording/clock.h"
 #include "models/recording/measurements.h"
-#include "models/recording/unwrap.h"
+#include "models/recording/mend.h"
 
 namespace warmjoint {
 namespace {
@@ -134,9 +133,8 @@ void Unwrap(double range, Measurements& measurements) {
   const int jumps = range > 0 ? UnwrapRange(time, velocity, range, position)
                               : UnwrapTurns(time, velocity, position);
   if (jumps == 0) return;
-  measurements.notes.push_back(
-      range > 0 ? fmt::format("position jumps by its range {} times; unwrapped", jumps)
-                : fmt::format("position jumps by a turn {} times; unwrapped", jumps));
+  measurements.notes.push_back(fmt::format("position jumps by {} {} times; unwrapped",
+                                           range > 0 ? "its range" : "a turn", jumps));
 }
 
 /// The first source of a column of ours; nullptr where there is none.

@@ -1,5 +1,3 @@
-#include "models/recording/csv.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,9 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/recording/assemble.h"
-#include "models/recording/clock.h"
+#include "models/recording/read_recording.h"
 #include "models/recording/table_format.h"
+#include "models/recording/units.h"
 
 namespace warmjoint {
 namespace {

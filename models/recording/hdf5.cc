@@ -1,5 +1,3 @@
-#include "models/recording/hdf5.h"
-
 #include <H5Cpp.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/recording/arrays.h"
+#include "models/recording/read_recording.h"
 #include "models/recording/recording_columns.h"
 #include "models/recording/units.h"
 

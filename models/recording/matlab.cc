@@ -1,5 +1,3 @@
-#include "models/recording/matlab.h"
-
 #include <matio.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/recording/arrays.h"
+#include "models/recording/read_recording.h"
 
 namespace warmjoint {
 namespace {

@@ -1,4 +1,4 @@
-// What code does to the columns of a recording.
+// What code does to the columns of a recording: as a whole, in time, and as the forward model reads them.
 #pragma once
 
 #include <warmjoint/recording.h>
@@ -6,6 +6,9 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <vector>
+
+#include "models/foundation/robust_noise.h"
+#include "models/friction/along_motion.h"
 
 namespace warmjoint {
 
@@ -52,5 +55,32 @@ struct SampleRange {
 inline Selection WithoutRest(const Selection& selection, const Measurements& measurements) {
   return {selection.keep && measurements.velocity.array() != 0, selection.segments};
 }
+
+// The sampling interval of a recording is its median step throughout (MedianStep): gaps and jitter
+// leave that as it is.
+
+/// A step of more than this many sampling intervals is a gap: at least three samples in a row are
+/// missing, which jitter and a lost sample or two do not make.
+inline constexpr double kGapSteps = 3;
+
+/// The longest step between samples that is no gap, s. time: [N] s, N at least 2.
+inline double LongestStep(const Eigen::VectorXd& time) { return kGapSteps * MedianStep(time); }
+
+/// Every step that is longer than LongestStep, in order of time. time: [N] s
+std::vector<LogGap> GapsOf(const Eigen::VectorXd& time);
+
+/// How a law's own bristle is bent at the start of each recording: as in steady sliding, or as the
+/// measured torque tells.
+enum class BristleStart { sliding, torque };
+
+/// Time, velocity, positions, load and starts of a recording of N samples. The motor position is
+/// the logged one, else the recording's gear times the joint's.
+JointCourse CourseOf(const Measurements& measurements,
+                     BristleStart bristle = BristleStart::sliding);
+
+/// The friction that a recording's motion gives: AlongMotion over CourseOf.
+Prediction PredictFriction(const Friction& friction, const Measurements& measurements,
+                           const CourseStart& start = {},
+                           BristleStart bristle = BristleStart::sliding);
 
 }  // namespace warmjoint

@@ -1,5 +1,3 @@
-#include "models/recording/read_apart.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -23,6 +21,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/recording/read_recording.h"
 
 namespace warmjoint {
 namespace {

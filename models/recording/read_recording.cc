@@ -6,16 +6,14 @@
 #include <cmath>
 #include <filesystem>
 #include <string_view>
+#include <type_traits>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
-#include "models/recording/hdf5.h"
-#include "models/recording/matlab.h"
 #include "models/recording/measurements.h"
-#include "models/recording/read_apart.h"
 
 namespace warmjoint {
 namespace {
@@ -74,28 +72,27 @@ void TakeTorqueConstant(double constant, Measurements& log) {
 
 }  // namespace
 
-bool ColumnTexts::Take(const std::string& column, const std::string& text) {
-  (*this)[column] = text;
-  return true;
+template <typename T>
+bool OfColumns<T>::Take(const std::string& column, const std::string& text) {
+  std::optional<T> value;
+  if constexpr (std::is_same_v<T, double>) {
+    value = ParseFinite(text);
+  } else {
+    value = text;
+  }
+  if (value) (*this)[column] = *value;
+  return value.has_value();
 }
 
-std::vector<std::string> ColumnTexts::Pairs() const {
+template <typename T>
+std::vector<std::string> OfColumns<T>::Pairs() const {
   std::vector<std::string> pairs;
-  for (const auto& [column, text] : *this) pairs.push_back(column + "=" + text);
+  for (const auto& [column, value] : *this) pairs.push_back(fmt::format("{}={}", column, value));
   return pairs;
 }
 
-bool ColumnNumbers::Take(const std::string& column, const std::string& text) {
-  const std::optional<double> number = ParseFinite(text);
-  if (number) (*this)[column] = *number;
-  return number.has_value();
-}
-
-std::vector<std::string> ColumnNumbers::Pairs() const {
-  std::vector<std::string> pairs;
-  for (const auto& [column, number] : *this) pairs.push_back(fmt::format("{}={}", column, number));
-  return pairs;
-}
+template struct OfColumns<std::string>;
+template struct OfColumns<double>;
 
 void CheckReadSettings(const ReadSettings& settings) {
   for (const auto& [column, factor] : settings.scale) {
@@ -103,19 +100,14 @@ void CheckReadSettings(const ReadSettings& settings) {
     Refuse({"--scale"}, "{}={}: the factor must be a finite number other than 0", Excerpt(column),
            factor);
   }
-  if (!std::isfinite(settings.gear) || settings.gear == 0) {
-    Refuse({"--gear"}, "is {}; it must be a finite number other than 0", settings.gear);
-  }
-  if (!std::isfinite(settings.wrap) || settings.wrap < 0) {
-    Refuse({"--wrap"}, "is {}; it must be a finite number above 0", settings.wrap);
-  }
-  if (!std::isfinite(settings.rate) || settings.rate < 0) {
-    Refuse({"--rate"}, "is {}; it must be a finite number above 0, Hz", settings.rate);
-  }
-  if (!std::isfinite(settings.torque_constant)) {
-    Refuse({"--torque-constant"}, "is {}; it must be a finite number, N.m/A or N/A at the joint",
-           settings.torque_constant);
-  }
+  const auto check = [](const char* option, double value, bool holds, const char* bound) {
+    if (std::isfinite(value) && holds) return;
+    Refuse({option}, "is {}; it must be a finite number{}", value, bound);
+  };
+  check("--gear", settings.gear, settings.gear != 0, " other than 0");
+  check("--wrap", settings.wrap, settings.wrap >= 0, " above 0");
+  check("--rate", settings.rate, settings.rate >= 0, " above 0, Hz");
+  check("--torque-constant", settings.torque_constant, true, ", N.m/A or N/A at the joint");
 }
 
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout,
@@ -155,13 +147,6 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
   Measurements made = AssembleContent(std::move(content), name, settings);
   TakeTorqueConstant(settings.torque_constant, made);
   return made;
-}
-
-Measurements FirstSamples(Measurements log, Eigen::Index n) {
-  ForEachColumn(
-      log, [n](Eigen::VectorXd& column) { column.conservativeResize(std::min(n, column.size())); });
-  if (log.gaps) std::erase_if(*log.gaps, [n](const LogGap& gap) { return gap.behind >= n; });
-  return log;
 }
 
 }  // namespace warmjoint

@@ -1,19 +1,61 @@
-// Recordings in the format that their name tells.
+// Recordings in the format that their name tells: tables of text, HDF5 (one dataset a column, units as attributes), MATLAB.
 #pragma once
 
 #include <warmjoint/recording.h>
 
 #include <string>
+#include <string_view>
 
-#include "models/recording/csv.h"
+#include "models/recording/assemble.h"
 
 namespace warmjoint {
 
 /// Reads .h5 and .hdf5 as HDF5, .mat as MATLAB files, anything else as CSV, as ReadCsv does; attributes of a file count
 /// where the layout has its defaults. Libraries for HDF5 and MATLAB work in a child process with limits on memory and time
-/// (read_apart.h): their crash or hang is BadInput. For a process with one thread, as programs are at first. patience: s of
+/// (ReadApart): their crash or hang is BadInput. For a process with one thread, as programs are at first. patience: s of
 /// computing for a small file; large ones get more.
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout = {},
                                double patience = 30);
+
+/// Reads columns time, position, velocity, torque and optional motor_position, load, temperature of a table of text in any of
+/// the forms that FindTable knows. A missing velocity stays empty. Throws BadInput with file:line as FindTable, FindColumns
+/// and AssembleMeasurements do, for a row that lacks fields and for text in a number.
+Measurements ReadCsv(const std::string& path, const ReadSettings& layout = {});
+
+/// The same for text in memory; `name` stands for the file in messages.
+Measurements ParseCsv(std::string_view text, const std::string& name,
+                      const ReadSettings& layout = {});
+
+/// The text of a file with the columns that are present, SI, numbers that read back bit for bit.
+std::string RecordingToCsv(const Measurements& measurements);
+
+/// The one-dimensional datasets at the root of an HDF5 file, as far as the layout asks for them, with their attribute
+/// `unit`, and the root's `joint` ("rotary" or "linear") and `gear`. Throws BadInput, also where the layout's columns are
+/// not there or have more than kMostSamples. One thread at a time. The HDF5 library crashes and hangs on some damaged files:
+/// ReadRecordings calls this in a child process.
+FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout);
+
+/// The bytes of a file with the columns that are present, SI, with those attributes. Safe to call from many threads,
+/// which wait for each other: the library serves one at a time.
+std::string RecordingToHdf5(const Measurements& measurements);
+
+/// Vectors of real numbers, as far as the layout asks for them. Those of a struct are named with a dot,
+/// log.time; names without one may leave out the struct where the file holds one alone. A variable
+/// `joint` ("rotary" or "linear"), a number `gear`, and texts in a struct `unit` by the columns' names count where
+/// the layout has its defaults. Objects, as timeseries, cannot be read: save their Time and Data. Throws BadInput, also
+/// where the layout's columns are not there. One thread at a time. The library (matio)
+/// crashes on some damaged files: ReadRecordings calls this in a child process.
+FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout);
+
+/// A format that a library reads.
+struct FileFormat {
+  const char* name = "";  // in messages
+  FileContent (*read)(const std::string& path, const ReadSettings& layout) = nullptr;
+};
+
+/// Reads in a child process with limits on memory (8 GiB besides what this process has) and time
+/// (patience, s, and 1 s for each 10 MB of the file): crash and hang become BadInput.
+FileContent ReadApart(const FileFormat& format, const std::string& path, const ReadSettings& layout,
+                      double patience);
 
 }  // namespace warmjoint

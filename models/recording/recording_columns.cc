@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/letter_case.h"
-#include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
 namespace {

@@ -11,9 +11,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/letter_case.h"
 #include "models/foundation/parse_number.h"
-#include "models/recording/clock.h"
 #include "models/recording/units.h"
 
 namespace warmjoint {
@@ -22,12 +20,6 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r";
 constexpr std::size_t kMostFields = 10'000;
 constexpr std::size_t kLinesOfALook = 1000;
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// A field without blanks and without a pair of quotes.
 std::string_view Stripped(std::string_view field) {

@@ -1,14 +1,17 @@
 #include "models/recording/units.h"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
+#include <ctime>
 #include <numbers>
 #include <utility>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/letter_case.h"
-#include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
 namespace {
@@ -60,9 +63,7 @@ constexpr std::size_t kLongest = 24;                 // bytes of any unit in bra
 /// The text in the characters of Units, without brackets around it.
 std::string Plain(std::string_view text) {
   constexpr std::string_view open = "([{<", close = ")]}>";
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  text = Trimmed(text);
   const bool bracketed = text.size() > 2 && open.find(text.front()) != std::string_view::npos &&
                          open.find(text.front()) == close.find(text.back());
   if (bracketed) text = text.substr(1, text.size() - 2);
@@ -81,6 +82,19 @@ bool AreAlike(std::string_view a, std::string_view b) {
   const bool is_mega = a.size() > 1 && b.size() > 1 && a[0] != b[0] && std::isupper(b[1]);
   const bool may_differ = a.size() > 1 || (b.size() == 1 && std::islower(b[0]));
   return may_differ && !is_mega && EqualIgnoringCase(a, b);
+}
+
+/// Dates and times, as strptime reads them; a fraction of a second and a zone may follow.
+constexpr const char* kStamps[]{"%Y-%m-%dT%H:%M:%S", "%Y-%m-%d %H:%M:%S", "%Y/%m/%d %H:%M:%S",
+                                "%d.%m.%Y %H:%M:%S", "%Y%m%dT%H%M%S",     "%Y-%m-%d_%H:%M:%S",
+                                "%Y-%m-%d",          "%d.%m.%Y",          "%H:%M:%S"};
+
+/// The text behind what `format` reads of a stamp; nullptr where it does not.
+const char* Behind(const char* text, const char* format, std::tm* time) {
+  *time = {};
+  time->tm_year = 70;
+  time->tm_mday = 1;
+  return strptime(text, format, time);
 }
 
 }  // namespace
@@ -209,6 +223,75 @@ NameAndUnit SplitUnit(std::string_view name, const std::vector<std::string>& bas
     }
   }
   return {std::string(name)};
+}
+
+std::optional<double> ReadStamp(std::string_view text) {
+  if (text.empty() || text.size() > 48 || text[0] < '0' || text[0] > '9') return std::nullopt;
+  std::string stamp(text);
+  std::ranges::replace(stamp, ',', '.');
+  // a duration: a number and its unit, or days and a time
+  const char* const end = stamp.data() + stamp.size();
+  double number = 0;
+  const std::string_view unit(std::from_chars(stamp.data(), end, number).ptr, end);
+  if (unit.empty()) return std::nullopt;
+  // none begins as the rest of a date or a time does
+  const bool is_clock = unit.find_first_of("-:/.T") == 0;
+  const std::optional<Unit> known = is_clock ? std::nullopt : MeantUnit(unit, {"s"});
+  if (known) return number * known->factor;
+  for (const std::string_view days : {" days ", " day "}) {
+    const auto rest = unit.starts_with(days) ? ReadStamp(unit.substr(days.size())) : std::nullopt;
+    if (rest) return number * kDay + *rest;
+  }
+
+  // a date, a time, or both; minutes and seconds alone only with a fraction
+  std::tm time{};
+  const char* rest = nullptr;
+  for (const char* format : kStamps) {
+    if (!rest) rest = Behind(stamp.c_str(), format, &time);
+  }
+  if (!rest) {
+    rest = Behind(stamp.c_str(), "%M:%S", &time);
+    if (rest && *rest != '.') rest = nullptr;
+  }
+  if (!rest) return std::nullopt;
+  double seconds = static_cast<double>(timegm(&time));
+  // milliseconds may follow a colon
+  if (*rest == ':' || *rest == '.') {
+    double fraction = 0;
+    const char* const digits = rest + 1;
+    rest = std::from_chars(digits, end, fraction, std::chars_format::fixed).ptr;
+    if (fraction < 0 || rest == digits) return std::nullopt;
+    const bool is_milli = digits[-1] == ':';
+    seconds += fraction * std::pow(10, is_milli ? -3 : static_cast<double>(digits - rest));
+  }
+  // morning or afternoon, and the zone
+  const double hour = 3600.0 * (time.tm_hour % 12 - time.tm_hour);
+  while (*rest == ' ') ++rest;
+  for (const auto& [half, hours] : {std::pair("AM", 0), std::pair("PM", 12)}) {
+    if (strncasecmp(rest, half, 2) != 0) continue;
+    seconds += hour + 3600 * hours;
+    rest += 2;
+  }
+  std::tm zone{};
+  if (const char* behind = *rest ? Behind(rest, "%z", &zone) : nullptr) {
+    seconds -= static_cast<double>(zone.tm_gmtoff);
+    rest = behind;
+  }
+  return *rest ? std::nullopt : std::optional(seconds);
+}
+
+std::optional<Unit> EpochUnit(const Eigen::VectorXd& time) {
+  constexpr double first = 978307200, last = 4102444800;  // s, of 2001 and 2100
+  constexpr double longest = 100;                         // s between samples
+  const Eigen::Index n = time.size();
+  if (n < 2) return std::nullopt;
+  const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
+  for (const char* name : {"s", "ms", "us", "ns"}) {
+    const Unit unit = *MeantUnit(name, {"s"});
+    const double seconds = unit.factor * time[0];
+    if (seconds >= first && seconds < last && std::abs(step) * unit.factor <= longest) return unit;
+  }
+  return std::nullopt;
 }
 
 }  // namespace warmjoint

@@ -1,16 +1,117 @@
 #include "models/robots/robot_folder.h"
 
+#include <console_bridge/console.h>
 #include <fmt/ranges.h>
+#include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
+#include <nlohmann/json.hpp>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
+#include "models/foundation/node.h"
+#include "models/foundation/xml_tags.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;
+namespace {
+
+/// The heading of a README: its first line without the mark.
+std::string ReadHeading(const fs::path& readme) {
+  const std::string text = ReadWholeFile(readme);
+  const std::string line = text.substr(0, text.find('\n'));
+  if (!line.starts_with("# ") || line.size() < 3) {
+    Refuse({readme.string(), 1}, "must begin with '# ' and one line on what the robot is");
+  }
+  return line.substr(2);
+}
+
+RobotJoint Describe(const urdf::Joint& joint) {
+  RobotJoint result;
+  result.name = joint.name;
+  if (joint.type == urdf::Joint::PRISMATIC) result.kind = JointKind::linear;
+  // what the URDF says of limits; a continuous joint turns without end
+  result.limits = {-kInfinity, kInfinity};
+  if (!joint.limits) return result;
+  if (joint.type != urdf::Joint::CONTINUOUS) {
+    result.limits = {joint.limits->lower, joint.limits->upper};
+  }
+  result.effort = joint.limits->effort;
+  result.speed = joint.limits->velocity;
+  return result;
+}
+
+/// The movable joints below a link, parents first.
+void CollectJoints(const urdf::Link& link, std::vector<RobotJoint>& joints) {
+  // this link's joints before those of its children
+  for (const urdf::JointSharedPtr& joint : link.child_joints) {
+    if (joint->type != urdf::Joint::FIXED) joints.push_back(Describe(*joint));
+  }
+  for (const urdf::LinkSharedPtr& child : link.child_links) CollectJoints(*child, joints);
+}
+
+std::string ReadFrictionJoint(const fs::path& path, const std::vector<RobotJoint>& joints) {
+  // the joint that the friction file is for
+  const nlohmann::json file = ReadJsonFile(path);
+  const std::string name =
+      file.contains("joint") && file["joint"].is_string() ? file["joint"].get<std::string>() : "";
+  const bool known = std::any_of(joints.begin(), joints.end(),
+                                 [&](const RobotJoint& joint) { return joint.name == name; });
+  if (!known)
+    Refuse({path.string()}, "joint is '{}', which is none of the robot's joints", Excerpt(name));
+  return name;
+}
+
+RobotInfo ReadRobot(const std::string& name) {
+  const fs::path folder = DataFolder() / "models" / "robots" / name;
+  // its files, by their names in its folder
+  RobotInfo robot;
+  robot.name = name;
+  // what they say of it
+  robot.description = ReadHeading(folder / "README.md");
+  robot.mjcf = folder / (name + ".xml");
+  robot.urdf = folder / (name + ".urdf");
+  CollectJoints(*ReadUrdf(robot.urdf)->getRoot(), robot.joints);
+  robot.friction = ReadFriction(folder / "friction.json");
+  robot.friction_joint = ReadFrictionJoint(folder / "friction.json", robot.joints);
+  return robot;
+}
+
+/// Keeps what urdfdom would print.
+class Collector : public console_bridge::OutputHandler {
+ public:
+  Collector() { console_bridge::useOutputHandler(this); }
+  ~Collector() override { console_bridge::restorePreviousOutputHandler(); }
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (!errors.empty()) errors += "; ";
+    errors += text;
+  }
+
+  std::string errors;
+};
+
+/// Refuses what would end the parser's stack, which it needs once for each level.
+void CheckDepth(const std::string& text, const Place& place) {
+  constexpr int deepest = 500;
+  XmlTagReader reader(text);
+  // how many elements are open at each tag
+  int depth = 0;
+  while (const auto tag = reader.Next()) {
+    if (tag->kind == XmlTag::Kind::opens) ++depth;
+    if (tag->kind == XmlTag::Kind::closes) --depth;
+    if (depth > deepest) {
+      Refuse({place.file, tag->line}, "nests deeper than {} elements; a robot does not", deepest);
+    }
+  }
+}
+
+}  // namespace
 
 fs::path DataFolder() {
   // the folder that is named, or else beside the program, or the build's default
@@ -64,6 +165,26 @@ fs::path FindRobot(const std::string& name_or_path, const std::string& asked_by)
   }
   return DataFolder() / "models" / "robots" / name_or_path /
          fs::path(name_or_path).replace_extension(".xml");
+}
+
+std::vector<RobotInfo> Robots() {
+  std::vector<RobotInfo> robots;
+  for (const std::string& name : RobotNames()) robots.push_back(ReadRobot(name));
+  return robots;
+}
+
+urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
+  // urdfdom reports through one handler of the whole program
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+
+  // read, checked and parsed, with what the parser says kept for the refusal
+  const std::string text = ReadWholeFile(path);
+  CheckDepth(text, {path.string()});
+  Collector collector;
+  urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
+  if (!robot) Refuse({path.string()}, "cannot be used as URDF: {}", collector.errors);
+  return robot;
 }
 
 }  // namespace warmjoint

@@ -1,14 +1,18 @@
-// What Python calls in the shared library, by ctypes: text in, text out, both JSON.
+// What is called in the shared library. MuJoCo: its entry, when the library is loaded. Python, by ctypes: text in, text out,
+// both JSON.
 //
 // Each answer is an object; {"error": "..."} where the request is refused. It stays until the thread's next call.
+#include <link.h>
 #include <mujoco/mujoco.h>
 #include <warmjoint/attach.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
@@ -17,30 +21,15 @@
 #include "models/friction/friction_json.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/bound_joints.h"
-#include "sim/plugin/friction_reports.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint {
 namespace {
 
-/// Friction for the joints that a name or pattern means.
-struct JointRequest {
-  std::string joint;
-  Friction friction;
-  std::vector<double> initial_energy;
-
-  template <class A>
-  void Serialize(A* a) {
-    a->Field("joint", &joint, {.needed = "give a name or pattern"});
-    a->Field("friction", &friction, {.needed = "give a friction"});
-    a->Field("initial_energy", &initial_energy, {.unit = "N.m"});
-  }
-};
-
 struct AttachRequest {
-  std::string model;  // its name, in messages
-  std::vector<JointRequest> frictions;
+  std::string model;                        // its name, in messages
+  std::vector<FrictionForJoint> frictions;  // each for the joints that a name or pattern means
   AttachOptions options;
   std::map<std::string, double> armatures;
 
@@ -58,11 +47,8 @@ struct AttachRequest {
 
 Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
   auto request = ReadAs<AttachRequest>(ParseJsonNode(text, "attach"));
-  std::vector<FrictionForJoint> frictions;
-  for (const auto& [joint, friction, energy] : request.frictions) {
-    RefuseAmperes(friction, {joint});
-    frictions.push_back({joint, friction, energy});
-  }
+  const std::vector<FrictionForJoint>& frictions = request.frictions;
+  for (const FrictionForJoint& one : frictions) RefuseAmperes(one.friction, {one.joint});
   for (const auto& [joints, armature] : request.armatures) {
     request.options.armatures.push_back({joints, armature});
   }
@@ -118,10 +104,9 @@ Tree Describe(const mjModel* m) {
   Tree joints = Tree::array();
   for (int instance = 0; instance < m->nplugin; ++instance) {
     if (m->plugin[instance] != plugin) continue;
-    const BoundJoints bound(m, instance, kFrictionReports);
+    const BoundJoints bound(m, instance);
     const std::string name = NameIn(m, mjOBJ_PLUGIN, instance);
-    const auto prepared = PrepareInstance(m, instance, {name});
-    const std::vector<ActingJoint> acting = FindJoints(m, instance, *prepared);
+    const std::vector<ActingJoint> acting = FindJoints(m, instance);
     for (size_t i = 0; i < acting.size(); ++i) {
       std::vector<std::string> states;
       for (const StateMember& member : acting[i].prepared->friction.state()) {
@@ -154,8 +139,40 @@ const char* Answer(const Call& call) {
   return answer.c_str();
 }
 
+/// The paths of MuJoCo's libraries in this process.
+struct Engines {
+  int count = 0;
+  std::string paths;
+};
+
+int AddEngine(dl_phdr_info* library, size_t, void* data) {
+  const std::string_view path = library->dlpi_name;
+  const size_t name = path.rfind('/') == std::string_view::npos ? 0 : path.rfind('/') + 1;
+  if (!path.substr(name).starts_with("libmujoco.so")) return 0;
+  auto& engines = *static_cast<Engines*>(data);
+  engines.paths += (engines.count++ == 0 ? "" : ", ") + std::string(path);
+  return 0;
+}
+
 }  // namespace
 }  // namespace warmjoint
+
+/// Registers the plugin, unless the program runs another MuJoCo than the one that the library was
+/// linked with and brought along: models of the program's would not find the plugin.
+mjPLUGIN_LIB_INIT(warmjoint_friction) {
+  warmjoint::Engines engines;
+  // one MuJoCo, of the version whose structures this library knows
+  dl_iterate_phdr(warmjoint::AddEngine, &engines);
+  if (engines.count > 1 || mj_version() != mjVERSION_HEADER) {
+    std::fprintf(stderr,
+                 "warmjoint.friction is built for MuJoCo %d.%d.%d and cannot serve this program, "
+                 "which holds %s; run it with that version of MuJoCo\n",
+                 mjVERSION_HEADER / 1000000, mjVERSION_HEADER / 1000 % 1000,
+                 mjVERSION_HEADER % 1000, engines.paths.c_str());
+    return;
+  }
+  warmjoint::RegisterFrictionPlugin();
+}
 
 extern "C" {
 

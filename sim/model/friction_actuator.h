@@ -1,13 +1,15 @@
-// The one way by which friction is put onto the joints of a model.
+// The one way by which friction is put onto the joints of a model: which joints bear it, and its sections as MJCF text.
 #pragma once
 
 #include <mujoco/mujoco.h>
 #include <warmjoint/attach.h>
+#include <warmjoint/friction.h>
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "sim/model/friction_sections.h"
 
 namespace warmjoint {
 
@@ -28,5 +30,36 @@ void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 /// Takes from a joint the friction that the model gives it: damping and frictionloss.
 /// Returns whether there was any.
 bool ClearOwnFriction(mjsJoint& joint);
+
+/// Refuses, from `place` and with one remedy for all, joints whose inertia cannot carry their
+/// friction at the model's step: the armature to set on each of them (`attach --armature`), and the
+/// step that would do for all (`--timestep`). Both are rounded to two digits to the safe side, so that
+/// either is accepted.
+/// m: the model without the friction. An armature a adds exactly a to the effective inertia of its
+/// own joint at the reference pose, and lowers that of no other.
+void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
+                       const Place& place);
+
+/// How joints hold, one sentence each: which gives way most before it slides, with the armatures that
+/// bring all to 5 mrad (0.5 mm), and drives beside which a joint may not rest (CheckDrive). m: as above.
+std::vector<std::string> NoticesOfHolding(const mjModel* m,
+                                          const std::vector<FrictionForJoint>& frictions);
+
+/// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
+/// attributes inline, as MJCF text. The actuator is named "JOINT_friction".
+std::string FrictionSections(const FrictionForJoint& friction);
+
+/// The section <extension> with one instance of that name which holds the friction of all the
+/// joints, and its own name, from which the plugin finds what an attachment put before the names.
+/// Of the options, sensors count.
+std::string InstanceSection(const std::string& instance,
+                            const std::vector<FrictionForJoint>& frictions,
+                            const AttachOptions& options);
+
+/// Name of the actuator that carries the friction of a joint.
+std::string FrictionActuatorOf(const std::string& joint);
+
+/// The text with &, <, > and " written as entities.
+std::string EscapeXml(std::string_view text);
 
 }  // namespace warmjoint

@@ -1,15 +1,15 @@
-#include "sim/model/friction_sections.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
-#include "models/friction/law.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
+#include "sim/model/friction_actuator.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint {
@@ -65,19 +65,12 @@ std::string InlineConfigs(const FrictionForJoint& of) {
 }  // namespace
 
 std::string EscapeXml(std::string_view text) {
+  constexpr std::pair<char, std::string_view> entities[]{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string result;
   for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (c == '"') {
-      result += "&quot;";
-    } else {
-      result += c;
-    }
+    const auto found = std::ranges::find(entities, c, &std::pair<char, std::string_view>::first);
+    result += found == std::end(entities) ? std::string(1, c) : std::string(found->second);
   }
   return result;
 }

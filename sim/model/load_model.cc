@@ -116,7 +116,7 @@ void CheckInertials(mjSpec& spec, const Place& place) {
            "link '{}' moves but neither it nor a link fixed to it has a mass; give it an "
            "<inertial> with mass and inertia, or all links a least one by "
            "<mujoco><compiler boundmass=\"0.01\" boundinertia=\"0.0001\"/></mujoco> in <robot>",
-           mjs_getString(mjs_getName(element)));
+           NameOf(element));
   }
 }
 

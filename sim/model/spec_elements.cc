@@ -3,7 +3,6 @@
 #include <regex>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
 namespace {
@@ -61,7 +60,7 @@ std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, c
   std::vector<std::string> joints;
   for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
     if (!CarriesFriction(*mjs_asJoint(element))) continue;
-    std::string name = mjs_getString(mjs_getName(element));
+    std::string name = NameOf(element);
     if (!name.empty() && std::regex_match(name, expression)) joints.push_back(std::move(name));
   }
   if (!joints.empty()) return joints;
@@ -74,7 +73,7 @@ std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, c
 int NamelessJoints(mjSpec& spec) {
   int nameless = 0;
   for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
-    const bool named = mjs_getString(mjs_getName(element))[0] != '\0';
+    const bool named = !NameOf(element).empty();
     nameless += CarriesFriction(*mjs_asJoint(element)) && !named;
   }
   return nameless;

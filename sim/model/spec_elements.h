@@ -33,11 +33,14 @@ inline std::vector<mjsElement*> SpecElements(mjSpec& spec, mjtObj type) {
   return elements;
 }
 
+/// The name of an element; empty where it has none.
+inline std::string NameOf(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
+
 /// The names of all elements of a kind, without the nameless.
 inline std::vector<std::string> SpecNames(mjSpec& spec, mjtObj type) {
   std::vector<std::string> names;
   for (mjsElement* element : SpecElements(spec, type)) {
-    std::string name = mjs_getString(mjs_getName(element));
+    std::string name = NameOf(element);
     if (!name.empty()) names.push_back(std::move(name));
   }
   return names;

@@ -1,5 +1,3 @@
-#include "sim/model/urdf_meshes.h"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -7,8 +5,8 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/letter_case.h"
 #include "models/foundation/xml_tags.h"
+#include "sim/model/load_model.h"
 #include "sim/model/spec_elements.h"
 
 namespace warmjoint {
@@ -18,8 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file:";
-
-std::string NameOf(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
 
 bool MujocoReads(const fs::path& file) {
   const std::string extension = Lowercase(file.extension().native());

@@ -1,5 +1,3 @@
-#include "sim/plant/disturb_log.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include "models/foundation/low_pass.h"
 #include "models/friction/sign.h"
 #include "models/recording/measurements.h"
+#include "sim/plant/plant.h"
 
 namespace warmjoint {
 namespace {
@@ -57,18 +56,6 @@ VectorXd Levels(const Disturbances& d, const VectorXd& time, const VectorXd& vel
   return levels;
 }
 
-/// |v| behind a first-order low-pass, settled on the first sample, less |v|. [N]
-VectorXd SpeedBehind(const VectorXd& time, const VectorXd& velocity, double time_constant) {
-  const VectorXd speed = velocity.cwiseAbs();
-  VectorXd behind = VectorXd::Zero(speed.size());
-  double followed = speed.size() > 0 ? speed[0] : 0;
-  for (Index i = 1; i < speed.size(); ++i) {
-    followed += -std::expm1(-(time[i] - time[i - 1]) / time_constant) * (speed[i - 1] - followed);
-    behind[i] = followed - speed[i];
-  }
-  return behind;
-}
-
 /// dv/dt between neighbouring samples, as both see it. [N]
 VectorXd Acceleration(const VectorXd& time, const VectorXd& velocity) {
   VectorXd acceleration = VectorXd::Zero(time.size());
@@ -77,9 +64,6 @@ VectorXd Acceleration(const VectorXd& time, const VectorXd& velocity) {
   }
   return acceleration;
 }
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 constexpr double kHour = 3600;  // s
 
@@ -220,7 +204,9 @@ VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
   // along the direction of motion
   VectorXd levels = Levels(disturbances, time, velocity, position);
   if (hidden.memory.slope != 0) {
-    levels += hidden.memory.slope * SpeedBehind(time, velocity, hidden.memory.time_constant);
+    // the speed that it remembers, less that of now
+    const VectorXd speed = velocity.cwiseAbs();
+    levels += hidden.memory.slope * (LowPass(time, speed, hidden.memory.time_constant) - speed);
   }
   levels.array() += hidden.quadratic_drag.coefficient * velocity.array().square();
   if (hidden.ripple.amplitude != 0) {

@@ -3,8 +3,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/friction/along_motion.h"
-#include "models/friction/check_friction.h"
-#include "sim/plant/disturb_log.h"
+#include "models/friction/friction_json.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/velocity_drive.h"
 

@@ -1,8 +1,7 @@
-#include "sim/plant/motion_of.h"
-
 #include <algorithm>
 
 #include "models/foundation/bad_input.h"
+#include "sim/plant/plant.h"
 
 namespace warmjoint {
 namespace {

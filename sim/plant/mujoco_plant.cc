@@ -4,7 +4,6 @@
 #include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
 #include "models/robots/robot_folder.h"
-#include "sim/plant/disturb_log.h"
 #include "sim/plant/plant.h"
 #include "sim/plant/sampling.h"
 #include "sim/plant/single_joint_model.h"

@@ -1,12 +1,15 @@
-// What turns a scenario into a recording.
+// What turns a scenario into a recording, and a recording into a motion.
 #pragma once
 
+#include <warmjoint/recording.h>
 #include <warmjoint/simulation.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <memory>
 
+#include "scenarios/motion.h"
 #include "scenarios/scenario.h"
 
 namespace warmjoint {
@@ -51,5 +54,20 @@ std::unique_ptr<Plant> MakeIdealPlant(const Scenario& scenario);
 /// with stored samples rarer than the changes are long, W of a sample then holds until the next.
 /// Throws BadInput for a robot, joint, step or sampling that cannot be.
 std::unique_ptr<Plant> MakeMujocoPlant(const Scenario& scenario);
+
+/// Adds to the logged torque what the scenario disturbs it by: a lag, forces that no model holds, outliers, coloured and
+/// uneven noise, a periodic torque; makes of the motion what poorer sensors log; and spoils what is left as faulty
+/// sensors, clocks and files do; truth loses the samples that the log loses. Random numbers come from streams of their
+/// own, so that they leave all others as they are. Coloured noise joins Truth.torque_noise; outliers and uneven noise,
+/// being no noise of one size, do not. position: [N] true, rad or m; acceleration: [N] true, rad/s^2 or m/s^2, or empty:
+/// as neighbouring samples show it.
+void DisturbLog(const Scenario& scenario, std::uint64_t realization, Simulation& recording,
+                const Eigen::VectorXd& position, const Eigen::VectorXd& acceleration = {});
+
+/// A velocity by its corners that follows the recording: the segments at constant speed exactly;
+/// between them up to eight corners at the recorded mean velocities, moved together so that the way
+/// from segment to segment is the recorded one. The start is the first position.
+/// Throws BadInput where the recording has no segment at constant speed.
+Motion MotionOf(const Measurements& measurements, const Selection& selection);
 
 }  // namespace warmjoint

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/thermal.h"
 

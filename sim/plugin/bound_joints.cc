@@ -31,61 +31,51 @@ BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
   return bound;
 }
 
+/// Where the engine keeps what a joint of the actuator form needs and gives.
+void BindActuator(const mjModel* m, int actuator, const Place& place, BoundJoint& bound) {
+  const bool has_control = m->actuator_ctrlnum[actuator] > 0;
+  if (bound.needs_ambient && !has_control) {
+    Refuse(place, "has no control, which would be the ambient temperature's rise");
+  }
+  bound.actuator = actuator;
+  bound.state = m->actuator_actadr[actuator];
+  bound.control = has_control ? m->actuator_ctrladr[actuator] : -1;
+  bound.output = m->actuator_outadr[actuator];
+}
+
 }  // namespace
 
-BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
+BoundJoints::BoundJoints(const mjModel* m, int instance)
     : instance_(instance),
       model_(m),
       text_(AttributeText(m, instance)),
       signature_(m->signature),
       passive_(!DrivenByActuators(m, instance)) {
   // what moves the joints, what reads them, and numbers that a user may change
-  if (passive_) {
-    BindPassive(m, states);
-  } else {
-    BindActuators(m);
-  }
+  BindJoints(m);
   ReadDrives(m);
   BindSensors(m);
   BindNumbers(m);
 }
 
-void BoundJoints::BindActuators(const mjModel* m) {
-  // the instance's joints in the order of its actuators
-  const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
-  const OtherInstances others = FindOthers(m, instance_);
-  for (const auto& [joint, i, friction] : FindJoints(m, instance_, *prepared)) {
-    // refuse what the engine would accept and friction cannot
-    const Place place{ActuatorName(m, i)};
-    CheckActuator(m, i, friction->friction);
-    BoundJoint bound = BindJoint(m, joint, *friction, others);
-    CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
-    if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
-      Refuse(place, "has no control, which would be the ambient temperature's rise");
-    }
-
-    // where the engine keeps what it needs and gives
-    bound.actuator = i;
-    bound.state = m->actuator_actadr[i];
-    bound.control = m->actuator_ctrlnum[i] > 0 ? m->actuator_ctrladr[i] : -1;
-    bound.output = m->actuator_outadr[i];
-    joints_.push_back(std::move(bound));
-  }
-}
-
-void BoundJoints::BindPassive(const mjModel* m, int states) {
-  // in the order of joints, each with its states behind those of the reports
+void BoundJoints::BindJoints(const mjModel* m) {
+  // in the order of actuators, or of joints in the passive form, whose states stand behind those of the reports
   const std::string name = InstanceName(m, instance_);
-  const auto prepared = PrepareInstance(m, instance_, {name});
   const OtherInstances others = FindOthers(m, instance_);
-  int state = m->plugin_stateadr[instance_] + states;
-  for (const auto& [joint, actuator, friction] : FindJoints(m, instance_, *prepared)) {
-    const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
-    CheckAlone(m, instance_, joint);
-    BoundJoint bound = BindJoint(m, joint, *friction, others);
+  int state = m->plugin_stateadr[instance_] + kFrictionReports;
+  for (const auto& [joint, actuator, prepared] : FindJoints(m, instance_)) {
+    // refuse what the engine would accept and friction cannot
+    const Place place{passive_ ? fmt::format("{}: {}", name, JointName(m, joint))
+                               : ActuatorName(m, actuator)};
+    passive_ ? CheckAlone(m, instance_, joint) : CheckActuator(m, actuator, prepared->friction);
+    BoundJoint bound = BindJoint(m, joint, *prepared, others);
     CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
-    bound.state = state;
-    state += static_cast<int>(bound.friction.state().size());
+    if (passive_) {
+      bound.state = state;
+      state += static_cast<int>(bound.friction.state().size());
+    } else {
+      BindActuator(m, actuator, place, bound);
+    }
     joints_.push_back(std::move(bound));
   }
 }
@@ -97,7 +87,7 @@ void BoundJoints::ReadDrives(const mjModel* m) {
 
 void BoundJoints::BindSensors(const mjModel* m) {
   const std::string name = InstanceName(m, instance_);
-  const bool of_joints = PrepareInstance(m, instance_, {name})->joint_sensors;
+  const bool of_joints = PrepareInstance(m, instance_)->joint_sensors;
   for (int i = 0; i < m->nsensor; ++i) {
     if (m->sensor_plugin[i] != instance_) continue;
     const Place place{fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))};
@@ -203,7 +193,7 @@ void BoundJoints::WarnOfNumber(const mjModel* m, NumberArray& array, size_t i, d
 }
 
 int SensorSize(const mjModel* m, int instance) {
-  const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
+  const auto prepared = PrepareInstance(m, instance);
   if (prepared->joint_sensors) return kSensed;
   // the passive form names its joints, the other has actuators
   if (!DrivenByActuators(m, instance)) return kSensed * static_cast<int>(prepared->joints.size());

@@ -1,4 +1,4 @@
-// The joints of a plugin instance, found in a model.
+// The joints of a plugin instance, found in a model, and what stands where in the data.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -52,14 +52,35 @@ struct BoundSensor {
   std::optional<size_t> joint{};  // among the instance's; none: all of them
 };
 
+/// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints. One
+/// more stands behind those: the mark of the attributes with which the state was stepped or reset
+/// (AttributeWatch), which tells apart states of models that one place in memory holds in turn. Never
+/// read by the dynamics.
+enum FrictionReport : int {
+  /// The sum of 2^i over those of the instance's joints, counted from 0 in their order (BoundJoints),
+  /// in which friction would have pushed, until a reset. Never read by the dynamics.
+  kReportsPush,
+  /// 1 where the model's step was set to one that cannot carry the friction, until a reset. Never
+  /// read by the dynamics.
+  kReportsStep,
+  /// Passive form: rise of the ambient temperature, Ts - T0, K, for all joints; 0 after a reset.
+  kAmbientRise,
+  /// Actuator form: 1 from a reset to the first step where joints start warm; that step begins at
+  /// their initial energy where act holds 0.
+  kStartsWarm = kAmbientRise,
+  kFrictionReports,
+};
+
+/// So many are in plugin_state beside the states of a passive instance's joints.
+inline constexpr int kFrictionEntries = kFrictionReports + 1;
+
 /// The joints of an instance in one model: in the order of its actuators, or of the model's joints
 /// where no actuator refers to it (the passive form).
 class BoundJoints {
  public:
-  /// Reads the instance's attributes and checks them and its joints against the model. states:
-  /// entries of plugin_state before those of the joints, in the passive form. Throws BadInput that
-  /// names actuator or joint, attribute, value and bound.
-  BoundJoints(const mjModel* m, int instance, int states);
+  /// Reads the instance's attributes and checks them and its joints against the model. Throws BadInput
+  /// that names actuator or joint, attribute, value and bound.
+  BoundJoints(const mjModel* m, int instance);
 
   /// Whether these joints are those of the instance in that model.
   bool FitsModel(const mjModel* m) {
@@ -93,8 +114,7 @@ class BoundJoints {
   bool ReadArrays(const mjModel* m);
   bool SetNumber(const NumberArray& array, size_t joint, double value);
   void WarnOfNumber(const mjModel* m, NumberArray& array, size_t joint, double value) const;
-  void BindActuators(const mjModel* m);
-  void BindPassive(const mjModel* m, int states);
+  void BindJoints(const mjModel* m);
   void BindSensors(const mjModel* m);
   void BindNumbers(const mjModel* m);
 

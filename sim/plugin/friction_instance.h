@@ -1,4 +1,5 @@
-// One instance of the plugin: the friction of its joints, in whichever model it is called with.
+// One instance of the plugin: the friction of its joints, in whichever model it is called with, and what it reports: warnings
+// that it gives once, sensors.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -6,11 +7,30 @@
 #include <vector>
 
 #include "sim/plugin/bound_joints.h"
-#include "sim/plugin/friction_reports.h"
 #include "sim/plugin/joint_rows.h"
 #include "sim/plugin/joint_states.h"
 
 namespace warmjoint {
+
+/// Writes sensordata of an instance's sensors, kSensed numbers for each joint. The engine asks before
+/// the step has found them, so that the step writes them.
+class FrictionSensors {
+ public:
+  /// The engine asks: zeros where friction is off, else the step that follows writes.
+  void Ask(const mjModel* m, mjData* d, const BoundJoints& bound, bool off);
+
+  /// After the step: writes where the engine has asked.
+  void Note(const mjModel* m, mjData* d, const BoundJoints& bound, const JointRows& rows) {
+    if (asked_) WriteStep(m, d, bound, rows);
+  }
+
+ private:
+  void WriteStep(const mjModel* m, mjData* d, const BoundJoints& bound, const JointRows& rows);
+  void Write(const mjModel* m, mjData* d, const BoundJoints& bound) const;
+
+  bool asked_ = false;
+  std::vector<double> sensed_;  // [joints x kSensed] of the last step
+};
 
 /// Friction of the joints of one plugin instance, in two forms:
 ///   actuator: actuators refer to the instance; states in mjData.act, forces in actuator_force

@@ -4,7 +4,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
 namespace {
@@ -106,8 +105,9 @@ std::map<std::string, const PreparedJoint*> NameJoints(const mjModel* m, int ins
   return joints;
 }
 
-std::vector<ActingJoint> FindDriven(const mjModel* m, int instance,
-                                    const PreparedInstance& prepared) {
+using Prepared = std::shared_ptr<const PreparedInstance>;
+
+std::vector<ActingJoint> FindDriven(const mjModel* m, int instance, const Prepared& prepared) {
   // the joint of each actuator
   std::vector<ActingJoint> found;
   std::vector<std::string> driven;
@@ -119,20 +119,20 @@ std::vector<ActingJoint> FindDriven(const mjModel* m, int instance,
   }
 
   // one friction may be meant for every joint; else each joint has its own
-  if (const auto every = prepared.joints.find(""); every != prepared.joints.end()) {
-    for (ActingJoint& joint : found) joint.prepared = &every->second;
+  if (const auto every = prepared->joints.find(""); every != prepared->joints.end()) {
+    for (ActingJoint& joint : found) joint.prepared = {prepared, &every->second};
     return found;
   }
-  const auto named = NameJoints(m, instance, prepared, driven, driven);
+  const auto named = NameJoints(m, instance, *prepared, driven, driven);
   for (size_t k = 0; k < found.size(); ++k) {
     const auto own = named.find(driven[k]);
     if (driven[k].empty() || own == named.end()) {
       std::vector<std::string> names;
-      for (const auto& [name, unused] : prepared.joints) names.push_back(name);
+      for (const auto& [name, unused] : prepared->joints) names.push_back(name);
       Refuse({ActuatorName(m, found[k].actuator)}, "joints has no joint '{}'{}", Excerpt(driven[k]),
              Suggestion(driven[k], names));
     }
-    found[k].prepared = own->second;
+    found[k].prepared = {prepared, own->second};
   }
   for (const auto& [name, unused] : named) {
     if (std::ranges::find(driven, name) != driven.end()) continue;
@@ -143,10 +143,9 @@ std::vector<ActingJoint> FindDriven(const mjModel* m, int instance,
   return found;
 }
 
-std::vector<ActingJoint> FindPassive(const mjModel* m, int instance,
-                                     const PreparedInstance& prepared) {
+std::vector<ActingJoint> FindPassive(const mjModel* m, int instance, const Prepared& prepared) {
   const Place place{InstanceName(m, instance)};
-  if (prepared.joints.contains("")) {
+  if (prepared->joints.contains("")) {
     Refuse(place,
            "no actuator refers to it; one that acts by itself needs the attribute joints, which "
            "names them");
@@ -155,13 +154,13 @@ std::vector<ActingJoint> FindPassive(const mjModel* m, int instance,
   std::vector<std::string> all;
   for (int i = 0; i < m->njnt; ++i) all.push_back(NameIn(m, mjOBJ_JOINT, i));
   std::vector<ActingJoint> joints;
-  for (const auto& [name, prepared_joint] : NameJoints(m, instance, prepared, all, {})) {
+  for (const auto& [name, prepared_joint] : NameJoints(m, instance, *prepared, all, {})) {
     const int id = mj_name2id(m, mjOBJ_JOINT, name.c_str());
     if (id < 0) {
       Refuse(place, "joints names '{}', which the model lacks{}", Excerpt(name),
              Suggestion(name, all));
     }
-    joints.push_back({id, -1, prepared_joint});
+    joints.push_back({id, -1, {prepared, prepared_joint}});
   }
   std::ranges::sort(joints, {}, &ActingJoint::joint);
   return joints;
@@ -210,16 +209,15 @@ bool DrivenByActuators(const mjModel* m, int instance) {
   return std::find(begin, end, instance) != end;
 }
 
-std::vector<ActingJoint> FindJoints(const mjModel* m, int instance,
-                                    const PreparedInstance& prepared) {
+std::vector<ActingJoint> FindJoints(const mjModel* m, int instance) {
+  const Prepared prepared = PrepareInstance(m, instance);
   return DrivenByActuators(m, instance) ? FindDriven(m, instance, prepared)
                                         : FindPassive(m, instance, prepared);
 }
 
 int PassiveStates(const mjModel* m, int instance) {
-  const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
   size_t states = 0;
-  for (const ActingJoint& joint : FindJoints(m, instance, *prepared)) {
+  for (const ActingJoint& joint : FindJoints(m, instance)) {
     states += joint.prepared->friction.state().size();
   }
   return static_cast<int>(states);
@@ -236,8 +234,7 @@ std::string FrictionOn(const mjModel* m, int joint, int plugin, int actuators, i
   // instances that act by themselves
   for (int other = 0; other < instances; ++other) {
     if (m->plugin[other] != plugin || DrivenByActuators(m, other)) continue;
-    const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
-    for (const ActingJoint& taken : FindJoints(m, other, *prepared)) {
+    for (const ActingJoint& taken : FindJoints(m, other)) {
       if (taken.joint == joint) return InstanceName(m, other);
     }
   }
@@ -260,8 +257,7 @@ OtherInstances FindOthers(const mjModel* m, int instance) {
     if (other == instance || m->plugin[other] != m->plugin[instance]) continue;
     if (DrivenByActuators(m, other)) continue;
     try {
-      const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
-      for (const ActingJoint& joint : FindJoints(m, other, *prepared)) add(joint.joint, other);
+      for (const ActingJoint& joint : FindJoints(m, other)) add(joint.joint, other);
     } catch (const BadInput&) {
       // it refuses the model itself
     }

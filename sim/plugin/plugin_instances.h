@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,16 +31,15 @@ bool DrivenByActuators(const mjModel* m, int instance);
 struct ActingJoint {
   int joint;     // -1 where the actuator drives none
   int actuator;  // -1 in the passive form
-  const PreparedJoint* prepared;
+  std::shared_ptr<const PreparedJoint> prepared;
 };
 
 /// The joints of an instance: of each of its actuators, in their order, or in the passive form those that
 /// `joints` names, in the order of the model. Names in `joints` may lack what MuJoCo put around every name
 /// of a model that was attached to another one: what stands around the attribute `instance` in the
 /// instance's name, else a beginning of that name, else what stands before the name of a driven joint; the
-/// first of them by which every joint is found. Throws BadInput where a joint is not.
-std::vector<ActingJoint> FindJoints(const mjModel* m, int instance,
-                                    const PreparedInstance& prepared);
+/// first of them by which every joint is found. Throws BadInput as PrepareInstance does, and where a joint is not found.
+std::vector<ActingJoint> FindJoints(const mjModel* m, int instance);
 
 /// Numbers of state that the joints of a passive instance need together. Throws BadInput.
 int PassiveStates(const mjModel* m, int instance);

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "sim/plugin/attributes.h"
+#include "sim/plugin/plugin_instances.h"
 
 namespace warmjoint {
 namespace {
@@ -60,8 +61,7 @@ double MarkOf(std::string_view text) {
 
 }  // namespace
 
-std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int instance,
-                                                        const Place& place) {
+std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int instance) {
   AttributeWatch::Prepared();
   AttributeTexts texts;
   for (const std::string& name : AttributeNames()) {
@@ -74,7 +74,7 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
 
   auto prepared = std::make_shared<PreparedInstance>();
   if (texts.contains("instance")) prepared->written_name = texts.at("instance");
-  for (const auto& [name, joint] : DescribeJoints(texts, place)) {
+  for (const auto& [name, joint] : DescribeJoints(texts, {InstanceName(m, instance)})) {
     prepared->joints.emplace(
         name, PreparedJoint{joint.friction, JointFriction(joint.friction), joint.initial_energy});
   }

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 
-#include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
 
 namespace warmjoint {
@@ -32,9 +31,8 @@ struct PreparedInstance {
 
 /// The instance's attributes, read and checked, and its maps surveyed. Instances with the same
 /// attributes share one, so that copies of data and lists of models parse once; a friction file
-/// that changed is read again. Any thread may call it. Throws BadInput from `place`.
-std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int instance,
-                                                        const Place& place);
+/// that changed is read again. Any thread may call it. Throws BadInput that names the instance.
+std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int instance);
 
 /// The values of all the instance's attributes, as the model holds them: one after the other, each
 /// ended by a 0.

@@ -13,7 +13,6 @@
 
 #include "sim/plugin/attributes.h"
 #include "sim/plugin/friction_instance.h"
-#include "sim/plugin/friction_reports.h"
 #include "sim/plugin/plugin_instances.h"
 
 namespace warmjoint {
@@ -45,53 +44,39 @@ FrictionInstance* InstanceOf(const mjData* d, int instance) {
   return reinterpret_cast<FrictionInstance*>(d->plugin_data[instance]);
 }
 
-/// Writes what was refused, as far as it fits.
-template <size_t n>
-void Note(const std::exception& refused, std::array<char, n>& refusal) {
-  fmt::format_to_n(refusal.begin(), n - 1, "{}", refused.what());
-}
-
-/// Binds an instance to the data; what that refuses goes to `refusal`.
-template <size_t n>
-void MakeInstance(const mjModel* m, mjData* d, int instance, std::array<char, n>& refusal) {
+/// Runs a callback. What it refuses, as far as it fits, stays for this thread; null where nothing was. An error that tells it
+/// leaves by longjmp, so that nothing beside it may wait for its end.
+template <typename Callback>
+const char* RefusalOf(const Callback& callback) {
+  static thread_local std::array<char, kMostRefusal> refusal;
   try {
-    d->plugin_data[instance] =
-        reinterpret_cast<uintptr_t>(std::make_unique<FrictionInstance>(m, instance).release());
+    callback();
+    return nullptr;
   } catch (const std::exception& refused) {
-    Note(refused, refusal);
+    *fmt::format_to_n(refusal.begin(), refusal.size() - 1, "{}", refused.what()).out = '\0';
+    return refusal.data();
   }
 }
 
-/// Binds an instance to the data; refuses data that it cannot serve, after which nothing here may wait
-/// for its end.
+/// Binds an instance to the data; refuses data that it cannot serve.
 int Init(const mjModel* m, mjData* d, int instance) {
-  static thread_local std::array<char, kMostRefusal> refusal;
-  refusal.fill(0);
-  MakeInstance(m, d, instance, refusal);
-  if (refusal[0] != 0) RefuseData(m, d, instance, refusal.data());
+  const char* const refusal = RefusalOf([&] {
+    auto made = std::make_unique<FrictionInstance>(m, instance);
+    d->plugin_data[instance] = reinterpret_cast<uintptr_t>(made.release());
+  });
+  if (refusal) RefuseData(m, d, instance, refusal);
   return 0;
 }
 
-/// Reads the attributes and counts the numbers of plugin_state; what they refuse goes to `refusal`.
-template <size_t n>
-int CountStates(const mjModel* m, int instance, std::array<char, n>& refusal) {
-  try {
-    PrepareInstance(m, instance, {InstanceName(m, instance)});
-    const bool passive = !DrivenByActuators(m, instance);
-    return kFrictionEntries + (passive ? PassiveStates(m, instance) : 0);
-  } catch (const std::exception& refused) {
-    Note(refused, refusal);
-    return 0;
-  }
-}
-
-/// The numbers of plugin_state that an instance needs. The error leaves by longjmp, so that nothing
-/// here may wait for its end.
+/// The numbers of plugin_state that an instance needs, whose attributes are read and checked.
 int States(const mjModel* m, int instance) {
-  static thread_local std::array<char, kMostRefusal> refusal;
-  refusal.fill(0);
-  const int states = CountStates(m, instance, refusal);
-  if (refusal[0] != 0) mju_error("%s: %s", kFrictionPlugin, refusal.data());
+  int states = 0;
+  const char* const refusal = RefusalOf([&] {
+    PrepareInstance(m, instance);
+    const bool passive = !DrivenByActuators(m, instance);
+    states = kFrictionEntries + (passive ? PassiveStates(m, instance) : 0);
+  });
+  if (refusal) mju_error("%s: %s", kFrictionPlugin, refusal);
   return states;
 }
 

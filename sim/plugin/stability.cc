@@ -91,7 +91,7 @@ Asked ForWindUp(const JointFriction& friction, const BristleShape& bristles, dou
 }
 
 /// An explicit step carries a law's own bristle while (stiffness + 2 damping) in units of M/h^2 and
-/// M/h is at most that of MakeBristle.
+/// M/h is at most that of UnitBristle.
 Asked ForBristle(const Bristle& bristle, double inertia, double h) {
   constexpr double carried = kBristleStiffness + 2 * kBristleDamping;
   // largest step: stiffness h^2 + 2 damping h = carried M

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
-#include "models/foundation/json_turn.h"
+#include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "models/foundation/random_stream.h"
-#include "models/robots/read_urdf.h"
-#include "models/robots/robot_list.h"
+#include "models/robots/robot_folder.h"
 #include "sim/model/load_model.h"
 
 namespace warmjoint {

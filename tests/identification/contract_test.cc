@@ -14,7 +14,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "identification/seen_samples.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {

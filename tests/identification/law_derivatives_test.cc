@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
 
 namespace warmjoint {
 namespace {

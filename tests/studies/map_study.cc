@@ -25,7 +25,7 @@
 #include "identification/maps/holes.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint::test {

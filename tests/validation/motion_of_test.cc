@@ -1,11 +1,10 @@
-#include "sim/plant/motion_of.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
+#include "sim/plant/plant.h"
 
 namespace warmjoint {
 namespace {

@@ -8,7 +8,6 @@
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
-#include "sim/plant/motion_of.h"
 #include "sim/plant/plant.h"
 #include "tests/support/judging.h"
 #include "tests/support/shared_data.h"

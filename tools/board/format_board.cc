@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "models/foundation/serialize.h"
 #include "tools/board/board_tables.h"
 

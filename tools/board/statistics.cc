@@ -4,7 +4,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
-#include "models/foundation/quantile.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 namespace {

@@ -9,7 +9,7 @@
 #include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
-#include "sim/model/friction_sections.h"
+#include "sim/model/friction_actuator.h"
 #include "tools/actions/identify_by_command.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/backend.h"

@@ -9,7 +9,7 @@
 #include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/node.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/replay_unit.h"
 #include "tools/cli/backend.h"

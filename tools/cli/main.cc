@@ -13,7 +13,6 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/keep_memory.h"
-#include "models/foundation/output_failed.h"
 #include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 

@@ -9,8 +9,8 @@
 
 #include "identification/estimate.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
-#include "models/foundation/read_json.h"
 #include "tools/cli/typed_options.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/kernels.h"

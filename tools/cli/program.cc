@@ -4,7 +4,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 

@@ -7,7 +7,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint {

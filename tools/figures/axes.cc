@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "models/foundation/quantile.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::figures {
 namespace {

@@ -10,7 +10,6 @@
 #include "identification/identifier.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
-#include "models/recording/course_of.h"
 #include "models/recording/measurements.h"
 #include "tools/figures/friction_spread.h"
 #include "tools/figures/number_text.h"

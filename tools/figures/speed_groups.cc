@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "models/foundation/quantile.h"
+#include "models/foundation/robust_noise.h"
 #include "tools/figures/number_text.h"
 
 namespace warmjoint::figures {

@@ -17,7 +17,6 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
-#include "models/foundation/read_json.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "identification/identifiers/identifier_list.h"
-#include "models/foundation/number_json.h"
+#include "models/foundation/node.h"
 
 namespace warmjoint {
 namespace {

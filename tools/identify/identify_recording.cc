@@ -10,8 +10,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/warming/expected_start.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
 
 namespace warmjoint {

@@ -10,7 +10,7 @@
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/identifier.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/node.h"
 #include "models/friction/friction_json.h"
 #include "models/recording/measurements.h"
 

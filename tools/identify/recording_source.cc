@@ -10,7 +10,6 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "models/foundation/serialize.h"
 #include "models/recording/recording_columns.h"
 #include "scenarios/yaml.h"

@@ -21,7 +21,7 @@
 
 #include "identification/estimate.h"
 #include "identification/preparation/check.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_view.h"
 #include "tools/figures/log_page.h"

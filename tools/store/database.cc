@@ -7,7 +7,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/output_failed.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;

@@ -9,7 +9,6 @@
 #include <cstring>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/output_failed.h"
 
 namespace warmjoint {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "models/foundation/output_failed.h"
+#include "models/foundation/bad_input.h"
 #include "tools/suite/memory_file.h"
 #include "tools/suite/supervisor.h"
 #include "tools/terminal/shell_words.h"

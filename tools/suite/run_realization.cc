@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "models/foundation/output_failed.h"
+#include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/foundation/sha256.h"
 #include "models/friction/thermal.h"

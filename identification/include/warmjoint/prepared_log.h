@@ -162,7 +162,7 @@ struct SamplingCheck {
   double step = 0;         // s, median
   double rate = 0;         // Hz, 1 / step
   double jitter = 0;       // standard deviation of the steps (gaps left out), share of the median
-  int gaps = 0;            // sampling.h
+  int gaps = 0;            // GapsOf
   double longest_gap = 0;  // s
 };
 

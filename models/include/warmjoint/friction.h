@@ -84,7 +84,6 @@ inline constexpr double kSmallestPositive = 1e-9;
 ///   elastoplastic: a spring that yields at the level of sliding (bristle.h)
 ///   breakaway:     the same, but held it bears up to a static level above that of sliding, Eq. (4)
 ///   bristle:       a spring with given stiffness and damping that relaxes with travel
-///                  (lugre_bristle.h)
 enum class PreSliding { elastoplastic, breakaway, bristle };
 
 /// A nominal law behind one interface, made from the law's own struct.
@@ -100,7 +99,7 @@ struct Law {
   PreSliding pre_sliding;
 };
 
-/// All laws, in the order of law_list.h.
+/// All laws, in the order of their list (models/friction/laws.h).
 const std::vector<Law>& Laws();
 
 /// The law of that name, or nullptr.
@@ -303,6 +302,13 @@ struct FrictionForJoint {
   std::string joint;
   Friction friction;
   std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("joint", &joint, {.needed = "give a name or pattern"});
+    a->Field("friction", &friction, {.needed = "give a friction"});
+    a->Field("initial_energy", &initial_energy, {.unit = "N.m"});
+  }
 };
 
 /// What beside a law's own parameters shapes friction and is a number: its name and bounds, and
@@ -348,7 +354,7 @@ void Friction::Serialize(A* a) {
 void FillDefaults(Friction& friction);
 
 /// The law's parameter values in the order of its table. The description must have been checked
-/// (check_friction.h).
+/// (CheckFriction).
 std::vector<double> LawValues(const Friction& friction);
 
 /// Checks names and bounds against the parameter tables, and that all parts make sense together:

@@ -80,22 +80,18 @@ struct Selection {
   Eigen::Index count() const { return keep.count(); }
 };
 
-/// What is said of single columns of ours, by their names. A map in YAML, where a column without a text has an empty one;
-/// in JSON a list of "column=text".
-struct ColumnTexts : std::map<std::string, std::string> {
-  using map::map;
+/// What is said of single columns of ours, by their names: texts, or finite numbers. A map in YAML, where a column without a
+/// text has an empty one; in JSON a list of "column=text".
+template <typename T>
+struct OfColumns : std::map<std::string, T> {
+  using std::map<std::string, T>::map;
   /// What a text says of a column; false where it cannot.
   bool Take(const std::string& column, const std::string& text);
   /// "column=text" each.
   std::vector<std::string> Pairs() const;
 };
-
-/// The same of finite numbers.
-struct ColumnNumbers : std::map<std::string, double> {
-  using map::map;
-  bool Take(const std::string& column, const std::string& text);
-  std::vector<std::string> Pairs() const;
-};
+using ColumnTexts = OfColumns<std::string>;
+using ColumnNumbers = OfColumns<double>;
 
 /// How the columns of a file become ours. Names and units as the options of `warmjoint identify` take them.
 struct ReadSettings {

@@ -1,7 +1,7 @@
 // Attributes of the plugin: one name=value a line.
 #include "sim/plugin/attributes.h"
 
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -1,12 +1,11 @@
 // Recordings as tables of text, with --map, --unit, --columns, --rate, --joint and --gear: a first line
 // "#: torque=force_N position:deg ,time,position,torque 50Hz linear 2" gives the layout, and is a comment for the reader itself.
-#include "models/recording/csv.h"
-
 #include <warmjoint/prepared_log.h>
 
 #include <sstream>
 
 #include "models/foundation/parse_number.h"
+#include "models/recording/read_recording.h"
 #include "models/recording/table_format.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/read_json.h"
+#include "models/foundation/node.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/read_json.h"
+#include "models/foundation/node.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "tests/fuzz/fuzz.h"

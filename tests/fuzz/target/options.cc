@@ -4,7 +4,7 @@
 
 #include "identification/identifiers/identifier_list.h"
 #include "models/foundation/serialize.h"
-#include "models/recording/csv.h"
+#include "models/recording/read_recording.h"
 #include "tests/fuzz/fuzz.h"
 #include "tools/identify/recording_source.h"
 #include "tools/terminal/shell_words.h"

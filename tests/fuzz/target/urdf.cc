@@ -1,5 +1,5 @@
 // Robots as URDF.
-#include "models/robots/read_urdf.h"
+#include "models/robots/robot_folder.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

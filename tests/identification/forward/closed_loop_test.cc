@@ -9,8 +9,8 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
-#include "models/friction/viscous_coulomb.h"
-#include "models/recording/course_of.h"
+#include "models/friction/laws.h"
+#include "models/recording/measurements.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {

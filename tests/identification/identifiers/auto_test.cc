@@ -2,7 +2,7 @@
 
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 #include "tests/support/slow_recording.h"
 #include "tests/support/travelling.h"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "identification/forward/thermal_filter.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 

@@ -3,7 +3,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include "identification/preparation/select.h"
-#include "models/recording/csv.h"
+#include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/warm_recording.h"
 

@@ -10,7 +10,7 @@
 #include "identification/report/end_state.h"
 #include "identification/warming/expected_start.h"
 #include "identification/warming/gaps.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"

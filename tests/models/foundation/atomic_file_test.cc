@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/output_failed.h"
 #include "tests/support/refusal.h"
 
 namespace warmjoint {

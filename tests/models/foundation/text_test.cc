@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
+#include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
-#include "models/foundation/read_json.h"
 #include "models/foundation/sha256.h"
 #include "models/foundation/xml_tags.h"
 #include "tests/support/refusal.h"

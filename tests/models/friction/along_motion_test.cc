@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "models/friction/check_friction.h"
-#include "models/friction/law_list.h"
+#include "models/friction/friction_json.h"
+#include "models/friction/laws.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {
@@ -254,7 +254,7 @@ TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
   // at a speed and a level that are constant from sample to sample both are exact
   int laws = 0;
   ForEachLaw(AllLaws{}, [&laws]<typename L>() {
-    if constexpr (LawWithCourse<L>) {
+    if constexpr (LawWithBristle<L>) {
       ++laws;
       Friction friction = SomeFriction(*FindLaw(L::name));
       friction.load_gain = 0.15;

@@ -1,5 +1,3 @@
-#include "models/friction/heat.h"
-
 #include <gtest/gtest.h>
 #include <warmjoint/friction_model.h>
 

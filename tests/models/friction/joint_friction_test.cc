@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
-#include "models/friction/check_friction.h"
-#include "models/friction/lugre_bristle.h"
+#include "models/friction/bristle.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace {
@@ -139,7 +139,7 @@ TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
     const JointFriction joint = Make(friction);
     const Bristle bristle = joint.own_bristle()
                                 ? LimitBristle(*joint.own_bristle(), kInertia, kStep)
-                                : MakeBristle(kInertia, kStep);
+                                : ScaleBristle(UnitBristle(kStep), kInertia);
 
     // a wild motion: white acceleration, pulled back to rest
     FrictionState state;
@@ -263,6 +263,19 @@ TEST(JointFriction, HoldsWithinTheIntervalThatAMapShifts) {
   EXPECT_EQ(Step(joint, {4.9}, 0).force, 4.9);
   EXPECT_NEAR(Step(joint, {5.1}, 0).force, 5, 1e-15);
   EXPECT_NEAR(Step(joint, {-1.1}, 0).force, -1, 1e-15);
+}
+
+TEST(JointFriction, SetsANumberThatWasSetTo0Again) {
+  Friction friction = Asymmetric(0, 3, 3);
+  friction.load_gain = 0.2;
+  JointFriction joint = Make(friction);
+  const auto place = joint.FindNumber("load_gain");
+  ASSERT_TRUE(place);
+  for (const double gain : {0.0, 0.1}) {
+    EXPECT_TRUE(joint.SetNumber(*place, gain));
+    EXPECT_EQ(joint.Number(*place), gain);
+    EXPECT_EQ(joint.FindNumber("load_gain"), place);
+  }
 }
 
 TEST(JointFriction, StatesAreThoseThatTheLawNeeds) {

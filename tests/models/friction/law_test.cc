@@ -1,6 +1,4 @@
 // Contract of all nominal laws, and the closed forms of each.
-#include "models/friction/law.h"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +8,8 @@
 #include <tuple>
 
 #include "models/friction/joint_friction.h"
-#include "models/friction/law_list.h"
+#include "models/friction/laws.h"
+#include "models/friction/parameter_rows.h"
 
 namespace warmjoint {
 
@@ -123,33 +122,6 @@ TEST_P(EveryLaw, AllowsItsBoundsAndDefaults) {
       p[&info - GetParam().parameters.data()] = value;
       for (const double v : kVelocities) EXPECT_GE(GetParam().force(v, p.data()) * v, 0) << v;
     }
-  }
-}
-
-/// Whether forces by two sets of parameters add up to that by their sum, up to rounding.
-bool AddsUp(const Law& law) {
-  const std::vector<double> p = SomeParameters(law);
-  std::vector<double> q = p, sum = p;
-  for (size_t i = 0; i < p.size(); ++i) {
-    q[i] = 0.6 + 0.23 * static_cast<double>(i * i);
-    sum[i] = p[i] + q[i];
-  }
-  return std::ranges::all_of(kVelocities, [&](double v) {
-    const double apart = law.force(v, p.data()) + law.force(v, q.data());
-    return std::abs(law.force(v, sum.data()) - apart) <= 1e-12 * std::abs(apart);
-  });
-}
-
-TEST_P(EveryLaw, RegressorTimesParametersIsTheForceWhereItIsLinear) {
-  if (!AddsUp(GetParam())) GTEST_SKIP() << "not linear in its parameters";
-  const size_t d = GetParam().parameters.size();
-  std::vector<double> p(d), row(d);
-  for (size_t i = 0; i < d; ++i) p[i] = 0.5 + 1.5 * static_cast<double>(i);
-  for (double v : kVelocities) {
-    Regressor(GetParam(), v, row.data());
-    double sum = 0;
-    for (size_t i = 0; i < d; ++i) sum += row[i] * p[i];
-    EXPECT_DOUBLE_EQ(sum, GetParam().force(v, p.data()));
   }
 }
 

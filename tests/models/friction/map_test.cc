@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "models/foundation/random_stream.h"
-#include "models/friction/check_friction.h"
 #include "models/friction/evaluate_map.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/prepared_map.h"

@@ -1,5 +1,3 @@
-#include "models/recording/csv.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -9,7 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/recording/clock.h"
+#include "models/recording/read_recording.h"
 #include "models/recording/units.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/refusal.h"

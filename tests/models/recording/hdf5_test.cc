@@ -9,7 +9,6 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/recording/read_apart.h"
 #include "models/recording/read_recording.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/folders.h"

@@ -1,5 +1,3 @@
-#include "models/recording/matlab.h"
-
 #include <gmock/gmock.h>
 #include <matio.h>
 

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/recording/course_of.h"
-#include "models/recording/sampling.h"
-#include "models/recording/unwrap.h"
+#include "models/recording/mend.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

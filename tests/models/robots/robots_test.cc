@@ -5,9 +5,7 @@
 #include <cstdlib>
 
 #include "models/foundation/bad_input.h"
-#include "models/robots/read_urdf.h"
 #include "models/robots/robot_folder.h"
-#include "models/robots/robot_list.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/refusal.h"
 

@@ -1,5 +1,3 @@
-#include "sim/model/light_joints.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <warmjoint/attach.h>
@@ -8,6 +6,7 @@
 #include <regex>
 
 #include "models/foundation/atomic_file.h"
+#include "sim/model/friction_actuator.h"
 #include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/model/friction_sections.h"
+#include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
 #include "tests/tools/scratch_directory.h"
 

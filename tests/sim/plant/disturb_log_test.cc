@@ -1,6 +1,4 @@
 // What disturbs a log: noise, forces that no model holds, poor sensors, clocks and files.
-#include "sim/plant/disturb_log.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

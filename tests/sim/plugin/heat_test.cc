@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/two_forms.h"

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "models/foundation/atomic_file.h"
-#include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/friction_actuator.h"

@@ -72,8 +72,8 @@ TEST(PluginModels, AMappedModelAtTheSamePlaceInMemoryIsAnotherOneWhereverItDiffe
 TEST(PluginModels, DataOfAMappedArmParsesOnce) {
   // parsing and surveying takes some milliseconds; a hundred data would take half a second of it
   const Model m = MustCompile(ArmXml(Mapped(0.01, 0.01), Form::passive, "implicitfast"));
-  const auto first = PrepareInstance(m.get(), 0, {"test"});
-  EXPECT_EQ(PrepareInstance(m.get(), 0, {"test"}), first);
+  const auto first = PrepareInstance(m.get(), 0);
+  EXPECT_EQ(PrepareInstance(m.get(), 0), first);
 }
 
 /// Attributes of some hundred bytes, which are compared as a whole at each step, and of some thousand.

@@ -11,7 +11,7 @@
 
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
-#include "sim/model/friction_sections.h"
+#include "sim/model/friction_actuator.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "models/foundation/quantile.h"
 #include "models/foundation/random_stream.h"
+#include "models/foundation/robust_noise.h"
 #include "tests/tools/scratch_directory.h"
 #include "tests/tools/store/little_suite.h"
 #include "tools/board/board_tables.h"

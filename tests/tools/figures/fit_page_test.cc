@@ -11,7 +11,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/low_pass.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/excited_recording.h"
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"

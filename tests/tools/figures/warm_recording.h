@@ -5,7 +5,7 @@
 #include <warmjoint/recording.h>
 
 #include "models/foundation/random_stream.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::figures {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/foundation/quantile.h"
+#include "models/foundation/robust_noise.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/number_text.h"
 #include "tools/figures/run/quartiles.h"

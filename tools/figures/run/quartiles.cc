@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "models/foundation/quantile.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::figures {
 

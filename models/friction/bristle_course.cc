@@ -1,4 +1,4 @@
-#include "models/friction/motion_pieces.h"
+#include "models/friction/bristle_course.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,24 @@
-// Positions that a sensor reports within one turn.
+// What is mended of a log: clocks that tick coarsely, and positions that a sensor reports within one turn.
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 namespace warmjoint {
+
+/// What was made of a clock.
+struct MendedClock {
+  std::vector<bool>
+      keep;  // [N] false for few samples whose stamp is that of the one before, or earlier; empty: all
+  std::string note;  // what was done; empty where nothing was
+};
+
+/// Makes time increase where a clock is coarse or made a slip. Stamps that repeat more often than once in 100 samples are ticks,
+/// within which samples are spread evenly; fewer that repeat or step back are to be left out. Times of day go on behind midnight.
+/// Leaves all other clocks as they are. time: [N] s, changed in place; position: [N], by which rows of several joints at one stamp
+/// are told from ticks.
+MendedClock MendClock(const Eigen::VectorXd& position, bool is_time_of_day, Eigen::VectorXd& time);
 
 /// Undoes the jumps of a whole turn in the position of a rotary joint, so that it goes on where the
 /// sensor starts its turn again. It is taken as wrapped when it stays within one turn and jumps by

@@ -1,4 +1,4 @@
-#include "models/foundation/output_failed.h"
+#include "models/foundation/bad_input.h"
 
 #include <fmt/format.h>
 

@@ -1,38 +1,22 @@
-#include "models/recording/clock.h"
+#include "models/recording/mend.h"
 
 #include <fmt/format.h>
-#include <strings.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <ctime>
+#include <numbers>
 #include <utility>
 
 #include "models/foundation/robust_noise.h"
-#include "models/recording/sampling.h"
+#include "models/recording/measurements.h"
 #include "models/recording/units.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr double kDay = 86400;  // s
 constexpr Eigen::Index kFewInAll =
     100;  // one sample in so many may go: that moves no estimate by more than its noise does
 constexpr std::size_t kFewestTicks = 10;  // that tell the step of a clock to a tenth
-
-/// Dates and times, as strptime reads them; a fraction of a second and a zone may follow.
-constexpr const char* kStamps[]{"%Y-%m-%dT%H:%M:%S", "%Y-%m-%d %H:%M:%S", "%Y/%m/%d %H:%M:%S",
-                                "%d.%m.%Y %H:%M:%S", "%Y%m%dT%H%M%S",     "%Y-%m-%d_%H:%M:%S",
-                                "%Y-%m-%d",          "%d.%m.%Y",          "%H:%M:%S"};
-
-/// The text behind what `format` reads of a stamp; nullptr where it does not.
-const char* Behind(const char* text, const char* format, std::tm* time) {
-  *time = {};
-  time->tm_year = 70;
-  time->tm_mday = 1;
-  return strptime(text, format, time);
-}
 
 double Median(const std::vector<double>& values) {
   Eigen::VectorXd x =
@@ -93,76 +77,39 @@ std::string SpreadTicks(const std::vector<Eigen::Index>& begin, Eigen::VectorXd&
       tick, static_cast<double>(time.size()) / static_cast<double>(ticks));
 }
 
+/// Jumps that were undone, and how many of them lie at a gap of the log.
+struct Undone {
+  int jumps = 0, at_gaps = 0;
+};
+
+Undone Undo(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
+            Eigen::VectorXd& position) {
+  const double longest = LongestStep(time);
+  Undone undone;
+  double turns = 0;  // added so far, rad or m
+  double before = position[0];
+  for (Eigen::Index i = 1; i < position.size(); ++i) {
+    const double step = position[i] - before, h = time[i] - time[i - 1];
+    before = position[i];
+    if (std::abs(step) > range / 2) {
+      // the speeds beside a gap tell nothing of the way in it
+      const bool gap = h > longest;
+      const double expected =
+          velocity.size() == 0 || gap ? 0 : (velocity[i] + velocity[i - 1]) / 2 * h;
+      // a jump is one where the way back fits the speed better than the step itself
+      const double back = std::copysign(range, step);
+      if (std::abs(step - back - expected) < std::abs(step - expected)) {
+        turns -= back;
+        ++undone.jumps;
+        undone.at_gaps += gap;
+      }
+    }
+    position[i] += turns;
+  }
+  return undone;
+}
+
 }  // namespace
-
-std::optional<double> ReadStamp(std::string_view text) {
-  if (text.empty() || text.size() > 48 || text[0] < '0' || text[0] > '9') return std::nullopt;
-  std::string stamp(text);
-  std::ranges::replace(stamp, ',', '.');
-  // a duration: a number and its unit, or days and a time
-  const char* const end = stamp.data() + stamp.size();
-  double number = 0;
-  const std::string_view unit(std::from_chars(stamp.data(), end, number).ptr, end);
-  if (unit.empty()) return std::nullopt;
-  // none begins as the rest of a date or a time does
-  const bool is_clock = unit.find_first_of("-:/.T") == 0;
-  const std::optional<Unit> known = is_clock ? std::nullopt : MeantUnit(unit, {"s"});
-  if (known) return number * known->factor;
-  for (const std::string_view days : {" days ", " day "}) {
-    const auto rest = unit.starts_with(days) ? ReadStamp(unit.substr(days.size())) : std::nullopt;
-    if (rest) return number * kDay + *rest;
-  }
-
-  // a date, a time, or both; minutes and seconds alone only with a fraction
-  std::tm time{};
-  const char* rest = nullptr;
-  for (const char* format : kStamps) {
-    if (!rest) rest = Behind(stamp.c_str(), format, &time);
-  }
-  if (!rest) {
-    rest = Behind(stamp.c_str(), "%M:%S", &time);
-    if (rest && *rest != '.') rest = nullptr;
-  }
-  if (!rest) return std::nullopt;
-  double seconds = static_cast<double>(timegm(&time));
-  // milliseconds may follow a colon
-  if (*rest == ':' || *rest == '.') {
-    double fraction = 0;
-    const char* const digits = rest + 1;
-    rest = std::from_chars(digits, end, fraction, std::chars_format::fixed).ptr;
-    if (fraction < 0 || rest == digits) return std::nullopt;
-    const bool is_milli = digits[-1] == ':';
-    seconds += fraction * std::pow(10, is_milli ? -3 : static_cast<double>(digits - rest));
-  }
-  // morning or afternoon, and the zone
-  const double hour = 3600.0 * (time.tm_hour % 12 - time.tm_hour);
-  while (*rest == ' ') ++rest;
-  for (const auto& [half, hours] : {std::pair("AM", 0), std::pair("PM", 12)}) {
-    if (strncasecmp(rest, half, 2) != 0) continue;
-    seconds += hour + 3600 * hours;
-    rest += 2;
-  }
-  std::tm zone{};
-  if (const char* behind = *rest ? Behind(rest, "%z", &zone) : nullptr) {
-    seconds -= static_cast<double>(zone.tm_gmtoff);
-    rest = behind;
-  }
-  return *rest ? std::nullopt : std::optional(seconds);
-}
-
-std::optional<Unit> EpochUnit(const Eigen::VectorXd& time) {
-  constexpr double first = 978307200, last = 4102444800;  // s, of 2001 and 2100
-  constexpr double longest = 100;                         // s between samples
-  const Eigen::Index n = time.size();
-  if (n < 2) return std::nullopt;
-  const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
-  for (const char* name : {"s", "ms", "us", "ns"}) {
-    const Unit unit = *MeantUnit(name, {"s"});
-    const double seconds = unit.factor * time[0];
-    if (seconds >= first && seconds < last && std::abs(step) * unit.factor <= longest) return unit;
-  }
-  return std::nullopt;
-}
 
 MendedClock MendClock(const Eigen::VectorXd& position, bool is_stamp, Eigen::VectorXd& time) {
   const Eigen::Index n = time.size();
@@ -195,6 +142,26 @@ MendedClock MendClock(const Eigen::VectorXd& position, bool is_stamp, Eigen::Vec
   const std::vector<Eigen::Index> begin = TicksOf(time);
   const bool ticks = late == repeats && begin.size() > kFewestTicks && !AreSeveral(position, begin);
   return {{}, ticks ? SpreadTicks(begin, time) : ""};
+}
+
+int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
+                Eigen::VectorXd& position) {
+  constexpr double turn = 2 * std::numbers::pi;  // rad
+  constexpr double slack = 1e-3 * turn;          // sensors round their last step
+  // what spans more than a turn already counts its turns
+  if (position.maxCoeff() - position.minCoeff() > turn + slack) return 0;
+  Eigen::VectorXd unwrapped = position;
+  const Undone undone = Undo(time, velocity, turn, unwrapped);
+
+  // jumps at gaps alone may be motion that was not logged
+  if (undone.jumps == undone.at_gaps) return 0;
+  position = std::move(unwrapped);
+  return undone.jumps;
+}
+
+int UnwrapRange(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
+                Eigen::VectorXd& position) {
+  return Undo(time, velocity, range, position).jumps;
 }
 
 }  // namespace warmjoint
