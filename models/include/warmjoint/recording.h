@@ -51,7 +51,7 @@ struct Measurements {
   std::optional<Eigen::VectorXd> loss_velocity;
 
   /// Of several recordings prepared together (prepared_log.h): the first sample of each but the
-  /// first. The joint is cold there again.
+  /// first. The joint is cold there again, or as warm as an estimate has it.
   std::vector<Eigen::Index> starts;
 
   /// Of rows that are means of several samples, whose times no longer tell: the gaps between the

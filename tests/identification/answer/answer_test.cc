@@ -10,7 +10,7 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/warming/estimated_start.h"
-#include "models/recording/course_of.h"
+#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
