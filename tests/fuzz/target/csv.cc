@@ -40,7 +40,9 @@ ReadSettings LayoutOf(std::string_view bytes) {
   return layout;
 }
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const Measurements log = ParseCsv(bytes, "fuzz.csv", LayoutOf(bytes));
   const Eigen::Index n = log.size();
   Require(n >= 3 && log.position.size() == n);
@@ -49,11 +51,4 @@ void Read(std::string_view bytes) {
   Require((log.time.tail(n - 1).array() > log.time.head(n - 1).array()).all());
   Require(log.torque.maxCoeff() > log.torque.minCoeff());
   Require(!CheckToText(CheckRecording(log)).empty());
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }
