@@ -16,6 +16,7 @@
 #include "identification/seen_samples.h"
 #include "models/friction/check_friction.h"
 #include "tests/support/bristle_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -100,13 +101,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
   /// The motion of Warm, of a joint that does not warm.
   static const Measurements& Cold() {
     static const Measurements recording = WithMoreColumns(
-        test::RecordFriction(ColdTableOne(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
+        test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
     return recording;
-  }
-  static Friction ColdTableOne() {
-    Friction friction = test::TableOne();
-    friction.thermal.reset();
-    return friction;
   }
 };
 
@@ -198,7 +194,7 @@ TEST_P(Contract, RecoversTheTruthOfRichData) {
 TEST_P(Contract, GivesNoFrictionOutsideOfPhysicalBounds) {
   // an identifier without warming is shown a joint that does not warm
   const bool warms = IdentifyRich().Find("thermal_gain") != nullptr;
-  const Estimate estimate = Identify(Falling(warms ? test::TableOne() : ColdTableOne()));
+  const Estimate estimate = Identify(Falling(warms ? test::TableOne() : test::Cold()));
   if (GetParam().name == "auto" && !estimate.Find("viscous")) {
     // a law without a slope is left, and its values are within their bounds
     EXPECT_TRUE(estimate.Find("coulomb")) << estimate.FullMessage();
@@ -381,12 +377,7 @@ TEST_P(Contract, LearnsFromChangesOfSpeedOnlyThroughTheRawView) {
   EXPECT_EQ(answer(other) == answer(log), steady);
 }
 
-INSTANTIATE_TEST_SUITE_P(Identifiers, Contract, ::testing::ValuesIn(Identifiers()),
-                         [](const auto& member) {
-                           std::string name = member.param.name;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Identifiers, Contract, ::testing::ValuesIn(Identifiers()), test::NameOf);
 
 TEST(Identifiers, HaveDistinctNames) {
   std::set<std::string> names;

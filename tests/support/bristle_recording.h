@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "models/friction/joint_friction.h"
-#include "tests/support/slow_recording.h"
+#include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
 

@@ -12,7 +12,7 @@
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
-#include "tests/support/excited_recording.h"
+#include "tests/support/warm_recording.h"
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"
 #include "tools/figures/estimate_figures.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/figures/look.h"
-#include "tests/tools/figures/mapped_recording.h"
+#include "tests/tools/figures/warm_recording.h"
 #include "tools/figures/friction_map.h"
 
 namespace warmjoint::figures {
