@@ -67,9 +67,7 @@ inline Friction StribeckJoint() {
            {"static", 20},
            {"stribeck_velocity", 0.05},
            {"stribeck_exponent", 2}},
-          {},
-          0,
-          1};
+          {}};
 }
 
 /// The same with a level of 15 N.m forwards and 12 N.m backwards.
@@ -81,9 +79,7 @@ inline Friction TwoLevelStribeckJoint() {
            {"static_rise", 5},
            {"stribeck_velocity", 0.05},
            {"stribeck_exponent", 2}},
-          {},
-          0,
-          1};
+          {}};
 }
 
 /// Speeds from 0.005 to 1 rad/s, even in their logarithm, held for `hold` samples, of alternating

@@ -1,4 +1,4 @@
 // Recordings as MATLAB files.
-#include "tests/fuzz/binary_log.h"
+#include "tests/fuzz/logs.h"
 
 void warmjoint::fuzz::Read(std::string_view bytes) { ReadBinaryLog(bytes, ".mat", 0.25); }

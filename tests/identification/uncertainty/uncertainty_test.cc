@@ -197,6 +197,16 @@ TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
 
 /// A level that was known beforehand to one standard error of the log's, beside a weight of +-1 in
 /// turn: by hand its variance is s^2 / (n + n), of which a half comes from either.
+Uncertainty Penalised(const PenalisedFit& fit, const Eigen::MatrixXd& jacobian,
+                      const Eigen::VectorXd& residual) {
+  Selection all;
+  all.keep = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(residual.size(), true);
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
+    return jacobian.middleRows(first, last - first);
+  };
+  return PenalisedCovariance(fit, rows, residual, all);
+}
+
 TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
   const Eigen::Index n = 20000;
   Eigen::MatrixXd jacobian(n, 2);
@@ -212,14 +222,9 @@ TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
   penalised(0, 0) += 1;
   penalised(1, 1) += prior[1];
   const Eigen::MatrixXd inverse = penalised.inverse();
-  Selection all;
-  all.keep = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true);
-  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
-    return jacobian.middleRows(first, last - first);
-  };
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(1, 0.5);
   const Uncertainty known =
-      PenalisedCovariance({gram, inverse, 0, weight, 1, {false}, prior}, rows, residual, all);
+      Penalised({gram, inverse, 0, weight, 1, {false}, prior}, jacobian, residual);
 
   // to the scatter of the noise's variance, sqrt(2 / n) = 1 %, four times
   const double closed_form = 1.0 / (2.0 * double(n));
@@ -244,13 +249,8 @@ TEST(PenalisedUncertainty, TakesTheWeightsVarianceFromThoseThatThePriorHoldsBack
   const Eigen::MatrixXd gram = jacobian.transpose() * jacobian;
   const Eigen::Array3d g = gram.diagonal();  // 1000, 10, 10
   const Eigen::MatrixXd inverse = (1 / (g + s)).matrix().asDiagonal();
-  Selection all;
-  all.keep = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true);
-  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
-    return jacobian.middleRows(first, last - first);
-  };
   const Uncertainty known =
-      PenalisedCovariance({gram, inverse, 0, weight, s, {false, false, true}}, rows, residual, all);
+      Penalised({gram, inverse, 0, weight, s, {false, false, true}}, jacobian, residual);
 
   double above = 0, below = 0;
   for (const int k : {0, 1}) {

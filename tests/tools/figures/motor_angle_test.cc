@@ -32,7 +32,7 @@ TEST(MotorAngle, ShowsTheRippleOfEachSpeedInEachDirection) {
 
 TEST(MotorAngle, IsNothingWithoutAMotorAngle) {
   const WarmRecording warm;
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  const FitView view = warm.View();
   EXPECT_FALSE(MakeMotorAngle(view));
   EXPECT_FALSE(MakeMotorMap(view));
   EXPECT_FALSE(MakeMotorFit(view));

@@ -37,6 +37,8 @@ struct WarmRecording {
     Identify(random);
   }
 
+  FitView View() const { return MakeFitView(measurements, selection, estimate); }
+
  private:
   void Identify(RandomStream& random) {
     estimate.friction = Friction{};
@@ -99,8 +101,6 @@ struct MappedRecording : WarmRecording {
       measurements.torque[i] = PlainForce(i) + 2 * std::sin(motor) + 0.1 * random.Normal();
     }
   }
-
-  FitView View() const { return MakeFitView(measurements, selection, estimate); }
 
  private:
   /// Law and warming alone.
