@@ -30,14 +30,13 @@ namespace {
 
 /// Friction with all its parts.
 Friction Full() {
-  Friction friction;
-  friction.law = "stribeck";
-  friction.parameters = {{"viscous", 0.4},
-                         {"coulomb", 3},
-                         {"static", 4},
-                         {"stribeck_velocity", 0.1},
-                         {"stribeck_exponent", 2}};
-  friction.thermal = Thermal{-0.3, 50};
+  Friction friction{"stribeck",
+                    {{"viscous", 0.4},
+                     {"coulomb", 3},
+                     {"static", 4},
+                     {"stribeck_velocity", 0.1},
+                     {"stribeck_exponent", 2}},
+                    Thermal{-0.3, 50}};
   friction.second_thermal = Thermal{-0.1, 5};
   friction.level_per_temperature = -0.1;
   friction.load_gain = 0.1;

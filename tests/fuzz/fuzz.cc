@@ -8,21 +8,23 @@
 
 #include "models/foundation/bad_input.h"
 
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace warmjoint;
+  constexpr std::size_t longest = 20'000;  // bytes; lists of known names are the longest there are
+  try {
+    fuzz::Read({reinterpret_cast<const char*>(data), size});
+  } catch (const BadInput& refusal) {
+    const std::string_view sentence = refusal.what();
+    fuzz::Require(!sentence.empty() && sentence.size() < longest);
+  }
+  return 0;
+}
+
 namespace warmjoint::fuzz {
 namespace fs = std::filesystem;
 
 void Require(bool holds) {
   if (!holds) std::abort();
-}
-
-void MayRefuse(void (*work)(std::string_view), std::string_view bytes) {
-  constexpr std::size_t longest = 20'000;  // bytes; lists of known names are the longest there are
-  try {
-    work(bytes);
-  } catch (const BadInput& refusal) {
-    const std::string_view sentence = refusal.what();
-    Require(!sentence.empty() && sentence.size() < longest);
-  }
 }
 
 fs::path ScratchFolder() {

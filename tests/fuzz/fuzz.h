@@ -1,4 +1,4 @@
-// What the fuzz targets share. Each target is one file in target/ that defines LLVMFuzzerTestOneInput; with Clang and
+// What the fuzz targets share. Each target is one file in target/ that defines Read; with Clang and
 // -DWARMJOINT_FUZZ=ON it becomes a libFuzzer program, else drive.cc runs it over its corpus and mutations of it.
 #pragma once
 
@@ -8,21 +8,17 @@
 #include <string>
 #include <string_view>
 
-/// Reads bytes that may be anything: they are refused with BadInput, or give what keeps its promises. Anything else
-/// ends the process.
+/// Calls the target's Read. BadInput is an answer too, where it says something, and in a sentence rather than a book.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace warmjoint::fuzz {
 
-inline std::string_view Text(const std::uint8_t* data, std::size_t size) {
-  return {reinterpret_cast<const char*>(data), size};
-}
+/// Reads bytes that may be anything: they are refused with BadInput, or give what keeps its promises. Anything else
+/// ends the process.
+void Read(std::string_view bytes);
 
 /// Ends the process where a promise is broken.
 void Require(bool holds);
-
-/// Does the work. BadInput is an answer too, where it says something, and in a sentence rather than a book.
-void MayRefuse(void (*work)(std::string_view bytes), std::string_view bytes);
 
 /// A folder for scratch files, in memory where there is one.
 std::filesystem::path ScratchFolder();

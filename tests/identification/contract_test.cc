@@ -16,6 +16,7 @@
 #include "identification/seen_samples.h"
 #include "models/friction/friction_json.h"
 #include "tests/support/bristle_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -52,6 +53,21 @@ class Contract : public ::testing::TestWithParam<Identifier> {
     return Identify(measurements, SelectMoving(measurements));
   }
   Estimate IdentifyRich() const { return Identify(Rich()); }
+
+  /// Expects of a log that was made of the rich one what `change` makes of that one's parameters.
+  void ExpectOf(const Measurements& log,
+                const std::function<void(EstimatedParameter&)>& change) const {
+    const Estimate estimate = Identify(log), original = IdentifyRich();
+    ASSERT_FALSE(original.parameters.empty()) << original.message;
+    ASSERT_EQ(estimate.parameters.size(), original.parameters.size()) << estimate.message;
+    for (EstimatedParameter expected : original.parameters) {
+      change(expected);
+      const EstimatedParameter* found = estimate.Find(expected.name);
+      ASSERT_TRUE(found) << expected.name;
+      // 1e-6: iterative optimisers (golden/README)
+      EXPECT_NEAR(found->value, expected.value, 1e-6 * std::abs(expected.value)) << expected.name;
+    }
+  }
 
   /// What shows all that the identifier identifies.
   static const Measurements& Rich() {
@@ -100,13 +116,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
   /// The motion of Warm, of a joint that does not warm.
   static const Measurements& Cold() {
     static const Measurements recording = WithMoreColumns(
-        test::RecordFriction(ColdTableOne(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
+        test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
     return recording;
-  }
-  static Friction ColdTableOne() {
-    Friction friction = test::TableOne();
-    friction.thermal.reset();
-    return friction;
   }
 };
 
@@ -198,7 +209,7 @@ TEST_P(Contract, RecoversTheTruthOfRichData) {
 TEST_P(Contract, GivesNoFrictionOutsideOfPhysicalBounds) {
   // an identifier without warming is shown a joint that does not warm
   const bool warms = IdentifyRich().Find("thermal_gain") != nullptr;
-  const Estimate estimate = Identify(Falling(warms ? test::TableOne() : ColdTableOne()));
+  const Estimate estimate = Identify(Falling(warms ? test::TableOne() : test::Cold()));
   if (GetParam().name == "auto" && !estimate.Find("viscous")) {
     // a law without a slope is left, and its values are within their bounds
     EXPECT_TRUE(estimate.Find("coulomb")) << estimate.FullMessage();
@@ -303,18 +314,12 @@ TEST_P(Contract, CarriesTheUnitsOfALinearJoint) {
 TEST_P(Contract, ScalesWithTheTorque) {
   Measurements scaled = Rich();
   scaled.torque *= 2.5;
-  const Estimate estimate = Identify(scaled);
-  const Estimate original = IdentifyRich();
-  ASSERT_FALSE(estimate.parameters.empty()) << estimate.message;
-  ASSERT_EQ(estimate.parameters.size(), original.parameters.size()) << estimate.message;
-  for (const EstimatedParameter& parameter : estimate.parameters) {
+  ExpectOf(scaled, [](EstimatedParameter& parameter) {
     // gain (N.m/W), times, speeds and exponents keep their values, all others are torques over
     // speeds
     const bool same = parameter.name.starts_with("thermal") || !parameter.unit.starts_with("N.m");
-    const double expected = original.Find(parameter.name)->value * (same ? 1 : 2.5);
-    // 1e-6: iterative optimisers (golden/README)
-    EXPECT_NEAR(parameter.value, expected, 1e-6 * std::abs(expected)) << parameter.name;
-  }
+    if (!same) parameter.value *= 2.5;
+  });
 }
 
 TEST_P(Contract, TreatsBothDirectionsAlike) {
@@ -322,36 +327,20 @@ TEST_P(Contract, TreatsBothDirectionsAlike) {
   reversed.velocity = -reversed.velocity;
   reversed.position = -reversed.position;
   reversed.torque = -reversed.torque;
-  const Estimate estimate = Identify(reversed);
-  const Estimate original = IdentifyRich();
-  ASSERT_FALSE(estimate.parameters.empty()) << estimate.message;
-  ASSERT_EQ(estimate.parameters.size(), original.parameters.size()) << estimate.message;
-  for (const EstimatedParameter& parameter : estimate.parameters) {
-    std::string other = parameter.name;
-    if (other == "coulomb_positive") {
-      other = "coulomb_negative";
-    } else if (other == "coulomb_negative") {
-      other = "coulomb_positive";
+  ExpectOf(reversed, [](EstimatedParameter& parameter) {
+    std::string& name = parameter.name;
+    if (name == "coulomb_positive") {
+      name = "coulomb_negative";
+    } else if (name == "coulomb_negative") {
+      name = "coulomb_positive";
     }
-    const double expected = original.Find(other)->value;
-    // 1e-6: iterative optimisers (golden/README)
-    EXPECT_NEAR(parameter.value, expected, 1e-6 * std::abs(expected)) << parameter.name;
-  }
+  });
 }
 
 TEST_P(Contract, DoesNotMindWhenTheClockStarted) {
   Measurements later = Rich();
   later.time.array() += 86400;
-  const Estimate estimate = Identify(later);
-  const Estimate original = IdentifyRich();
-  ASSERT_FALSE(original.parameters.empty()) << original.message;
-  for (const EstimatedParameter& parameter : original.parameters) {
-    // 1e-6: iterative optimisers (golden/README)
-    ASSERT_TRUE(estimate.Find(parameter.name)) << estimate.message;
-    EXPECT_NEAR(estimate.Find(parameter.name)->value, parameter.value,
-                1e-6 * std::abs(parameter.value))
-        << parameter.name;
-  }
+  ExpectOf(later, [](EstimatedParameter&) {});
 }
 
 TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
@@ -381,12 +370,7 @@ TEST_P(Contract, LearnsFromChangesOfSpeedOnlyThroughTheRawView) {
   EXPECT_EQ(answer(other) == answer(log), steady);
 }
 
-INSTANTIATE_TEST_SUITE_P(Identifiers, Contract, ::testing::ValuesIn(Identifiers()),
-                         [](const auto& member) {
-                           std::string name = member.param.name;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Identifiers, Contract, ::testing::ValuesIn(Identifiers()), test::NameOf);
 
 TEST(Identifiers, HaveDistinctNames) {
   std::set<std::string> names;

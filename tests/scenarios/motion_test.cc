@@ -46,19 +46,19 @@ Motion Drawn(SegmentOrder order) {
   return motion;
 }
 
-TEST(Motion, AlternatesTheSignOverTheList) {
-  const auto plan = Plan(Held({1, 2, 3}, SegmentOrder::alternating), 6);
-  EXPECT_THAT(Velocities(plan), ElementsAre(1, -2, 3, -1, 2, -3));
-}
-
-TEST(Motion, AlternatingGivesBothSignsToEachSpeedOfAnEvenList) {
-  const auto plan = Plan(Held({1, 2}, SegmentOrder::alternating), 4);
-  EXPECT_THAT(Velocities(plan), ElementsAre(1, -2, 2, -1));
-}
-
-TEST(Motion, InOrderClimbsTheLadderForwardsAndBackwards) {
-  const auto plan = Plan(Held({1, 2}, SegmentOrder::in_order), 6);
-  EXPECT_THAT(Velocities(plan), ElementsAre(1, -1, 2, -2, 1, -1));
+TEST(Motion, TakesTheSpeedsOfItsListInTheirOrder) {
+  const struct {
+    SegmentOrder order;
+    std::vector<double> speeds, velocities;
+  } cases[] = {{SegmentOrder::alternating, {1, 2, 3}, {1, -2, 3, -1, 2, -3}},
+               // both signs for each speed of an even list
+               {SegmentOrder::alternating, {1, 2}, {1, -2, 2, -1}},
+               // the ladder forwards and backwards
+               {SegmentOrder::in_order, {1, 2}, {1, -1, 2, -2, 1, -1}}};
+  for (const auto& [order, speeds, velocities] : cases) {
+    const auto duration = static_cast<double>(velocities.size());
+    EXPECT_EQ(Velocities(Plan(Held(speeds, order), duration)), velocities);
+  }
 }
 
 TEST(Motion, InOrderRepeatsADrawBackwards) {

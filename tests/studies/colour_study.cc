@@ -21,7 +21,6 @@
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "tests/studies/far_outside.h"
 #include "tests/studies/for_each_variant.h"
 
 namespace warmjoint {

@@ -1,15 +1,18 @@
-// What the studies of suites share: their command line.
+// What the studies of suites share: their command line, logs that a fit has not seen, and what counts as wrong.
 #pragma once
 
 #include <fmt/format.h>
+#include <warmjoint/score.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/parse_number.h"
 #include "scenarios/suite.h"
+#include "sim/plant/plant.h"
 
 namespace warmjoint {
 
@@ -38,6 +41,24 @@ inline int StudyVariants(const char* name, int count, char** arguments,
     return 2;
   }
   return 0;
+}
+
+/// The joint of a recording, its speeds and noise drawn anew.
+inline Simulation MovedAnew(Scenario scenario, const Truth& truth, int realization) {
+  scenario.friction = truth.friction;
+  scenario.initial_energy = truth.initial_energy;
+  scenario.draws = {};
+  return MakePlant(scenario)->Run(static_cast<std::uint64_t>(realization));
+}
+
+inline constexpr double kIntervalWidth = 3.92;  // deviations of a 95 % interval of known variance
+inline constexpr double kFarDeviations = 3;     // beyond an end of it
+
+/// Whether the truth lies more than three deviations (interval / 3.92) beyond an end of the interval.
+inline bool IsFarOutside(const ParameterScore& one, const std::array<double, 2>& interval) {
+  const double deviation = (interval[1] - interval[0]) / kIntervalWidth;
+  return one.truth < interval[0] - kFarDeviations * deviation ||
+         one.truth > interval[1] + kFarDeviations * deviation;
 }
 
 }  // namespace warmjoint

@@ -29,7 +29,6 @@
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
-#include "tests/studies/moved_anew.h"
 
 namespace warmjoint {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "models/friction/joint_friction.h"
-#include "tests/support/slow_recording.h"
+#include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
 
@@ -19,9 +19,7 @@ inline Friction LuGreJoint() {
            {"stribeck_velocity", 0.05},
            {"bristle_stiffness", 2000},
            {"bristle_damping", 40}},
-          {},
-          0,
-          1};
+          {}};
 }
 
 /// The same with a level of 15 N.m forwards and 12 N.m backwards.

@@ -48,15 +48,16 @@ inline FrictionMap PositionLevel(double limit, double amplitude) {
                  [=](double p) { return amplitude * std::sin(4 * p / limit + 0.5); });
 }
 
-/// Adds AR(1) noise to the torque: deviation, N.m; coefficient from one sample to the next.
-inline void AddNoise(Measurements& m, double deviation, double coefficient, std::uint64_t seed) {
-  RandomStream random({seed, 1}, Stream::torque_noise);
-  double noise = deviation * random.Normal();
-  for (double& torque : m.torque) {
-    torque += noise;
-    noise = coefficient * noise +
-            std::sqrt(1 - coefficient * coefficient) * deviation * random.Normal();
-  }
+/// What `friction` gives along a motion that begins at a position, rad, with AR(1) noise.
+inline Measurements RecordTravel(const Friction& friction, double step,
+                                 const Eigen::VectorXd& velocity, double begin, double noise,
+                                 double coefficient, std::uint64_t seed) {
+  Measurements m = Record(step, velocity, Eigen::VectorXd::Zero(velocity.size()));
+  m.gear = friction.gear;
+  m.position.array() += begin;
+  m.torque = PredictFriction(friction, m).force;
+  AddNoise(m, noise, coefficient, seed);
+  return m;
 }
 
 }  // namespace warmjoint::test

@@ -1,12 +1,12 @@
 // Many simulations on several threads, by mjBatch and by threads of our own.
 #include <gmock/gmock.h>
-#include <mujoco/mjbatch.h>
 
 #include <cmath>
 #include <thread>
 #include <vector>
 
 #include "tests/sim/plugin/friction_models.h"
+#include "tests/sim/plugin/two_forms.h"
 
 /// MuJoCo's library is not built with ThreadSanitizer, which therefore does not see how the pool of
 /// mjBatch hands its states over to mj_setState. The plugin is not called from there.
@@ -27,10 +27,6 @@ const Config kWarm{{"law", "stribeck"},
                    {"thermal_time_constant", "10"}};
 constexpr int kSimulations = 16;
 constexpr int kHalf = 300;  // steps
-
-struct DeleteBatch {
-  void operator()(mjBatch* batch) const { mjb_deleteBatch(batch); }
-};
 
 Model Motor() {
   // ctrl: the friction's ambient, the motor's torque
@@ -74,13 +70,7 @@ TEST(PluginBatch, ContinuesBitForBitOnAnyNumberOfThreads) {
   for (const int threads : {1, 4}) {
     // outlive the batch: ThreadSanitizer does not see how its pool says that it has read them
     const std::vector<mjtNum> halves[] = {Controls(0, kHalf), Controls(kHalf, kHalf)};
-    mjBatchConfig config;
-    mjb_defaultConfig(&config);
-    config.nthread = threads;
-    char error[500] = "";
-    const std::unique_ptr<mjBatch, DeleteBatch> batch(
-        mjb_makeBatch(m.get(), kSimulations, &config, error, sizeof(error)));
-    ASSERT_TRUE(batch) << error;
+    const Batch batch = MakeBatch(m.get(), kSimulations, threads);
     ASSERT_EQ(mjb_nstate(batch.get()), size);
     ASSERT_EQ(mjb_reset(batch.get(), nullptr, kSimulations, nullptr, mjSTAGE_NONE), 0);
 

@@ -7,23 +7,17 @@
 
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "models/recording/read_recording.h"
+#include "tests/support/emps_log.h"
 #include "tests/support/judging.h"
-#include "tests/support/shared_data.h"
 
 namespace warmjoint {
 namespace {
 
 using ::testing::ContainsRegex;
 
-constexpr const char* kFile = "data/emps/DATA_EMPS.csv";
-
 /// The log; a turn of its screw is 10 mm.
 Measurements Emps() {
-  ReadSettings layout;
-  layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
-  layout.joint = JointKind::linear;
-  Measurements m = ReadRecordingFile((test::SharedFolder() / kFile).string(), layout);
+  Measurements m = test::EmpsLog();
   m.gear = 2 * std::numbers::pi / 0.010;
   return m;
 }
@@ -41,7 +35,7 @@ double TestRmse(const Measurements& m, const std::string& name,
 
 // one unit of the last digit of published figures, which another selection of samples moves
 TEST(Emps, HasThePublishedNumbersOfTheAsymmetricLaw) {
-  WARMJOINT_NEED_SHARED(kFile);
+  WARMJOINT_NEED_SHARED(test::kEmpsFile);
   const Estimate estimate = test::Fitted("nominal-ls", Emps(), {{"law", "asymmetric"}});
   EXPECT_NEAR(estimate.Find("viscous")->value, 193, 2);
   EXPECT_NEAR(estimate.Find("coulomb_positive")->value, 18.0, 0.1);
@@ -52,7 +46,7 @@ TEST(Emps, HasThePublishedNumbersOfTheAsymmetricLaw) {
 }
 
 TEST(Emps, PositionForEachDirectionBeatsTheAsymmetricLawOnTheTestPart) {
-  WARMJOINT_NEED_SHARED(kFile);
+  WARMJOINT_NEED_SHARED(test::kEmpsFile);
   const Measurements m = Emps();
   const double law = TestRmse(m, "nominal-ls", {{"law", "asymmetric"}});
   // the map takes most of what law (3) leaves, the drift of 25 s stays: at least a quarter less
@@ -61,12 +55,21 @@ TEST(Emps, PositionForEachDirectionBeatsTheAsymmetricLawOnTheTestPart) {
 }
 
 TEST(Emps, RipplesFourTimesATurnOfTheScrew) {
-  WARMJOINT_NEED_SHARED(kFile);
+  WARMJOINT_NEED_SHARED(test::kEmpsFile);
   const Estimate estimate = test::Fitted("motor-ridge", Emps());
   std::cout << estimate.message << "\n";
   // 2.50 mm, strongest in both directions
   EXPECT_THAT(estimate.message, ContainsRegex("v > 0: [0-9.]+ N at 4 a turn"));
   EXPECT_THAT(estimate.message, ContainsRegex("v < 0: [0-9.]+ N at 4 a turn"));
+}
+
+TEST(Emps, HasThePublishedOffsetOfGravity) {
+  WARMJOINT_NEED_SHARED(test::kEmpsFile);
+  const Estimate estimate = test::Fitted("nominal-ls", test::EmpsLog(), {{"gravity", "paired"}});
+  ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
+  // from all samples: within our interval
+  EXPECT_TRUE(test::Holds(estimate, "gravity_offset", -3.1648));
+  EXPECT_LT((*estimate.Find("gravity_offset")->interval95)[1], 0);
 }
 
 }  // namespace

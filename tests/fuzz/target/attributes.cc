@@ -8,7 +8,9 @@ namespace {
 
 using namespace warmjoint;
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   AttributeTexts given;
   while (!bytes.empty()) {
     const std::string_view line = fuzz::TakeLine(bytes);
@@ -23,11 +25,4 @@ void Read(std::string_view bytes) {
   const DescribedJoints joints = DescribeJoints(given, place);
   fuzz::Require(!joints.empty());
   for (const auto& [name, joint] : joints) CheckFriction(joint.friction, place);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -10,7 +10,9 @@ namespace {
 
 using namespace warmjoint;
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const Place place{"fuzz.json"};
   const Estimate estimate = EstimateFrom(ParseJsonNode(std::string(bytes), place.file));
   const auto written = EstimateToTree(estimate);
@@ -23,11 +25,4 @@ void Read(std::string_view bytes) {
   const Eigen::VectorXd position = Eigen::VectorXd::LinSpaced(50, -20, 20);
   fuzz::Require(estimate.gravity->Torque(position).size() == position.size());
   estimate.gravity->Covers(position[7]);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -15,7 +15,9 @@ using namespace warmjoint;
 
 Friction Parsed(const std::string& text) { return FrictionFrom(ParseJsonNode(text, "fuzz.json")); }
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const Friction friction = Parsed(std::string(bytes));
   const std::string written = FrictionToTree(friction).dump();
   fuzz::Require(FrictionToTree(Parsed(written)).dump() == written);
@@ -30,11 +32,4 @@ void Read(std::string_view bytes) {
     fuzz::Require(!(step.loss < 0));
     state = step.next;
   }
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -1,33 +1,4 @@
-// Recordings as MATLAB files. As with HDF5, the library works in a child; what may not happen is that this process crashes.
-#include <functional>
+// Recordings as MATLAB files.
+#include "tests/fuzz/logs.h"
 
-#include "models/recording/read_recording.h"
-#include "tests/fuzz/fuzz.h"
-
-namespace {
-
-using namespace warmjoint;
-using fuzz::Require;
-
-constexpr double kPatience = 0.25;  // s
-
-void Read(std::string_view bytes) {
-  const fuzz::ScratchFile file(bytes, ".mat");
-  // half of the inputs by columns of matrices in groups
-  ReadSettings layout;
-  if (std::hash<std::string_view>()(bytes) % 2 == 1) {
-    layout.map = {{"position", "m[1]"}, {"torque", "g/m[0]"}};
-  }
-  const Measurements log = ReadRecordingFile(file.path().string(), layout, kPatience);
-  const Eigen::Index n = log.size();
-  Require(n >= 3 && log.position.size() == n);
-  Require(log.position.allFinite() && log.torque.allFinite());
-  Require((log.time.tail(n - 1).array() > log.time.head(n - 1).array()).all());
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
-}
+void warmjoint::fuzz::Read(std::string_view bytes) { ReadBinaryLog(bytes, ".mat", 0.25); }

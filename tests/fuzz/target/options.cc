@@ -35,7 +35,9 @@ void ReadKept(std::string_view bytes) {
   fuzz::Require(SplitCommand(JoinCommand(words), place) == words);
 }
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const std::string name(fuzz::TakeLine(bytes));
   if (name == "project") return ReadProject(bytes);
   if (name == "recording") return ReadKept(bytes);
@@ -58,11 +60,4 @@ void Read(std::string_view bytes) {
   // what is written is read back
   const auto changed = identifier.options.Read(ReadPairs(set, "--set"), {"--set"}).Changed();
   fuzz::Require(identifier.options.Read(changed, {"again"}).Changed() == changed);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

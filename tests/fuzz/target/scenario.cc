@@ -10,7 +10,9 @@ using namespace warmjoint;
 
 Scenario Parsed(std::string_view yaml) { return ParseScenario(std::string(yaml), "fuzz.yaml"); }
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const Scenario scenario = Parsed(bytes);
   const std::string written = ScenarioToYaml(scenario);
   fuzz::Require(ScenarioToYaml(Parsed(written)) == written);
@@ -25,11 +27,4 @@ void Read(std::string_view bytes) {
     time += segment.duration;
   }
   fuzz::Require(std::abs(time - scenario.duration) <= 1e-6 * scenario.duration);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -29,9 +29,9 @@ identifiers: [{name: nominal-ls}, {name: energy-ml}]
 )";
 
 /// A run of two realizations, and room to change it.
-class Run {
+class SpoiltRun {
  public:
-  Run() {
+  SpoiltRun() {
     std::string pattern = fuzz::ScratchFolder() / "warmjoint_fuzz_XXXXXX";
     fuzz::Require(mkdtemp(pattern.data()) != nullptr);
     folder_ = pattern;
@@ -41,7 +41,7 @@ class Run {
     }
     bytes_ = ReadWholeFile(results());
   }
-  ~Run() {
+  ~SpoiltRun() {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
@@ -96,8 +96,10 @@ void Change(const fs::path& file, std::string_view lines) {
   }
 }
 
-void Read(std::string_view bytes) {
-  static const Run run;
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
+  static const SpoiltRun run;
   for (const char* left : {"-journal", "-wal", "-shm"}) fs::remove(run.results().string() + left);
   const bool whole = bytes.starts_with("SQLite format 3");
   std::ofstream(run.results(), std::ios::binary) << (whole ? bytes : run.bytes());
@@ -116,11 +118,4 @@ void Read(std::string_view bytes) {
     fuzz::Require(trace.rows() * trace.columns.size() == trace.values.size());
   });
   ReadBoard(store);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -7,16 +7,11 @@ namespace {
 
 using namespace warmjoint;
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const Suite suite = ParseSuite(std::string(bytes), "fuzz.yaml");
   fuzz::Require(suite.realizations >= 1 && suite.variants() >= 1 && !suite.identifiers.empty());
   const std::string written = SuiteToYaml(suite);
   fuzz::Require(SuiteToYaml(ParseSuite(written, "fuzz.yaml")) == written);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -13,7 +13,9 @@ using namespace warmjoint;
 
 Truth Parsed(const std::string& text) { return ReadAs<Truth>(ParseJsonNode(text, "truth.json")); }
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const Truth truth = Parsed(std::string(bytes));
   const Eigen::Index n = truth.velocity.size();
   fuzz::Require(truth.force.size() == n && truth.loss.size() == n && truth.energy.size() == n);
@@ -24,11 +26,4 @@ void Read(std::string_view bytes) {
   const fuzz::ScratchFile file("");
   WriteTruth(truth, file.path());
   fuzz::Require(WriteFields(ReadTruth(file.path())).dump() == written);
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -6,7 +6,9 @@ namespace {
 
 using namespace warmjoint;
 
-void Read(std::string_view bytes) {
+}  // namespace
+
+void warmjoint::fuzz::Read(std::string_view bytes) {
   const fuzz::ScratchFile file(bytes);
   const auto robot = ReadUrdf(file.path());
   fuzz::Require(robot && robot->getRoot());
@@ -14,11 +16,4 @@ void Read(std::string_view bytes) {
   for (const auto& [name, joint] : robot->joints_) {
     fuzz::Require(joint && robot->getLink(joint->child_link_name) != nullptr);
   }
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::MayRefuse(Read, fuzz::Text(data, size));
-  return 0;
 }

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kStep = 1;  // s
 
-Eigen::VectorXd EvenTime(Eigen::Index n) {
-  return Eigen::VectorXd::LinSpaced(n, 0, kStep * static_cast<double>(n - 1));
+Eigen::VectorXd EvenTime(Eigen::Index n, double h = kStep) {
+  return Eigen::VectorXd::LinSpaced(n, 0, h * static_cast<double>(n - 1));
 }
 
 ClosedLoop Loop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity) {
@@ -194,10 +194,6 @@ TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
   ExpectNear(loop.Jacobian(p, thermal, -0.5), differences, 1e-8);
 }
 
-Eigen::VectorXd EvenTime(Eigen::Index n, double h) {
-  return Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1) * h);
-}
-
 TEST(ThermalFilter, FollowsTheGoldenFilterFromItsInitialEnergy) {
   const auto& golden = test::Golden()["filter"];
   const double h = 0.5;
@@ -247,6 +243,38 @@ TEST(ThermalFilter, UnevenStepsAgreeWithAFineEvenGrid) {
   // both are exact: 1e-12 for closed forms
   EXPECT_LT((coarse - fine(taken)).norm(), 1e-12 * fine.norm());
 }
+
+template <typename L>
+void CompareWithDifferences() {
+  SCOPED_TRACE(L::name);
+  constexpr int d = L::parameters.size();
+  using Jet = ceres::Jet<double, d>;
+  for (const double v : {-1.3, -0.02, 0.0, 1e-6, 0.15, 0.8}) {
+    double p[d];
+    Jet x[d];
+    for (int i = 0; i < d; ++i) x[i] = Jet(p[i] = 0.4 + 0.3 * i, i);
+    const Jet force = L::Force(v, x);
+    EXPECT_DOUBLE_EQ(force.a, L::Force(v, p));
+
+    for (int i = 0; i < d; ++i) {
+      const double step = 1e-6, here = p[i];
+      p[i] = here + step;
+      const double above = L::Force(v, p);
+      p[i] = here - step;
+      const double slope = (above - L::Force(v, p)) / (2 * step);
+      p[i] = here;
+      // third derivatives of size 100 times step^2 / 6, and rounding 1e-16 / step of a force of 2
+      EXPECT_NEAR(force.v[i], slope, 1e-9) << "parameter " << i << " at " << v;
+    }
+  }
+}
+
+template <typename... L>
+void CompareAll(LawList<L...>) {
+  (CompareWithDifferences<L>(), ...);
+}
+
+TEST(LawDerivatives, AreThoseOfFiniteDifferences) { CompareAll(AllLaws{}); }
 
 }  // namespace
 }  // namespace warmjoint

@@ -9,7 +9,7 @@
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -36,6 +36,12 @@ Fit KnowTableOne(const IdentifierInput& input) {
   return fit;
 }
 const Identifier kKnowing{"knowing", "", {}, &KnowTableOne};
+
+Fit KnowThatItStartedWarm(const IdentifierInput& input) {
+  Fit fit = KnowTableOne(input);
+  fit.initial_energy = -6;
+  return fit;
+}
 
 Fit KnowNothing(const IdentifierInput&) {
   return Refused("nothing", Status::not_identifiable, "nothing is known");
@@ -65,12 +71,7 @@ TEST(HoldOut, ComesToTheTestPartWarm) {
 }
 
 TEST(HoldOut, StartsAsWarmAsTheFitSays) {
-  const auto identify = [](const IdentifierInput& input) {
-    Fit fit = KnowTableOne(input);
-    fit.initial_energy = -6;
-    return fit;
-  };
-  Trial fit{{"started", "", {}, identify}, Recording(2, 0)};
+  Trial fit{{"started", "", {}, &KnowThatItStartedWarm}, Recording(2, 0)};
   fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, {-6}).force;
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25).metrics->rmse, 1e-12);
 }
@@ -122,14 +123,13 @@ TEST(HoldOut, IsAbsentWhereNothingIsKept) {
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25).metrics);
 }
 
+auto ErrorsOfSixBlocks(const Identifier& identifier, const Measurements& m) {
+  const Trial fit{identifier, m};
+  return BlockedErrors(fit.identifier, fit.input(), CutIntoBlocks(fit.selection, 6));
+}
+
 TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
-  const Selection selection = SelectMoving(m);
-  const Identifier warm = EnergyMl();
-  const Options options = warm.options.Read({});
-  const auto errors =
-      BlockedErrors(warm, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  const auto errors = ErrorsOfSixBlocks(EnergyMl(), test::RecordHour(test::TableOne(), 4));
   ASSERT_TRUE(errors);
   // 0.25, known to sqrt(2 / 600) = 6 % on each block; five of these; a fit without the first ten
   // minutes hardly sees the time constant, so that its block is left out
@@ -137,31 +137,15 @@ TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
 }
 
 TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
-  const Selection selection = SelectMoving(m);
-  const Identifier cold = NominalLs();
-  const Options options = cold.options.Read({});
-  const auto errors =
-      BlockedErrors(cold, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  const auto errors = ErrorsOfSixBlocks(NominalLs(), test::RecordHour(test::TableOne(), 4));
   ASSERT_TRUE(errors);
   EXPECT_GT((*errors)[0], 10 * 0.25);  // the first ten minutes are the cold ones
 }
 
 TEST(BlockedHoldOut, StartsAsWarmAsTheFitSays) {
-  const Identifier knowing{"knowing", "", {}, [](const IdentifierInput&) {
-                             Fit fit;
-                             fit.friction = test::TableOne();
-                             fit.initial_energy = -6;
-                             fit.errors.known = Uncertainty{};
-                             return fit;
-                           }};
   Measurements m = test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(600, 4), 0, 4);
   m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
-  const Selection selection = SelectMoving(m);
-  const Options options = knowing.options.Read({});
-  const auto errors =
-      BlockedErrors(knowing, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  const auto errors = ErrorsOfSixBlocks({"knowing", "", {}, &KnowThatItStartedWarm}, m);
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->maxCoeff(), 0);
 }

@@ -7,7 +7,6 @@
 
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "tests/support/excited_recording.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

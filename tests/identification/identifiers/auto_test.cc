@@ -1,12 +1,17 @@
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
+#include <iterator>
+#include <vector>
+
+#include "identification/identifiers/condense.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/measurements.h"
 #include "tests/support/judging.h"
-#include "tests/support/slow_recording.h"
 #include "tests/support/travelling.h"
-#include "tests/support/without_times.h"
+#include "tests/support/warm_recording.h"
 
 namespace warmjoint {
 namespace {
@@ -30,30 +35,19 @@ int Chosen(const Friction& truth) {
   return chosen;
 }
 
-// at least 90 %
-constexpr int kAtLeast = 9;
-
-TEST(Auto, ChoosesWarmingForTableOne) { EXPECT_GE(Chosen(test::TableOne()), kAtLeast); }
-
-TEST(Auto, ChoosesNoWarmingForAColdJoint) { EXPECT_GE(Chosen(test::Cold()), kAtLeast); }
-
-TEST(Auto, ChoosesALevelForEachDirectionWhereTheyDiffer) {
-  // by 0.2 N.m, ten standard deviations
-  EXPECT_GE(Chosen({"asymmetric",
-                    {{"viscous", 5}, {"coulomb_positive", 15.1}, {"coulomb_negative", 14.9}},
-                    Thermal{-3, 600}}),
-            kAtLeast);
-}
-
-TEST(Auto, ChoosesTheStribeckLawWhereSlowSpeedsShowIt) {
-  EXPECT_GE(Chosen(test::StribeckJoint()), kAtLeast);
-}
-
-TEST(Auto, ChoosesALevelForEachDirectionBesideTheStribeckLaw) {
-  Friction joint = test::TwoLevelStribeckJoint();
-  EXPECT_GE(Chosen(joint), kAtLeast);
-  joint.thermal = Thermal{-3, 600};
-  EXPECT_GE(Chosen(joint), kAtLeast);
+TEST(Auto, ChoosesTheLawAndTheWarmingOfAJoint) {
+  Friction warm_curve = test::TwoLevelStribeckJoint();
+  warm_curve.thermal = Thermal{-3, 600};
+  // levels that differ by 0.2 N.m, ten standard deviations
+  const Friction two_levels{
+      "asymmetric",
+      {{"viscous", 5}, {"coulomb_positive", 15.1}, {"coulomb_negative", 14.9}},
+      Thermal{-3, 600}};
+  for (const Friction& joint : {test::TableOne(), test::Cold(), two_levels, test::StribeckJoint(),
+                                test::TwoLevelStribeckJoint(), warm_curve}) {
+    // at least 90 %
+    EXPECT_GE(Chosen(joint), 9) << joint.law << ", warms: " << joint.thermal.has_value();
+  }
 }
 
 TEST(Auto, FindsTwoLevelsBesideASmallFall) {
@@ -68,8 +62,7 @@ TEST(Auto, FindsTwoLevelsBesideASmallFall) {
 }
 
 TEST(Auto, SaysWhyAndListsWhatItTried) {
-  const Estimate estimate =
-      AnswerTo(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
+  const Estimate estimate = AnswerTo(test::RecordHour(test::TableOne(), 1));
   EXPECT_EQ(estimate.identifier, "auto");
   EXPECT_THAT(estimate.message,
               HasSubstr("chose energy-ml law=viscous_coulomb: it outdoes every other"));
@@ -91,8 +84,7 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
 
 TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
   const auto tried = [](const Friction& joint) {
-    const Estimate estimate =
-        AnswerTo(test::RecordFriction(joint, 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
+    const Estimate estimate = AnswerTo(test::RecordHour(joint, 1));
     for (const StructureTrial& one : estimate.choice->trials) {
       if (one.name == "energy-ml gravity=sincos law=viscous_coulomb") return one.parameters > 0;
     }
@@ -113,8 +105,7 @@ TEST(Auto, TakesALawWithoutSlopeWhereThereIsOneSpeed) {
 }
 
 TEST(Auto, FindsGravity) {
-  Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
+  Measurements m = test::RecordHour(test::TableOne(), 1);
   m.torque.array() += 4 * m.position.array().sin() + 2 * m.position.array().cos();
   const Estimate estimate = AnswerTo(m);
   ASSERT_TRUE(estimate.choice);
@@ -139,9 +130,7 @@ TEST(Auto, TellsGravityFromAMap) {
   const Estimate heavy = OfRippleBesideWeight(5);
   ASSERT_TRUE(heavy.gravity) << heavy.message;
   EXPECT_FALSE(heavy.friction->maps.empty());
-  const auto& interval = *heavy.Find("gravity_sine")->interval95;
-  EXPECT_LT(interval[0], 5);
-  EXPECT_GT(interval[1], 5);
+  EXPECT_TRUE(test::Holds(heavy, "gravity_sine", 5));
 
   const Estimate light = OfRippleBesideWeight(0);
   EXPECT_FALSE(light.gravity) << light.message;
@@ -149,8 +138,7 @@ TEST(Auto, TellsGravityFromAMap) {
 }
 
 TEST(Auto, LeavesMapsOutWhereNothingIsLeftOverPlace) {
-  const Estimate estimate =
-      AnswerTo(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.5, 3));
+  const Estimate estimate = AnswerTo(test::RecordHour(test::TableOne(), 3));
   ASSERT_TRUE(estimate.choice);
   int maps = 0;
   for (const StructureTrial& one : estimate.choice->trials) {
@@ -163,20 +151,14 @@ TEST(Auto, LeavesMapsOutWhereNothingIsLeftOverPlace) {
 }
 
 TEST(Auto, FindsALagOfTheTorque) {
-  Eigen::VectorXd velocity(36000);
-  const Eigen::VectorXd speeds = test::AlternatingSpeeds(3600, 5);
-  for (Eigen::Index i = 0; i < 36000; ++i) velocity[i] = speeds[i / 10];
+  const Eigen::VectorXd velocity = test::Finer(test::AlternatingSpeeds(3600, 5), 10);
   Measurements m = test::RecordFriction(test::TableOne(), 0.1, velocity, 0, 5);
   m.torque = LowPass(m.time, m.torque, 0.4);
-  RandomStream random({5, 0}, Stream::test);
-  for (double& torque : m.torque) torque += 0.5 * random.Normal();
+  test::AddNoise(m, 0.5, 0, 5);
   const Estimate estimate = AnswerTo(m);
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb torque_lag=estimated");
-  ASSERT_NE(estimate.Find("torque_lag"), nullptr);
-  const auto& interval = *estimate.Find("torque_lag")->interval95;
-  EXPECT_LT(interval[0], 0.4);
-  EXPECT_GT(interval[1], 0.4);
+  EXPECT_TRUE(test::Holds(estimate, "torque_lag", 0.4));
 }
 
 TEST(Auto, BeginsAsWarmAsItIsTold) {
@@ -190,21 +172,14 @@ TEST(Auto, BeginsAsWarmAsItIsTold) {
                                           {"expected_energy", std::to_string(energy)},
                                           {"expected_energy_std", "0.05"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-  for (const auto& [name, value] :
-       {std::pair("initial_energy", energy), std::pair("thermal_gain", -3.0),
-        std::pair("thermal_time_constant", 600.0)}) {
-    const EstimatedParameter* found = estimate.Find(name);
-    ASSERT_TRUE(found && found->std) << name;
-    EXPECT_NEAR(found->value, value, 4 * *found->std) << name;
-    EXPECT_LT(*found->std, 0.1 * std::abs(value)) << name;
-  }
+  test::ExpectTold(
+      estimate, {{"initial_energy", energy}, {"thermal_gain", -3}, {"thermal_time_constant", 600}},
+      4, 0.1);
 }
 
 TEST(Auto, ComparesOnFewerRowsAndFitsEverySample) {
   // an hour at 10 Hz: 36 000 samples
-  Eigen::VectorXd velocity(36000);
-  const Eigen::VectorXd speeds = test::AlternatingSpeeds(3600, 2);
-  for (Eigen::Index i = 0; i < 36000; ++i) velocity[i] = speeds[i / 10];
+  const Eigen::VectorXd velocity = test::Finer(test::AlternatingSpeeds(3600, 2), 10);
   const Estimate estimate = AnswerTo(test::RecordFriction(test::TableOne(), 0.1, velocity, 0.5, 2));
   ASSERT_TRUE(estimate.metrics);
   EXPECT_GT(estimate.metrics->n, 34000);
@@ -213,6 +188,65 @@ TEST(Auto, ComparesOnFewerRowsAndFitsEverySample) {
   for (const StructureTrial& one : estimate.choice->trials) {
     EXPECT_TRUE(one.name != estimate.choice->chosen || *one.rmse < 0.25);
   }
+}
+
+LogView Steady() {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0, 1);
+  return Prepare(m).constant_speed();
+}
+
+TEST(Condense, MakesRowsOfOneSegment) {
+  const LogView all = Steady();
+  const LogView some = Condense(all, 900).view;
+  EXPECT_LT(some.selection.count(), all.selection.count() / 3);
+  ASSERT_EQ(some.selection.segments.size(), all.selection.segments.size());
+  for (const Segment& one : some.selection.segments) {
+    for (Eigen::Index i = one.begin; i < one.end; ++i) {
+      EXPECT_NEAR(some.measurements.velocity[i], one.velocity, 1e-9);
+    }
+  }
+}
+
+TEST(Condense, KeepsTheWayAndTheTime) {
+  const LogView all = Steady();
+  const auto [some, first] = Condense(all, 900);
+  const auto& a = all.measurements;
+  const auto& b = some.measurements;
+  for (Eigen::Index i = 1; i < b.size(); ++i) EXPECT_GT(b.time[i], b.time[i - 1]);
+  EXPECT_NEAR(b.time[b.size() - 1], a.time[a.size() - 1], 4);
+
+  // a row stands among its samples
+  ASSERT_EQ(first.size(), static_cast<size_t>(b.size()) + 1);
+  EXPECT_EQ(first.back(), a.size());
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    EXPECT_GE(b.time[i], a.time[first[static_cast<size_t>(i)]]);
+    EXPECT_LE(b.time[i], a.time[first[static_cast<size_t>(i) + 1] - 1]);
+  }
+}
+
+/// Five holds of 10 s, then one of 100 s: the times between their rows look like gaps.
+TEST(Condense, KeepsTheGapsOfTheSamples) {
+  std::vector<double> speeds;
+  for (int hold = 0; hold < 120; ++hold) {
+    const double speed = (hold % 2 == 0 ? 1 : -1) * (0.2 + 0.1 * (hold % 7));
+    speeds.insert(speeds.end(), hold % 6 == 5 ? 100 : 10, speed);
+  }
+  const Eigen::VectorXd velocity = Eigen::VectorXd::Map(speeds.data(), std::ssize(speeds));
+  Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, 0, 1);
+  LogView some = Condense(Prepare(m).constant_speed(), 30).view;
+  EXPECT_FALSE(GapsOf(some.measurements.time).empty());
+  ASSERT_TRUE(some.measurements.gaps);
+  EXPECT_TRUE(some.measurements.gaps->empty());
+
+  // a clock that stood still for a minute
+  m.time.tail(1500).array() += 60;
+  some = Condense(Prepare(m).constant_speed(), 30).view;
+  ASSERT_EQ(some.measurements.gaps->size(), 1u);
+  const LogGap& gap = some.measurements.gaps->front();
+  EXPECT_EQ(gap.length, 61);
+  EXPECT_GT(some.measurements.time[gap.behind], m.time[m.size() - 1500]);
+  EXPECT_LT(some.measurements.time[gap.behind - 1], m.time[m.size() - 1501]);
 }
 
 }  // namespace

@@ -4,8 +4,7 @@
 
 #include <map>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
+#include "tests/support/judging.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -22,21 +21,15 @@ Measurements GoldenLog(const std::string& law) {
 /// What an identifier makes of the log as the command line prepares it: samples at constant speed.
 Estimate Identify(const std::string& name, const Measurements& m,
                   const std::map<std::string, std::string>& given) {
-  const Identifier& identifier = FindIdentifier(name);
-  const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
-  EXPECT_GT(input.selection.count(), m.size() / 2);
-  return IdentifyUnchecked(identifier, input);
+  const PreparedLog log = Prepare(m);
+  EXPECT_GT(log.constant_speed().selection.count(), m.size() / 2);
+  return test::Fitted(name, log, given);
 }
 
 /// Largest relative error of the law's parameters, k and tau.
 double LargestError(const std::string& law, const Estimate& estimate) {
-  const Friction truth = test::ReadGoldenMotion(law).friction;
-  std::map<std::string, double> values = truth.parameters;
-  values["thermal_gain"] = truth.thermal->gain;
-  values["thermal_time_constant"] = truth.thermal->time_constant;
-  values.erase("stribeck_exponent");
   double largest = 0;
-  for (const auto& [name, value] : values) {
+  for (const auto& [name, value] : test::TruthOf(test::ReadGoldenMotion(law).friction)) {
     const EstimatedParameter* found = estimate.Find(name);
     if (!found) ADD_FAILURE() << name << ": " << estimate.FullMessage();
     if (found) largest = std::max(largest, std::abs(found->value / value - 1));

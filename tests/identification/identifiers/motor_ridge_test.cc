@@ -12,12 +12,8 @@ using ::testing::HasSubstr;
 Measurements Geared(std::vector<FrictionMap> maps, double noise) {
   Friction friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
   friction.maps = std::move(maps);
-  Measurements m = test::Record(0.05, test::Travel(12000, 0.05, 1, {0.31, 0.57, 0.83}),
-                                Eigen::VectorXd::Zero(12000));
-  m.gear = 100;
-  m.torque = PredictFriction(friction, m).force;
-  test::AddNoise(m, noise, 0, 9);
-  return m;
+  return test::RecordTravel(friction, 0.05, test::Travel(12000, 0.05, 1, {0.31, 0.57, 0.83}), 0,
+                            noise, 0, 9);
 }
 
 Estimate Identify(const Measurements& m) {

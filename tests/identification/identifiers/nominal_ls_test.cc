@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "models/foundation/random_stream.h"
 #include "tests/support/judging.h"
 #include "tests/support/vectors.h"
 
@@ -19,11 +18,14 @@ Estimate FitLaw(const Measurements& measurements, const std::string& law) {
   return test::Fitted("nominal-ls", measurements, {{"law", law}});
 }
 
-/// Speeds `speeds` (rad/s) in turn, 10 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m.
+/// A recording of a joint with kv = 2 N.m.s/rad and kc = 7 N.m.
+Measurements Moved(double step, const Eigen::VectorXd& v) {
+  return test::Record(step, v, v.unaryExpr([](double x) { return 2 * x + 7 * Sign(x); }));
+}
+
+/// Of these speeds (rad/s) in turn, 10 samples each.
 Measurements Steps(const std::vector<double>& speeds) {
-  Eigen::VectorXd v(10 * speeds.size());
-  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = speeds[i / 10];
-  return test::Record(0.1, v, v.unaryExpr([](double x) { return 2 * x + 7 * Sign(x); }));
+  return Moved(0.1, test::Finer(Eigen::VectorXd::Map(speeds.data(), std::ssize(speeds)), 10));
 }
 
 TEST(NominalLs, ReproducesTheGoldenSolutions) {
@@ -97,34 +99,18 @@ TEST(NominalLs, CarriesTheUnitOfALoggedCurrent) {
   EXPECT_EQ(estimate.Find("coulomb")->unit, "A");
 }
 
-/// Speeds in turn, 20 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m, with noise of 0.5 N.m whose
-/// neighbours correlate.
-Measurements WithColouredNoise(double pole, std::uint64_t seed) {
-  Eigen::VectorXd v(2000);
-  RandomStream random({seed, 0}, Stream::test);
-  for (Eigen::Index i = 0; i < v.size(); ++i) {
-    v[i] = i % 20 > 0 ? v[i - 1] : std::copysign(random.Uniform(0.1, 1), i % 40 < 20 ? 1 : -1);
-  }
-  Measurements m = test::Record(1, v, v.unaryExpr([](double x) { return 2 * x + 7 * Sign(x); }));
-  double noise = 0.5 * random.Normal();
-  for (double& torque : m.torque) {
-    torque += noise;
-    noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
-  }
-  return m;
-}
-
 TEST(NominalLs, WeighsColouredNoiseByItsColour) {
   // plain squares leave 2.4 times the bound of such noise (README.md): 60 fits tell 1.0 from that
   constexpr int kFits = 60;
   double squares = 0, bound = 0;
   int held = 0;
   for (std::uint64_t seed = 0; seed < kFits; ++seed) {
-    const Measurements m = WithColouredNoise(0.9, seed);
+    // of 0.5 N.m, whose neighbours correlate
+    Measurements m = Moved(1, test::AlternatingSpeeds(2000, seed));
+    test::AddNoise(m, 0.5, 0.9, seed);
     const Estimate estimate = FitLaw(m, "viscous_coulomb");
-    const EstimatedParameter& coulomb = *estimate.Find("coulomb");
-    squares += std::pow(coulomb.value - 7, 2);
-    held += (*coulomb.interval95)[0] <= 7 && 7 <= (*coulomb.interval95)[1];
+    squares += std::pow(estimate.Find("coulomb")->value - 7, 2);
+    held += test::Holds(estimate, "coulomb", 7);
 
     // differences e[i] - 0.9 e[i-1] are white
     Eigen::MatrixXd A(m.size(), 2);

@@ -11,10 +11,8 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(Rls, IsNominalLsWhereItForgetsNothing) {
-  Friction friction = test::TableOne();
-  friction.thermal.reset();
   const Measurements m =
-      test::RecordFriction(friction, 1, test::AlternatingSpeeds(2000, 1, 300), 0.5, 1);
+      test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(2000, 1, 300), 0.5, 1);
   const Estimate online = test::Fitted("rls", m, {{"forgetting", "1"}});
   const Estimate batch = test::Fitted("nominal-ls", m);
   for (const char* name : {"viscous", "coulomb"}) {
@@ -26,8 +24,7 @@ TEST(Rls, IsNominalLsWhereItForgetsNothing) {
 
 TEST(Rls, FollowsFrictionThatWarms) {
   // settled, E = k W makes F = F0 / (1 - k |v|): near 0.5 rad/s the level has fallen by half
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 2), 0.1, 2);
+  const Measurements m = test::RecordHour(test::TableOne(), 2, 0.1);
   const Estimate online = test::Fitted("rls", m, {{"forgetting", "0.995"}});
   ASSERT_EQ(online.trace.size(), 50u);
   const double first = online.trace[1].parameters[1].second;
@@ -36,8 +33,7 @@ TEST(Rls, FollowsFrictionThatWarms) {
 }
 
 TEST(Rls, TakesOffTheWarmingThatIsKnown) {
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.1, 3);
+  const Measurements m = test::RecordHour(test::TableOne(), 3, 0.1);
   const Estimate online =
       test::Fitted("rls", m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
   // noise of 0.1 N.m over the last 1000 samples; 5 standard deviations
@@ -51,22 +47,19 @@ TEST(Rls, LetsIntervalsHoldWhereTheNoiseComesThroughTheHeat) {
   // the heat's share of the level's variance is a quarter here, and of the slope's little
   int held = 0;
   constexpr int kLogs = 400;
-  for (int seed = 1; seed <= kLogs; ++seed) {
-    const Measurements m = test::RecordFriction(
-        test::TableOne(), 1, test::AlternatingSpeeds(1800, static_cast<std::uint64_t>(seed)), 0.5,
-        static_cast<std::uint64_t>(seed));
+  for (std::uint64_t seed = 1; seed <= kLogs; ++seed) {
+    const Measurements m =
+        test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1800, seed), 0.5, seed);
     const Estimate online =
         test::Fitted("rls", m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
-    const auto& [lower, upper] = *online.Find("coulomb")->interval95;
-    held += lower <= 15 && 15 <= upper;
+    held += test::Holds(online, "coulomb", 15);
   }
   // 380 expected, binomial deviation 4.4; without the heat's share 355
   EXPECT_GE(held, 380 - 3 * 4.4);
 }
 
 TEST(Rls, TakesGravityOffTheHeat) {
-  Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0, 4);
+  Measurements m = test::RecordHour(test::TableOne(), 4, 0);
   m.torque += 6 * m.position.array().sin().matrix();
   const Estimate online = test::Fitted("rls", m,
                                        {{"thermal_gain", "-3"},
@@ -79,7 +72,7 @@ TEST(Rls, TakesGravityOffTheHeat) {
 }
 
 Measurements TableOneRecording(std::uint64_t seed) {
-  return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, seed), 0.5, seed);
+  return test::RecordHour(test::TableOne(), seed);
 }
 
 TEST(Kalman, ComesToTheMaximumLikelihood) {
@@ -98,19 +91,12 @@ TEST(Kalman, ComesToTheMaximumLikelihood) {
 }
 
 TEST(Kalman, HoldsTheTruthInItsIntervals) {
-  int held = 0, all = 0;
+  int held = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const Estimate estimate = test::Fitted("kalman", TableOneRecording(seed));
-    for (const auto& [name, truth] :
-         std::map<std::string, double>{{"viscous", 5},
-                                       {"coulomb", 15},
-                                       {"thermal_gain", -3},
-                                       {"thermal_time_constant", 600}}) {
-      const EstimatedParameter& parameter = *estimate.Find(name);
-      ASSERT_TRUE(parameter.interval95) << estimate.message;
-      const auto& [lower, upper] = *parameter.interval95;
-      held += lower <= truth && truth <= upper;
-      ++all;
+    for (const auto& [name, truth] : test::TruthOf(test::TableOne())) {
+      ASSERT_TRUE(estimate.Find(name)->interval95) << estimate.message;
+      held += test::Holds(estimate, name, truth);
     }
   }
   // 190 of 200 expected; the four parameters of one run are not independent: at worst 50 runs
@@ -144,9 +130,7 @@ TEST(Kalman, KnowsTheEnergyOnTheWay) {
 }
 
 TEST(Kalman, SaysThatAColdJointShowsNoWarming) {
-  const Measurements m =
-      test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(3600, 5), 0.5, 5);
-  const Estimate estimate = test::Fitted("kalman", m);
+  const Estimate estimate = test::Fitted("kalman", test::RecordHour(test::Cold(), 5));
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("no warm-up can be seen"));
 }

@@ -5,7 +5,6 @@
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"
-#include "tests/support/slow_recording.h"
 
 namespace warmjoint {
 namespace {
@@ -19,72 +18,32 @@ Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string
 
 using test::StribeckJoint;
 
-const std::map<std::string, double> kTruth{
-    {"viscous", 5}, {"coulomb", 15}, {"static", 20}, {"stribeck_velocity", 0.05}};
-
-/// What of a friction is estimated: its law but for the exponent, and its warming.
-std::map<std::string, double> TruthOf(const Friction& friction) {
-  std::map<std::string, double> truth = friction.parameters;
-  truth.erase("stribeck_exponent");
-  if (!friction.thermal) return truth;
-  truth["thermal_gain"] = friction.thermal->gain;
-  truth["thermal_time_constant"] = friction.thermal->time_constant;
-  return truth;
+Friction Warm(Friction joint) {
+  joint.thermal = Thermal{-3, 60};
+  return joint;
 }
 
-/// Of 40 realizations, how often each interval holds the truth. n: samples at 0.1 s; noise: N.m.
-std::map<std::string, int> CountHeld(const Friction& joint, Eigen::Index n, double noise) {
-  const std::map<std::string, std::string> given{{"law", joint.law},
-                                                 {"warming", joint.thermal ? "estimated" : "none"}};
-  std::map<std::string, int> held;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Estimate estimate =
-        AnswerTo(test::RecordFriction(joint, 0.1, test::SlowAndFast(n, seed), noise, seed), given);
-    EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
-    if (estimate.status != Status::ok) continue;
-    for (const auto& [name, truth] : TruthOf(joint)) {
-      const auto& [lower, upper] = *estimate.Find(name)->interval95;
-      held[name] += lower <= truth && truth <= upper;
-    }
-  }
-  return held;
+/// The answer that fits the joint's own law to its log. n: samples at 0.1 s; noise: N.m.
+Estimate AnswerOf(const Friction& joint, Eigen::Index n, double noise, std::uint64_t seed) {
+  return AnswerTo(test::RecordFriction(joint, 0.1, test::SlowAndFast(n, seed), noise, seed),
+                  {{"law", joint.law}, {"warming", joint.thermal ? "estimated" : "none"}});
 }
-
-// 38 of 40 expected, binomial deviation 1.4; four of them
-constexpr int kHeld = 32;
 
 TEST(Stribeck, HoldsTheTruthInItsIntervals) {
-  const auto held = CountHeld(StribeckJoint(), 4000, 0.5);
-  EXPECT_EQ(held.size(), 4u);
-  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
-}
-
-TEST(Stribeck, HoldsTwoLevelsInItsIntervals) {
-  const auto held = CountHeld(test::TwoLevelStribeckJoint(), 4000, 0.5);
-  EXPECT_EQ(held.size(), 5u);
-  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
-}
-
-TEST(Stribeck, HoldsTwoLevelsAndTheirWarmingInItsIntervals) {
-  Friction warm = test::TwoLevelStribeckJoint();
-  warm.thermal = Thermal{-3, 60};
-  const auto held = CountHeld(warm, 4000, 0.5);
-  EXPECT_EQ(held.size(), 7u);
-  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
+  for (const Friction& joint :
+       {StribeckJoint(), test::TwoLevelStribeckJoint(), Warm(test::TwoLevelStribeckJoint())}) {
+    SCOPED_TRACE(joint.law);
+    // 38 of 40 expected, binomial deviation 1.4; four of them
+    test::ExpectHeld(40, 32, test::TruthOf(joint),
+                     [&](std::uint64_t seed) { return AnswerOf(joint, 4000, 0.5, seed); });
+  }
 }
 
 TEST(Stribeck, FindsTwoLevelsExactlyWhereThereIsNoNoise) {
-  Friction joint = test::TwoLevelStribeckJoint();
-  for (const bool warms : {false, true}) {
-    if (warms) joint.thermal = Thermal{-3, 60};
-    const Estimate estimate =
-        AnswerTo(test::RecordFriction(joint, 0.1, test::SlowAndFast(2000, 5), 0, 5),
-                 {{"law", joint.law}, {"warming", warms ? "estimated" : "none"}});
-    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const Friction& joint :
+       {test::TwoLevelStribeckJoint(), Warm(test::TwoLevelStribeckJoint())}) {
     // iterative optimisers (golden/README)
-    for (const auto& [name, truth] : TruthOf(joint)) {
-      EXPECT_NEAR(estimate.Find(name)->value, truth, 1e-6 * std::abs(truth)) << name;
-    }
+    test::ExpectFound(AnswerOf(joint, 2000, 0, 5), test::TruthOf(joint), 1e-6);
   }
 }
 
@@ -99,27 +58,18 @@ TEST(Stribeck, SaysThatOneDirectionCannotTellTwoLevels) {
 }
 
 TEST(Stribeck, FindsTheWarmingToo) {
-  Friction warm = StribeckJoint();
-  warm.thermal = Thermal{-3, 60};
-  const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(6000, 3), 0.3, 3);
-  const Estimate estimate = AnswerTo(m, {{"warming", "estimated"}});
+  const Friction warm = Warm(StribeckJoint());
+  const Estimate estimate = AnswerOf(warm, 6000, 0.3, 3);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ASSERT_TRUE(estimate.friction && estimate.friction->thermal);
-  for (const auto& [name, truth] : kTruth) {
-    const EstimatedParameter& parameter = *estimate.Find(name);
-    EXPECT_NEAR(parameter.value, truth, 5 * *parameter.std) << name;
-  }
-  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 5 * *estimate.Find("thermal_gain")->std);
-  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 60,
-              5 * *estimate.Find("thermal_time_constant")->std);
+  test::ExpectTold(estimate, test::TruthOf(warm), 5);
   EXPECT_NEAR(estimate.metrics->rmse, 0.3, 0.3 * 5 / std::sqrt(2 * 6000.0));
 }
 
 TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {
   // the same warm-up twice tells what it tells once, a root of two more surely
-  Friction warm = StribeckJoint();
-  warm.thermal = Thermal{-3, 60};
-  const Measurements once = test::RecordFriction(warm, 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
+  const Measurements once =
+      test::RecordFriction(Warm(StribeckJoint()), 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
   const Estimate one = AnswerTo(once, {{"warming", "estimated"}});
   const Estimate two =
       test::Fitted("stribeck", Prepare(std::vector{once, once}), {{"warming", "estimated"}});
@@ -170,8 +120,7 @@ TEST(Stribeck, RefusesFrictionThatRisesFromRest) {
 class StribeckFitOf : public testing::TestWithParam<Friction> {};
 
 TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
-  Friction warm = GetParam();
-  warm.thermal = Thermal{-3, 60};
+  const Friction warm = Warm(GetParam());
   const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3);
   const Selection selection = SelectMoving(m);
   const FallingLaw& law = FindFallingLaw(warm.law);

@@ -31,18 +31,15 @@ constexpr int kMost = 7;
 bool Reaches(const Estimate& estimate, const std::string& name) {
   const auto assumption = std::ranges::find(estimate.assumptions, name, &Assumption::name);
   if (assumption == estimate.assumptions.end()) return false;
-  return std::ranges::all_of(
-      std::map<std::string, double>{
-          {"viscous", 5}, {"coulomb", 15}, {"thermal_gain", -3}, {"thermal_time_constant", 600}},
-      [&](const auto& truth) {
-        const EstimatedParameter* one = estimate.Find(truth.first);
-        const auto move =
-            std::ranges::find(assumption->moves, truth.first, &ParameterMoves::value_type::first);
-        if (!one->interval95) return true;
-        const double reach = std::abs(move->second);
-        const auto [lower, upper] = *one->interval95;
-        return lower - reach <= truth.second && truth.second <= upper + reach;
-      });
+  return std::ranges::all_of(test::TruthOf(test::TableOne()), [&](const auto& truth) {
+    const EstimatedParameter* one = estimate.Find(truth.first);
+    const auto move =
+        std::ranges::find(assumption->moves, truth.first, &ParameterMoves::value_type::first);
+    if (!one->interval95) return true;
+    const double reach = std::abs(move->second);
+    const auto [lower, upper] = *one->interval95;
+    return lower - reach <= truth.second && truth.second <= upper + reach;
+  });
 }
 
 /// Table I from E(0) = -0.7 N.m or so on: what a minute at 0.3 rad/s leaves of the warmth.
@@ -75,8 +72,7 @@ Counts Count(const test::MakeLog& log, const std::string& assumption) {
     if (estimate.status != Status::ok) continue;
     ++counts.ok;
     counts.reached += Reaches(estimate, assumption);
-    const auto [lower, upper] = *estimate.Find("coulomb")->interval95;
-    counts.held += lower <= 15 && 15 <= upper;
+    counts.held += test::Holds(estimate, "coulomb", 15);
   }
   return counts;
 }
@@ -150,9 +146,8 @@ Measurements Quick(std::uint64_t seed, Index part, double noise) {
   Friction friction = test::TableOne();
   friction.thermal = Thermal{-3, 30};
   const Eigen::VectorXd slow = test::AlternatingSpeeds(1200, seed);
-  const Eigen::VectorXd fast = slow.transpose().replicate(part, 1).reshaped();
-  const Measurements all =
-      test::RecordFriction(friction, 1.0 / static_cast<double>(part), fast, 0, seed);
+  const Measurements all = test::RecordFriction(friction, 1.0 / static_cast<double>(part),
+                                                test::Finer(slow, part), 0, seed);
   Measurements m = test::RecordFriction(friction, 1, slow, 0, seed);
   RandomStream random({seed, 0}, Stream::torque_noise);
   for (Index n = 0; n < m.size(); ++n) m.torque[n] = all.torque[n * part] + noise * random.Normal();
@@ -180,13 +175,8 @@ Eigen::Vector2i Covered(Index part, double noise) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Estimate estimate = test::Answer("energy-ml", Quick(seed, part, noise));
     EXPECT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
-    const auto holds = [&](const char* name, double truth) -> int {
-      const EstimatedParameter* found = estimate.Find(name);
-      if (!found || !found->interval95) return 0;
-      const auto [lower, upper] = *found->interval95;
-      return lower <= truth && truth <= upper;
-    };
-    covered += Eigen::Vector2i(holds("thermal_time_constant", 30), holds("thermal_gain", -3));
+    covered += Eigen::Vector2i(test::Holds(estimate, "thermal_time_constant", 30),
+                               test::Holds(estimate, "thermal_gain", -3));
   }
   return covered;
 }
@@ -194,15 +184,11 @@ Eigen::Vector2i Covered(Index part, double noise) {
 // of 20 intervals of 95 %, fewer than 16 hold the truth once in 400 times
 constexpr int kFewestHeld = 16;
 
-TEST(HeldLoss, LeavesIntervalsThatHoldTheTruthOfContinuousHeat) {
-  for (const double noise : {0.02, 0.1, 0.5}) {
-    EXPECT_GE(Covered(50, noise).minCoeff(), kFewestHeld) << noise;
-  }
-}
-
-TEST(HeldLoss, LeavesIntervalsThatHoldTheTruthOfAnIdealPlant) {
-  for (const double noise : {0.02, 0.1, 0.5}) {
-    EXPECT_GE(Covered(1, noise).minCoeff(), kFewestHeld) << noise;
+TEST(HeldLoss, LeavesIntervalsThatHoldTheTruthOfContinuousHeatAndOfAnIdealPlant) {
+  for (const Index part : {50, 1}) {
+    for (const double noise : {0.02, 0.1, 0.5}) {
+      EXPECT_GE(Covered(part, noise).minCoeff(), kFewestHeld) << part << ", " << noise;
+    }
   }
 }
 
@@ -223,8 +209,7 @@ TEST(Rounding, IsTakenBackFromTheParameters) {
     const EstimatedParameter& viscous = *estimate.Find("viscous");
     if (!viscous.interval95) continue;
     ++answers;
-    const auto [lower, upper] = *viscous.interval95;
-    held += lower <= 5 && 5 <= upper;
+    held += test::Holds(estimate, "viscous", 5);
     errors += viscous.value - 5;
     variances += *viscous.std * *viscous.std;
     EXPECT_EQ(viscous.value, estimate.friction->parameters.at("viscous")) << seed;
@@ -247,17 +232,11 @@ Measurements BackAndForth(double forwards, double backwards) {
 }
 
 TEST(OneSpeed, IsKnownWhereBothDirectionsShareIt) {
-  const auto speed = OneSpeed(BackAndForth(0.5, 0.5));
-  ASSERT_TRUE(speed);
-  EXPECT_EQ(*speed, 0.5);
-}
-
-TEST(OneSpeed, IsNoneOfSpeedsThatDiffer) {
-  EXPECT_FALSE(OneSpeed(BackAndForth(0.5, 0.6)));
+  EXPECT_EQ(OneSpeed(BackAndForth(0.5, 0.5)), 0.5);
   EXPECT_TRUE(OneSpeed(BackAndForth(0.5, 0.505))) << "by 1 %";
+  EXPECT_FALSE(OneSpeed(BackAndForth(0.5, 0.6)));
+  EXPECT_FALSE(OneSpeed(BackAndForth(0, 0))) << "at rest";
 }
-
-TEST(OneSpeed, IsNoneOfAJointAtRest) { EXPECT_FALSE(OneSpeed(BackAndForth(0, 0))); }
 
 }  // namespace
 }  // namespace warmjoint

@@ -21,11 +21,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// Table I with E(0), N.m.
-Measurements Started(double energy, std::uint64_t seed) {
+Measurements Started(double energy, std::uint64_t seed, double noise = 0.5) {
   Measurements m = RecordHour(test::TableOne(), seed, 0);
   m.torque = PredictFriction(test::TableOne(), m, {energy}).force;
-  RandomStream random({seed, 0}, Stream::torque_noise);
-  for (double& torque : m.torque) torque += 0.5 * random.Normal();
+  test::AddNoise(m, noise, 0, seed);
   return m;
 }
 
@@ -127,10 +126,7 @@ TEST(JudgeHeat, FindsATemperatureThatTheLogHolds) {
 }
 
 TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {
-  Measurements m = RecordHour(test::TableOne(), 1, 0);
-  m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
-  RandomStream random({1, 0}, Stream::torque_noise);
-  for (double& torque : m.torque) torque += 0.1 * random.Normal();
+  const Measurements m = Started(-6, 1, 0.1);
   EXPECT_THAT(Answer("energy-ml", m).FullMessage(), HasSubstr("--start estimated"));
   const Estimate right = Answer("energy-ml", m, {{"initial_energy", "estimated"}});
   EXPECT_EQ(right.status, Status::ok) << right.message;

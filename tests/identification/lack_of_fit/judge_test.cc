@@ -29,12 +29,7 @@ using ::testing::HasSubstr;
 /// AR(1) noise with the given coefficient and a standard deviation of 0.5 N.m.
 Measurements Coloured(const Friction& friction, std::uint64_t seed, double a) {
   Measurements m = RecordHour(friction, seed, 0);
-  RandomStream random({seed, 0}, Stream::coloured_noise);
-  double noise = 0.5 * random.Normal();
-  for (double& torque : m.torque) {
-    torque += noise;
-    noise = a * noise + 0.5 * std::sqrt(1 - a * a) * random.Normal();
-  }
+  test::AddNoise(m, 0.5, a, seed);
   return m;
 }
 
@@ -179,8 +174,7 @@ TEST(Judge, DoesNotTakeWhatIsPeriodicInTimeForRipple) {
 TEST(Judge, TakesBackEverythingButTheValues) {
   const Measurements warm = RecordHour(test::TableOne(), 1);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Selection selection = SelectMoving(warm);
-  const IdentifierInput input{Prepare(warm, selection), identifier.options, {}};
+  const IdentifierInput input{Prepare(warm, SelectMoving(warm)), identifier.options, {}};
   const Estimate before = IdentifyUnchecked(identifier, input);
   const Estimate judged = IdentifyAndCheck(identifier, input);
   EXPECT_FALSE(judged.friction);
@@ -204,11 +198,8 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
     const double v = m.velocity[i];
     m.torque[i] += std::copysign(0.4 * std::exp(-std::pow(v / 0.2, 2)), v);
   }
-  const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Selection selection = SelectMoving(m);
-  const IdentifierInput input{Prepare(m, selection), identifier.options, {}};
-  const Estimate before = IdentifyUnchecked(identifier, input);
-  const Estimate judged = IdentifyAndCheck(identifier, input);
+  const PreparedLog log = Prepare(m, SelectMoving(m));
+  const Estimate before = test::Fitted("nominal-ls", log), judged = Answer("nominal-ls", log);
   ASSERT_EQ(judged.status, Status::ok) << judged.message;
   ASSERT_EQ(judged.warnings.size(), 1u);
   EXPECT_THAT(judged.warnings[0], HasSubstr("the residual depends on speed"));
@@ -236,11 +227,9 @@ Measurements HourInRpm() {
 
 TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
   const Measurements m = HourInRpm();
-  const Selection selection = SelectConstantSpeed(m);
+  const PreparedLog log = Prepare(m, SelectConstantSpeed(m));
   for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
-    const Identifier& identifier = FindIdentifier(name);
-    const Options options = identifier.options.Read({});
-    const Estimate estimate = IdentifyAndCheck(identifier, {Prepare(m, selection), options, {}});
+    const Estimate estimate = Answer(name, log);
     EXPECT_EQ(estimate.status, Status::bad_data) << name;
     EXPECT_THAT(estimate.message, HasSubstr("--unit velocity=rpm")) << name;
     EXPECT_FALSE(estimate.friction) << name;
@@ -250,10 +239,8 @@ TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
 
 TEST(FaultyLog, ShowsItsNumbersByForce) {
   const Measurements m = HourInRpm();
-  const Selection selection = SelectConstantSpeed(m);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = identifier.options.Read({});
-  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const IdentifierInput input{Prepare(m, SelectConstantSpeed(m)), identifier.options, {}};
   const auto answer = FitAndCheck(identifier, input);
   ASSERT_EQ(answer.inferred.status, Status::ok);
   const Estimate shown =

@@ -5,7 +5,6 @@
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/seen_lag.h"
 #include "models/foundation/low_pass.h"
-#include "models/foundation/random_stream.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -20,12 +19,9 @@ Measurements Lagging(double lag, double noise, std::optional<Thermal> thermal = 
   Friction joint = test::TableOne();
   joint.thermal = thermal;
   const VectorXd velocity = test::AlternatingSpeeds(2400, 3);
-  Measurements m = test::Record(1, velocity, velocity);
-  for (Eigen::Index i = 1; i < m.size(); ++i) m.position[i] = m.position[i - 1] + velocity[i - 1];
-  m.torque = PredictFriction(joint, m, {}).force;
+  Measurements m = test::RecordFriction(joint, 1, velocity, 0, 0);
   if (lag > 0) m.torque = LowPass(m.time, m.torque, lag);
-  RandomStream random({29, 0}, Stream::test);
-  for (double& torque : m.torque) torque += noise * random.Normal();
+  test::AddNoise(m, noise, 0, 29);
   return m;
 }
 
@@ -54,21 +50,13 @@ TEST(TorqueLag, IsFoundByALawWithoutWarming) {
 
 TEST(TorqueLag, IsFoundWhereTheFitWithoutItGoesAstray) {
   // a lag of 0.8 s in holds of 2 s leaves torque of the wrong sign in a third of the samples
-  Friction joint = test::TableOne();
-  const VectorXd speeds = test::AlternatingSpeeds(4200, 11);
-  VectorXd velocity(21000);
-  for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity[i] = speeds[i / 5];
-  Measurements m = test::Record(0.02, velocity, velocity);
-  for (Eigen::Index i = 1; i < m.size(); ++i) {
-    m.position[i] = m.position[i - 1] + 0.02 * velocity[i - 1];
-  }
-  m.torque = LowPass(m.time, PredictFriction(joint, m, {}).force, 0.8);
-  RandomStream random({31, 0}, Stream::test);
-  for (double& torque : m.torque) torque += 0.3 * random.Normal();
+  const VectorXd velocity = test::Finer(test::AlternatingSpeeds(4200, 11), 5);
+  Measurements m = test::RecordFriction(test::TableOne(), 0.02, velocity, 0, 0);
+  m.torque = LowPass(m.time, m.torque, 0.8);
+  test::AddNoise(m, 0.3, 0, 31);
   const Estimate estimate = Identified("energy-ml", m);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-  EXPECT_NEAR(estimate.Find("torque_lag")->value, 0.8, 4 * *estimate.Find("torque_lag")->std);
-  EXPECT_NEAR(estimate.Find("coulomb")->value, 15, 4 * *estimate.Find("coulomb")->std);
+  test::ExpectTold(estimate, {{"torque_lag", 0.8}, {"coulomb", 15}}, 4);
 }
 
 TEST(TorqueLag, IsNotFittedWhereTheTorqueShowsNone) {
@@ -110,9 +98,7 @@ TEST(TorqueLag, IsSeldomSeenInNoiseOfAnyColour) {
   int seen = 0;
   for (std::uint64_t log = 0; log < 200; ++log) {
     Measurements m = test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(600, log), 0, 0);
-    RandomStream random({61, log}, Stream::test);
-    double held = 0;
-    for (double& torque : m.torque) torque += held = 0.9 * held + 0.2 * random.Normal();
+    test::AddNoise(m, 0.46, 0.9, log);
     seen += Identified("nominal-ls", m).Find("torque_lag") != nullptr;
   }
   EXPECT_LE(seen, 2);

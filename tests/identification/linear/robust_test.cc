@@ -11,8 +11,7 @@ namespace {
 
 /// Table I with a share of its samples moved by N(0, 10^2) N.m.
 Measurements Wild(std::uint64_t seed, double share) {
-  Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, seed), 0.5, seed);
+  Measurements m = test::RecordHour(test::TableOne(), seed);
   RandomStream random({seed, 0}, Stream::outliers);
   for (double& torque : m.torque) {
     if (random.Uniform() < share) torque += 10 * random.Normal();
@@ -35,13 +34,10 @@ TEST(Huber, KeepsEnergyMlNearTheBoundAndItsIntervalsHonest) {
     const Estimate plain = Identify("energy-ml", m, "squares");
     const Estimate robust = Identify("energy-ml", m, "huber");
     ASSERT_EQ(robust.status, Status::ok) << robust.message;
-    for (const auto& [name, truth] :
-         {std::pair("viscous", 5.0), std::pair("coulomb", 15.0), std::pair("thermal_gain", -3.0),
-          std::pair("thermal_time_constant", 600.0)}) {
-      const EstimatedParameter& found = *robust.Find(name);
+    for (const auto& [name, truth] : test::TruthOf(test::TableOne())) {
       squares += std::pow((plain.Find(name)->value - truth) / truth, 2);
-      huber += std::pow((found.value - truth) / truth, 2);
-      held += (*found.interval95)[0] <= truth && truth <= (*found.interval95)[1];
+      huber += std::pow((robust.Find(name)->value - truth) / truth, 2);
+      held += test::Holds(robust, name, truth);
       ++all;
     }
   }
@@ -56,17 +52,14 @@ TEST(Huber, SaysHowManySamplesAreWild) {
 }
 
 TEST(Huber, LeavesExactDataAlone) {
-  Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0, 3);
-  const Estimate estimate = Identify("energy-ml", m, "huber");
+  const Estimate estimate =
+      Identify("energy-ml", test::RecordHour(test::TableOne(), 3, 0), "huber");
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_NEAR(estimate.Find("coulomb")->value, 15, 1e-5);
 }
 
 TEST(Huber, HoldsNominalLsToo) {
-  Friction cold = test::TableOne();
-  cold.thermal.reset();
-  Measurements m = test::RecordFriction(cold, 1, test::AlternatingSpeeds(3600, 4), 0.1, 4);
+  Measurements m = test::RecordHour(test::Cold(), 4, 0.1);
   for (Eigen::Index i = 0; i < m.size(); i += 20) m.torque[i] = 100;
   const Estimate squares = Identify("nominal-ls", m, "squares");
   const Estimate huber = Identify("nominal-ls", m, "huber");

@@ -30,16 +30,10 @@ struct Trial {
 
 Trial Identify(const Friction& truth, const char* name, std::uint64_t seed, double colour,
                const std::map<std::string, std::string>& given) {
-  Trial trial;
-  Measurements& m = trial.measurements;
-  m = test::Record(0.1, test::Travel(6000, 0.1, 1, {0.31, 0.57, 0.83}),
-                   Eigen::VectorXd::Zero(6000));
-  m.gear = 100;
-  m.position.array() -= 1;  // between the limits
-  m.torque = PredictFriction(truth, m).force;
-  test::AddNoise(m, 0.1, colour, seed);
-  trial.estimate = test::Fitted(name, m, given);
-  return trial;
+  const Eigen::VectorXd velocity = test::Travel(6000, 0.1, 1, {0.31, 0.57, 0.83});
+  // between the limits
+  const Measurements m = test::RecordTravel(truth, 0.1, velocity, -1, 0.1, colour, seed);
+  return {m, test::Fitted(name, m, given)};
 }
 
 /// What the places of bands over position and direction make of the truth there.

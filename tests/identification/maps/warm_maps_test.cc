@@ -5,12 +5,10 @@
 
 #include <string>
 
-#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
+#include "tests/support/judging.h"
 #include "tests/support/travelling.h"
-#include "tests/support/without_times.h"
 
 namespace warmjoint {
 namespace {
@@ -34,44 +32,32 @@ Measurements Recorded(const Friction& friction, double noise, std::uint64_t seed
 Estimate Identify(const Measurements& m, const char* name,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Selection selection = SelectMoving(m);
-  const IdentifierInput input{Prepare(m, selection), identifier.options.Read(given), {}};
+  const IdentifierInput input{Prepare(m, SelectMoving(m)), identifier.options.Read(given), {}};
   Estimate estimate = IdentifyUnchecked(identifier, input);
   estimate.holdout = HoldOut(identifier, input, 0.3).metrics;
   return estimate;
 }
 
 const std::map<std::string, std::string> kFew{{"kernels", "30"}, {"width", "1"}};
+const std::map<std::string, std::string> kMap{
+    {"kernels", "30"}, {"width", "1"}, {"position", "map"}};
 
 TEST(WarmMaps, FindTheWarmingBesideAMap) {
-  const Friction truth = YumiLike();
-  const Measurements m = Recorded(truth, 0.01, 1);
-  auto given = kFew;
-  given["position"] = "map";
-  const Estimate estimate = Identify(m, "energy-ml", given);
+  const Estimate estimate = Identify(Recorded(YumiLike(), 0.01, 1), "energy-ml", kMap);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-  for (const auto& [name, value] :
-       {std::pair("viscous", 0.0527), std::pair("coulomb", 0.48), std::pair("thermal_gain", -0.194),
-        std::pair("thermal_time_constant", 180.0)}) {
-    const EstimatedParameter& found = *estimate.Find(name);
-    if (!found.std) {
-      EXPECT_STREQ(name, "coulomb") << "which the kernels can imitate";
-      continue;
-    }
-    // 4 of its own standard deviations, which must be small themselves
-    EXPECT_NEAR(found.value, value, 4 * *found.std) << name;
-    EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
-  }
+  std::map<std::string, double> truth = test::TruthOf(YumiLike());
+  // which the kernels can imitate
+  if (!estimate.Find("coulomb")->std) truth.erase("coulomb");
+  // 4 of its own standard deviations, which must be small themselves
+  test::ExpectTold(estimate, truth, 4, 0.05);
   EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);  // 1 / sqrt(2 n) is 0.9 %
 }
 
 TEST(WarmMaps, EachPartOfTheFrictionBettersTheFitAlsoOnHeldOutTime) {
   const Measurements m = Recorded(YumiLike(), 0.01, 2);
-  auto given = kFew;
   const Estimate nominal = Identify(m, "nominal-ls", {});
-  const Estimate position = Identify(m, "position-ridge", given);
-  given["position"] = "map";
-  const Estimate energy = Identify(m, "energy-ml", given);
+  const Estimate position = Identify(m, "position-ridge", kFew);
+  const Estimate energy = Identify(m, "energy-ml", kMap);
   EXPECT_LT(nominal.metrics->fit, position.metrics->fit - 1);
   EXPECT_LT(position.metrics->fit, energy.metrics->fit - 1);
   ASSERT_TRUE(energy.holdout);
@@ -83,9 +69,7 @@ TEST(WarmMaps, EachPartOfTheFrictionBettersTheFitAlsoOnHeldOutTime) {
 TEST(WarmMaps, SayWhereNothingWarms) {
   Friction cold = YumiLike();
   cold.thermal.reset();
-  auto given = kFew;
-  given["position"] = "map";
-  const Estimate estimate = Identify(Recorded(cold, 0.01, 3), "energy-ml", given);
+  const Estimate estimate = Identify(Recorded(cold, 0.01, 3), "energy-ml", kMap);
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("no warm-up can be seen"));
 }
@@ -94,35 +78,21 @@ TEST(WarmMaps, FindTheWarmingBesideAMotorMap) {
   Friction truth = YumiLike();
   truth.gear = 100;
   truth.maps.push_back(test::MotorRipple(2, 0.05));
-  const Measurements fresh = [&] {
-    Measurements m = test::Record(0.05, test::Travel(12000, 0.05, 1.5, {0.31, 0.57, 0.93, 1.4}),
-                                  Eigen::VectorXd::Zero(12000));
-    m.gear = 100;
-    m.torque = PredictFriction(truth, m).force;
-    test::AddNoise(m, 0.01, 0, 8);
-    return m;
-  }();
+  const Eigen::VectorXd velocity = test::Travel(12000, 0.05, 1.5, {0.31, 0.57, 0.93, 1.4});
   const Estimate estimate =
-      Identify(fresh, "energy-ml", {{"position", "motor"}, {"kernels", "30"}, {"width", "1"}});
+      Identify(test::RecordTravel(truth, 0.05, velocity, 0, 0.01, 0, 8), "energy-ml",
+               {{"position", "motor"}, {"kernels", "30"}, {"width", "1"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_THAT(estimate.message, ::testing::ContainsRegex("motor ripple for v > 0: 0.0[45][0-9.]* "
                                                          "N.m at 2 a turn; .* at 2 a turn"));
-  for (const auto& [name, value] :
-       {std::pair("thermal_gain", -0.194), std::pair("thermal_time_constant", 180.0)}) {
-    const EstimatedParameter& found = *estimate.Find(name);
-    EXPECT_NEAR(found.value, value, 4 * *found.std)
-        << name;  // its own deviations, small themselves
-    EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
-  }
+  // its own deviations, small themselves
+  test::ExpectTold(estimate, {{"thermal_gain", -0.194}, {"thermal_time_constant", 180}}, 4, 0.05);
   EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);
 }
 
 /// Within four of its own deviations, which must be small themselves.
 void ExpectNear(const Estimate& estimate, const char* name, double value) {
-  const EstimatedParameter* found = estimate.Find(name);
-  ASSERT_TRUE(found && found->std) << name << ": " << estimate.message;
-  EXPECT_NEAR(found->value, value, 4 * *found->std) << name;
-  EXPECT_LT(*found->std, 0.1 * std::abs(value)) << name;
+  test::ExpectTold(estimate, {{name, value}}, 4, 0.1);
 }
 
 /// Of a joint that has moved for 300 s as the log begins.
@@ -139,8 +109,7 @@ WarmLog WithoutItsBeginning(std::uint64_t seed) {
 
 TEST(WarmMaps, EstimateHowWarmTheJointWas) {
   const WarmLog warm = WithoutItsBeginning(4);
-  auto given = kFew;
-  given["position"] = "map";
+  auto given = kMap;
   given["initial_energy"] = "estimated";
   const Estimate estimate = Identify(warm.log, "energy-ml", given);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
@@ -151,8 +120,7 @@ TEST(WarmMaps, EstimateHowWarmTheJointWas) {
 
 TEST(WarmMaps, HoldAnExpectedStartAgainstTheLog) {
   const WarmLog warm = WithoutItsBeginning(5);
-  auto given = kFew;
-  given["position"] = "map";
+  auto given = kMap;
   given["initial_energy"] = "expected";
   given["expected_energy"] = std::to_string(warm.energy + 1e-3);
   given["expected_energy_std"] = "0.001";
@@ -178,9 +146,7 @@ TEST(WarmMaps, EstimateWhatAGapHides) {
   velocity.segment(2000, 500) *= 3;
   const Measurements all = test::RecordFriction(truth, 0.2, velocity, 0.01, 6);
   const Measurements m = test::Without(all, {{400, 500}});
-  auto given = kFew;
-  given["position"] = "map";
-  const Estimate estimate = Identify(m, "energy-ml", given);
+  const Estimate estimate = Identify(m, "energy-ml", kMap);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ExpectNear(estimate, "thermal_gain", -0.194);
   ExpectNear(estimate, "thermal_time_constant", 180);
@@ -204,13 +170,8 @@ TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {
   }
   truth.maps = {fading};
   const Measurements m = Recorded(truth, 0.01, 4);
-  auto given = kFew;
-  const Estimate fixed = [&] {
-    auto with = given;
-    with["position"] = "map";
-    return Identify(m, "energy-ml", with);
-  }();
-  const Estimate estimate = Identify(m, "energy-map", given);
+  const Estimate fixed = Identify(m, "energy-ml", kMap);
+  const Estimate estimate = Identify(m, "energy-map", kFew);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_LT(estimate.metrics->rmse, fixed.metrics->rmse);
   EXPECT_LT(estimate.metrics->rmse, 0.01 * 1.05);  // the noise floor

@@ -5,6 +5,7 @@
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/emps_log.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -114,13 +115,8 @@ TEST(CheckRecording, JudgesAMotionWithoutConstantSpeeds) {
 class Emps : public testing::Test {
  protected:
   void SetUp() override {
-    WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
-    const std::string path = test::SharedFolder() / "data/emps/DATA_EMPS.csv";
-
-    ReadSettings layout;
-    layout.joint = JointKind::linear;
-    layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
-    log_ = Prepare(ReadCsv(path, layout)).raw().measurements;
+    WARMJOINT_NEED_SHARED(test::kEmpsFile);
+    log_ = Prepare(test::EmpsLog()).raw().measurements;
   }
 
   Measurements log_;

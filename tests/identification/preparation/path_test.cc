@@ -10,6 +10,7 @@
 #include "identification/preparation/motion_from_positions.h"
 #include "identification/preparation/transitions.h"
 #include "models/foundation/random_stream.h"
+#include "tests/identification/preparation/driven_joint.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -22,44 +23,15 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr double kStep = 0.1;        // s
-constexpr double kAcceleration = 5;  // rad/s^2
 constexpr double kCount = 9.587e-5;  // rad
 constexpr int kHolds = 60;           // of 5 s
-constexpr Index kSamples = 50 * kHolds;
 
-/// A log at 10 Hz of speeds U(0.1, 1) rad/s to both sides, with ramps of 5 rad/s^2 that begin at a sample and end
-/// between two, positions in 65,536 counts a turn, and the path that was travelled until each sample.
-struct Driven {
-  Measurements log;
-  VectorXd path;  // [N] rad
-};
-
-Driven Drive() {
-  RandomStream random({1, 6}, Stream::test);
-  constexpr int parts = 2000;  // of a sampling interval: corners of the ramps are as exact
-  const double dt = kStep / parts;
-  Driven driven{{}, VectorXd(kSamples)};
-  Measurements& log = driven.log;
-  log.time = VectorXd::LinSpaced(kSamples, 0, kStep * (kSamples - 1));
-  log.position.resize(kSamples);
-  log.velocity.resize(kSamples);
-  double v = 0, position = 0, path = 0, target = 0, until = 0;
-  for (Index i = 0; i < kSamples; ++i) {
-    log.position[i] = kCount * std::round(position / kCount);
-    log.velocity[i] = v;
-    driven.path[i] = path;
-    for (int k = 0; k < parts; ++k) {
-      if (log.time[i] + k * dt >= until) {
-        target = (target > 0 ? -1 : 1) * random.Uniform(0.1, 1);
-        until += 5;
-      }
-      const double next = v + std::clamp(target - v, -kAcceleration * dt, kAcceleration * dt);
-      position += 0.5 * (v + next) * dt;
-      path += 0.5 * std::abs(v + next) * dt;
-      v = next;
-    }
-  }
-  log.torque = 5 * log.velocity + 15 * log.velocity.cwiseSign();
+/// A log at 10 Hz with a velocity, with positions in 65,536 counts a turn.
+test::Driven Ramps() {
+  test::Driven driven =
+      test::Carried({.rate = 1 / kStep, .acceleration = 5, .resolution = kCount, .speeds = kHolds});
+  driven.log.velocity = driven.velocity;
+  driven.log.torque = 5 * driven.velocity + 15 * driven.velocity.cwiseSign();
   return driven;
 }
 
@@ -73,7 +45,7 @@ double HeldPath(const Measurements& m, double from, double to) {
 }
 
 TEST(ReplaceTransitions, LossesOfRampsAreThoseOfThePositions) {
-  const auto [log, path] = Drive();
+  const auto [log, path, velocity] = Ramps();
   const PreparedLog prepared = Prepare(log);
   EXPECT_TRUE(prepared.warnings().empty());
 
@@ -94,7 +66,7 @@ TEST(ReplaceTransitions, LossesOfRampsAreThoseOfThePositions) {
 }
 
 TEST(ReplaceTransitions, SegmentsKeepTheVelocityColumn) {
-  const Measurements log = Drive().log;
+  const Measurements log = Ramps().log;
   const PreparedLog prepared = Prepare(log);
   const auto& [m, selection] = prepared.constant_speed();
   EXPECT_EQ(selection.count(), prepared.raw().selection.count());
@@ -255,7 +227,7 @@ TEST(MonotonePath, KeepsARestWithDitherStill) {
 }
 
 TEST(ReplaceTransitions, AWayThatSamplesCannotHideStaysAsItIs) {
-  Measurements log = Drive().log;
+  Measurements log = Ramps().log;
   const PreparedLog prepared = Prepare(log);
   const LogView& taken = prepared.raw();
   const auto& segments = taken.selection.segments;

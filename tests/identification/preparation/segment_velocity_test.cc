@@ -25,10 +25,7 @@ struct Noisy {
   std::uint64_t seed = 1;
 
   Eigen::VectorXd Truth() const {
-    const Eigen::VectorXd slow = test::AlternatingSpeeds(20 * speeds, seed);
-    Eigen::VectorXd velocity(slow.size() * 10);
-    for (Index i = 0; i < velocity.size(); ++i) velocity[i] = slow[i / 10];
-    return velocity;
+    return test::Finer(test::AlternatingSpeeds(20 * speeds, seed), 10);
   }
 
   Measurements Log() const {
@@ -113,17 +110,13 @@ TEST(SegmentVelocity, KeepsADriftOfTheSpeed) {
 }
 
 TEST(SegmentVelocity, LetsIntervalsHold) {
-  const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = identifier.options.Read({});
   int held = 0, ok = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Measurements m = Noisy{.seed = seed}.Log();
-    const Selection selection = SelectConstantSpeed(m);
-    const Estimate estimate = IdentifyAndCheck(identifier, {Prepare(m, selection), options, {}});
+    const Estimate estimate = test::Answer("nominal-ls", Prepare(m, SelectConstantSpeed(m)));
     if (estimate.status != Status::ok) continue;
     ++ok;
-    const auto interval = *estimate.Find("viscous")->interval95;
-    held += interval[0] <= 5 && 5 <= interval[1];
+    held += test::Holds(estimate, "viscous", 5);
     EXPECT_THAT(estimate.message, HasSubstr("velocity averaged over each segment"));
   }
   // of 100 at 95 %, fewer than 87 come once in a thousand times

@@ -90,9 +90,7 @@ Outcome Judge(const Motion& motion) {
 
 TEST(SelectConstantSpeed, KeepsEverySampleBetweenJumps) {
   for (const double step : {1.0, 5.0, 0.05}) {  // 20, 4 and 400 samples a plateau
-    Plan plan;
-    plan.step = step;
-    const Motion motion = Alternating(plan);
+    const Motion motion = Alternating({.step = step});
     const Selection selection = SelectConstantSpeed(motion.Log());
     EXPECT_EQ(selection.count(), selection.keep.size()) << step;
     EXPECT_EQ(selection.segments.size(), 40U) << step;
@@ -118,9 +116,7 @@ TEST(SelectConstantSpeed, KeepsNeighboursOfAlmostOneSpeed) {
 }
 
 TEST(SelectConstantSpeed, LeavesRestsOut) {
-  Plan plan;
-  plan.rest = 30;
-  const Motion motion = Alternating(plan);
+  const Motion motion = Alternating({.rest = 30});
   const Outcome outcome = Judge(motion);
   EXPECT_EQ(outcome.kept, 1);
   EXPECT_EQ(outcome.wrong, 0);
@@ -133,10 +129,7 @@ TEST(SelectConstantSpeed, LeavesRestsOut) {
 
 TEST(SelectConstantSpeed, CutsRampsAtEveryRate) {
   for (const double rate : {20.0, 250.0, 1000.0}) {
-    Plan plan;
-    plan.step = 1 / rate;
-    plan.hold = 2;
-    plan.acceleration = 5;
+    const Plan plan{.step = 1 / rate, .hold = 2, .acceleration = 5};
     const Motion motion = Alternating(plan);
     for (const double noise : {0.0, 0.001, 0.01}) {
       const Outcome outcome = Judge(WithNoise(motion, noise));
@@ -150,10 +143,7 @@ TEST(SelectConstantSpeed, CutsRampsAtEveryRate) {
 
 TEST(SelectConstantSpeed, WaitsUntilAControllerHasSettled) {
   for (const double rate : {1.0, 20.0, 250.0}) {
-    Plan plan;
-    plan.step = 1 / rate;
-    plan.settling = 0.05;
-    const Outcome outcome = Judge(Alternating(plan));
+    const Outcome outcome = Judge(Alternating({.step = 1 / rate, .settling = 0.05}));
     EXPECT_GT(outcome.kept, 0.97) << rate << " Hz";
     EXPECT_LT(outcome.wrong, 0.002) << rate << " Hz";
   }
@@ -161,10 +151,7 @@ TEST(SelectConstantSpeed, WaitsUntilAControllerHasSettled) {
 
 TEST(SelectConstantSpeed, KeepsASpeedThatRippleOfTheLoadLetsWobbleInTheMiddle) {
   // 1.5 % of the speed, in the middle third of each way, without any noise
-  Plan plan;
-  plan.step = 0.05;
-  plan.settling = 0.05;
-  Motion motion = Alternating(plan);
+  Motion motion = Alternating({.step = 0.05, .settling = 0.05});
   for (std::size_t i = 0; i < motion.velocity.size(); ++i) {
     const auto within = static_cast<double>(i % 400);
     if (within < 133 || within >= 266) continue;
@@ -177,9 +164,7 @@ TEST(SelectConstantSpeed, KeepsASpeedThatRippleOfTheLoadLetsWobbleInTheMiddle) {
 
 TEST(SelectConstantSpeed, LeavesOutTheCreepOfAReversal) {
   // at 20 Hz: presliding holds the speed for half a second on the way from each speed to the next
-  Plan plan;
-  plan.step = 0.05;
-  Motion motion = Alternating(plan);
+  Motion motion = Alternating({.step = 0.05});
   for (std::size_t i = 400; i < motion.velocity.size(); ++i) {
     if (i % 400 >= 10) continue;
     motion.velocity[i] = 0.1 * motion.velocity[i + 20];
@@ -204,11 +189,7 @@ TEST(SelectConstantSpeed, KeepsNothingOfASinusoid) {
 }
 
 TEST(SelectConstantSpeed, SeesThroughAQuantisedVelocity) {
-  Plan plan;
-  plan.step = 0.01;
-  plan.hold = 5;
-  plan.acceleration = 5;
-  Motion motion = WithNoise(Alternating(plan), 0.005);
+  Motion motion = WithNoise(Alternating({.step = 0.01, .hold = 5, .acceleration = 5}), 0.005);
   for (double& v : motion.velocity) v = 0.024 * std::round(v / 0.024);
   const Outcome outcome = Judge(motion);
   EXPECT_GT(outcome.kept, 0.95);
@@ -216,9 +197,7 @@ TEST(SelectConstantSpeed, SeesThroughAQuantisedVelocity) {
 }
 
 TEST(SelectConstantSpeed, DropsSingleOutliersAlone) {
-  Plan plan;
-  plan.step = 0.05;
-  Motion motion = WithNoise(Alternating(plan), 0.002);
+  Motion motion = WithNoise(Alternating({.step = 0.05}), 0.002);
   for (std::size_t i = 50; i < motion.velocity.size(); i += 400) {
     motion.velocity[i] += 1;
     motion.constant[i] = false;

@@ -1,6 +1,7 @@
 #include "identification/uncertainty/uncertainty.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/recording.h>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/noise_model.h"
+#include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/coloured_noise.h"
@@ -25,18 +27,10 @@ Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Measurements m =
         test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(3600, seed, rest), 0, 0);
-    RandomStream random({seed, 0}, Stream::torque_noise);
-    double noise = 0.5 * random.Normal();
-    for (double& torque : m.torque) {
-      noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
-      torque += noise;
-    }
+    test::AddNoise(m, 0.5, pole, seed);
     const Estimate estimate = test::Fitted("nominal-ls", m);
-    const auto holds = [&](const char* name, double truth) {
-      const auto [lower, upper] = *estimate.Find(name)->interval95;
-      return lower <= truth && truth <= upper;
-    };
-    covered += Eigen::Vector2d(holds("viscous", 5), holds("coulomb", 15));
+    covered +=
+        Eigen::Vector2d(test::Holds(estimate, "viscous", 5), test::Holds(estimate, "coulomb", 15));
   }
   return covered / 500;
 }
@@ -199,6 +193,77 @@ TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
     // (1 + 0.81) / (1 - 0.81), within what four deviations of the pole make of it
     EXPECT_NEAR(noise.variance_inflation, 9.5, 2.5) << gap;
   }
+}
+
+/// A level that was known beforehand to one standard error of the log's, beside a weight of +-1 in
+/// turn: by hand its variance is s^2 / (n + n), of which a half comes from either.
+Uncertainty Penalised(const PenalisedFit& fit, const Eigen::MatrixXd& jacobian,
+                      const Eigen::VectorXd& residual) {
+  Selection all;
+  all.keep = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(residual.size(), true);
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
+    return jacobian.middleRows(first, last - first);
+  };
+  return PenalisedCovariance(fit, rows, residual, all);
+}
+
+TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
+  const Eigen::Index n = 20000;
+  Eigen::MatrixXd jacobian(n, 2);
+  Eigen::VectorXd residual(n);
+  RandomStream random({1, 1}, Stream::torque_noise);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    jacobian.row(i) << (i % 2 == 0 ? 1.0 : -1.0), 1.0;
+    residual[i] = random.Normal();
+  }
+  const Eigen::MatrixXd gram = jacobian.transpose() * jacobian;
+  const Eigen::VectorXd prior{{0, double(n)}};
+  Eigen::MatrixXd penalised = gram;
+  penalised(0, 0) += 1;
+  penalised(1, 1) += prior[1];
+  const Eigen::MatrixXd inverse = penalised.inverse();
+  const Eigen::VectorXd weight = Eigen::VectorXd::Constant(1, 0.5);
+  const Uncertainty known =
+      Penalised({gram, inverse, 0, weight, 1, {false}, prior}, jacobian, residual);
+
+  // to the scatter of the noise's variance, sqrt(2 / n) = 1 %, four times
+  const double closed_form = 1.0 / (2.0 * double(n));
+  EXPECT_NEAR(known.covariance(1, 1), closed_form, 0.04 * closed_form);
+  EXPECT_NEAR(known.covariance(0, 1), 0, 0.01 * closed_form);
+}
+
+/// Two weights that the data know well and badly, and one that follows its neighbours; hardly any noise.
+/// By hand: C = 1 / (g + s), B = s^2 g / (g + s)^2, L = g / (g + s), s_w^2 = sum B w^2 / sum B L^2.
+TEST(PenalisedUncertainty, TakesTheWeightsVarianceFromThoseThatThePriorHoldsBack) {
+  const Eigen::Index n = 3000;
+  const double s = 10;
+  const Eigen::Vector3d entries{1, 0.1, 0.1};
+  const Eigen::Vector3d weight{1, 3, 100};
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(n, 3);
+  Eigen::VectorXd residual(n);
+  RandomStream random({1, 2}, Stream::torque_noise);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    jacobian(i, i % 3) = entries[i % 3];
+    residual[i] = 1e-6 * random.Normal();
+  }
+  const Eigen::MatrixXd gram = jacobian.transpose() * jacobian;
+  const Eigen::Array3d g = gram.diagonal();  // 1000, 10, 10
+  const Eigen::MatrixXd inverse = (1 / (g + s)).matrix().asDiagonal();
+  const Uncertainty known =
+      Penalised({gram, inverse, 0, weight, s, {false, false, true}}, jacobian, residual);
+
+  double above = 0, below = 0;
+  for (const int k : {0, 1}) {
+    const double b = s * s * g[k] / std::pow(g[k] + s, 2);
+    above += b * weight[k] * weight[k];
+    below += b * std::pow(g[k] / (g[k] + s), 2);
+  }
+  for (const int k : {0, 1}) {
+    const double variance = above / below * std::pow(s / (g[k] + s), 2);
+    EXPECT_NEAR(known.covariance(k, k), variance,
+                1e-6 * variance);  // the noise is 1e-6 of the weights
+  }
+  EXPECT_LT(known.covariance(2, 2), 1e-12) << "it is not drawn from the prior";
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
-#include "tests/support/without_times.h"
 
 namespace warmjoint {
 namespace {
@@ -25,8 +24,7 @@ Measurements WarmLog(std::uint64_t seed, double noise = 0.3) {
   Measurements m =
       test::Record(1, test::AlternatingSpeeds(1800, seed), Eigen::VectorXd::Zero(1800));
   m.torque = PredictFriction(test::TableOne(), m, {kBegins}).force;
-  RandomStream random({seed, 1}, Stream::torque_noise);
-  for (double& torque : m.torque) torque += noise * random.Normal();
+  test::AddNoise(m, noise, 0, seed);
   return m;
 }
 
@@ -104,9 +102,8 @@ Tally Count(const std::vector<test::Cut>& cuts, const std::string& name, double 
     const Estimate estimate = test::Answer(identifier, m);
     const EstimatedParameter* found = estimate.Find(name);
     if (!found || !found->interval95) continue;
-    const auto [lower, upper] = *found->interval95;
     ++tally.answered;
-    tally.missed += truth < lower || upper < truth;
+    tally.missed += !test::Holds(estimate, name, truth);
   }
   return tally;
 }

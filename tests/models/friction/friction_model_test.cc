@@ -10,10 +10,7 @@ namespace {
 
 /// Table I of the paper.
 Friction TableOne() {
-  Friction friction;
-  friction.parameters = {{"viscous", 5}, {"coulomb", 15}};
-  friction.thermal = Thermal{-3, 600};
-  return friction;
+  return {"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-3, 600}};
 }
 
 TEST(FrictionModel, GivesTheClosedFormOfItsLawAndHeat) {

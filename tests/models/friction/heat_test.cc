@@ -101,10 +101,7 @@ TEST(Thermal, KnowsWhenFrictionPushes) {
 }
 
 Friction TwoStages() {
-  Friction friction;
-  friction.law = "coulomb";
-  friction.parameters = {{"coulomb", 10}};
-  friction.thermal = Thermal{-3, 600};
+  Friction friction{"coulomb", {{"coulomb", 10}}, Thermal{-3, 600}};
   friction.second_thermal = Thermal{-1, 20};
   friction.level_per_temperature = -0.2;
   return friction;
@@ -147,11 +144,9 @@ TEST(Heat, LeavesColdJointsAsTheyAre) {
 }
 
 Friction Asymmetric(double gain) {
-  Friction friction;
-  friction.law = "asymmetric";
-  friction.parameters = {{"viscous", 2}, {"coulomb_positive", 5}, {"coulomb_negative", 7}};
-  friction.thermal = Thermal{gain, 30};
-  return friction;
+  return {"asymmetric",
+          {{"viscous", 2}, {"coulomb_positive", 5}, {"coulomb_negative", 7}},
+          Thermal{gain, 30}};
 }
 
 TEST(SettledEnergy, IsTheClosedFormOfALawAlone) {

@@ -13,11 +13,9 @@ namespace warmjoint {
 namespace {
 
 Friction Asymmetric(double kv, double positive, double negative) {
-  Friction friction;
-  friction.law = "asymmetric";
-  friction.parameters = {
-      {"viscous", kv}, {"coulomb_positive", positive}, {"coulomb_negative", negative}};
-  return friction;
+  return {"asymmetric",
+          {{"viscous", kv}, {"coulomb_positive", positive}, {"coulomb_negative", negative}},
+          {}};
 }
 
 constexpr double kInertia = 0.25;  // kg.m^2
@@ -184,12 +182,7 @@ TEST(JointFriction, EveryLawSlidesAtItsSteadyForce) {
   }
 }
 
-Friction Sticky() {
-  Friction friction;
-  friction.law = "stiction";
-  friction.parameters = {{"viscous", 0}, {"coulomb", 3}, {"static", 5}};
-  return friction;
-}
+Friction Sticky() { return {"stiction", {{"viscous", 0}, {"coulomb", 3}, {"static", 5}}, {}}; }
 
 TEST(JointFriction, BreaksAwayAtTheStaticLevelAndSlidesAtCoulombUntilItStops) {
   const JointFriction joint = Make(Sticky());
@@ -214,9 +207,7 @@ TEST(JointFriction, BreaksAwayAtTheStaticLevelAndSlidesAtCoulombUntilItStops) {
 }
 
 TEST(JointFriction, DahlApproachesItsLevelWithTravelExactlyAtAnyStep) {
-  Friction friction;
-  friction.law = "dahl";
-  friction.parameters = {{"coulomb", 4}, {"bristle_stiffness", 100}};
+  const Friction friction{"dahl", {{"coulomb", 4}, {"bristle_stiffness", 100}}, {}};
   for (const double h : {0.0005, 0.002}) {
     JointFriction joint(friction);
     joint.SetTimestep(h);

@@ -1,4 +1,4 @@
-// Contract of all nominal laws, and the closed forms of each.
+// Contract of all nominal laws; that each is its equation, tests/models/friction/golden_motion_test.cc says.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -131,22 +131,6 @@ std::string NameOf(const testing::TestParamInfo<Law>& member) {
 
 INSTANTIATE_TEST_SUITE_P(List, EveryLaw, testing::ValuesIn(Laws()), NameOf);
 
-TEST(Laws, FollowTheirEquations) {
-  const double coulomb[] = {15};
-  EXPECT_EQ(FindLaw("coulomb")->force(-0.2, coulomb), -15);
-  const double viscous_coulomb[] = {5, 15};
-  EXPECT_EQ(FindLaw("viscous_coulomb")->force(0.5, viscous_coulomb), 17.5);
-  EXPECT_EQ(FindLaw("viscous_coulomb")->force(-0.5, viscous_coulomb), -17.5);
-  const double asymmetric[] = {5, 18, 25};
-  EXPECT_EQ(FindLaw("asymmetric")->force(0.5, asymmetric), 20.5);
-  EXPECT_EQ(FindLaw("asymmetric")->force(-0.5, asymmetric), -27.5);
-  const double stiction[] = {5, 15, 18};
-  EXPECT_EQ(FindLaw("stiction")->force(0.5, stiction), 17.5);
-  EXPECT_EQ(FindLaw("stiction")->holding_level(1, stiction), 18);
-  const double dahl[] = {15, 1e4};
-  EXPECT_EQ(FindLaw("dahl")->force(-0.5, dahl), -15);
-}
-
 TEST(Laws, FallFromTheStaticLevelToCoulombOverTheStribeckVelocity) {
   // at vs, exp(-1) of static - coulomb is left, for any exponent
   const double left = 15 + (18 - 15) * std::exp(-1);
@@ -160,24 +144,6 @@ TEST(Laws, FallFromTheStaticLevelToCoulombOverTheStribeckVelocity) {
   const double stribeck[] = {5, 15, 18, 0.2, 2};
   for (const double v : kVelocities) {
     EXPECT_EQ(FindLaw("lugre")->force(v, lugre), FindLaw("stribeck")->force(v, stribeck));
-  }
-}
-
-TEST(Laws, RiseAndFallFromTheLevelOfEachDirectionByTheSame) {
-  const double p[] = {5, 15, 12, 3, 0.2, 2};
-  const Law& law = *FindLaw("asymmetric_stribeck");
-  const double left = 3 * std::exp(-1);
-  EXPECT_DOUBLE_EQ(law.force(0.2, p), 5 * 0.2 + 15 + left);
-  EXPECT_DOUBLE_EQ(law.force(-0.2, p), -5 * 0.2 - 12 - left);
-  EXPECT_EQ(law.holding_level(1, p), 18);
-  EXPECT_EQ(law.holding_level(-1, p), 15);
-
-  // each side is the law with that side's level, and sliding steadily a bristle changes nothing
-  const double lugre[] = {5, 15, 12, 3, 0.2, 1e4, 10};
-  for (const double v : kVelocities) {
-    const double own = v < 0 ? 12 : 15, alike[] = {5, own, own + 3, 0.2, 2};
-    EXPECT_EQ(law.force(v, p), FindLaw("stribeck")->force(v, alike));
-    EXPECT_EQ(law.force(v, p), FindLaw("asymmetric_lugre")->force(v, lugre));
   }
 }
 

@@ -11,20 +11,18 @@
 #include "models/friction/evaluate_map.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/prepared_map.h"
-#include "tests/support/axes_of_every_kind.h"
 #include "tests/support/refusal.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {
 namespace {
 
-using test::AxesOfEveryKind;
-using test::kTurn;
-using test::Wide;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Pointwise;
+
+constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Six kernels over position times velocity.
 FrictionMap SmallMap() {
@@ -80,14 +78,13 @@ TEST(FrictionMap, IsMultipliedByItsFactor) {
 TEST(FrictionMap, ReadsBackWhatItWrites) {
   Friction friction;
   friction.parameters = {{"viscous", 1}, {"coulomb", 2}};
-  const double turn = 2 * std::numbers::pi;
   friction.maps = {
       SmallMap(),
-      {{{MapQuantity::motor_position, CircleAxis(turn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
+      {{{MapQuantity::motor_position, CircleAxis(kTurn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
   const Tree written = FrictionToTree(friction);
   const Friction back = FrictionFrom({written, "friction.json"});
   EXPECT_EQ(FrictionToTree(back), written);
-  EXPECT_EQ(back.maps[1].axes[0].kernels.period, turn);
+  EXPECT_EQ(back.maps[1].axes[0].kernels.period, kTurn);
   EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);
 }
 
@@ -171,11 +168,38 @@ TEST(GaussianAxis, KeepsTheSidesApart) {
 }
 
 TEST(GaussianAxis, GoesRoundTheCircle) {
-  const double turn = 2 * std::numbers::pi;
-  const GaussianAxis axis = CircleAxis(turn, 6);
+  const GaussianAxis axis = CircleAxis(kTurn, 6);
   // 1e-12: rounding of an angle of 30 rad
-  EXPECT_THAT(Kernels(axis, KernelKind::normalised, 0.3 + 5 * turn),
+  EXPECT_THAT(Kernels(axis, KernelKind::normalised, 0.3 + 5 * kTurn),
               Pointwise(DoubleNear(1e-12), Kernels(axis, KernelKind::normalised, 0.3)));
+}
+
+GaussianAxis Wide(GaussianAxis axis, double factor) {
+  axis.width *= factor;
+  return axis;
+}
+
+GaussianAxis UnevenAxis() {
+  GaussianAxis axis;
+  axis.centres = {-2, -0.5, 0.1, 0.2, 3};
+  axis.width = 0.4;
+  return axis;
+}
+
+/// Axes of every kind that maps have.
+std::vector<GaussianAxis> AxesOfEveryKind() {
+  return {EvenAxis(-3, 3, 40),   EvenAxis(-3, 3, 1),   Wide(EvenAxis(-3, 3, 12), 4),
+          CircleAxis(kTurn, 36), CircleAxis(kTurn, 7), Wide(CircleAxis(kTurn, 8), 3),
+          SpeedAxis(0.2, 2, 3),  SpeedAxis(0.2, 2, 5), SpeedAxis(0.2, 2, 1),
+          UnevenAxis()};
+}
+
+/// The map with weights that go up and down.
+FrictionMap Waved(FrictionMap map) {
+  for (size_t i = 0; i < map.size(); ++i) {
+    map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
+  }
+  return map;
 }
 
 /// Compares with EvaluateMap at points within and far beyond the centres.
@@ -200,11 +224,8 @@ TEST(PreparedMap, IsTheSameOverOneAxisOfAnyKind) {
     for (const KernelKind kind : {KernelKind::plain, KernelKind::normalised}) {
       SCOPED_TRACE(testing::Message()
                    << axis.size() << " centres, kind " << static_cast<int>(kind));
-      FrictionMap map{{{MapQuantity::position, axis}}, kind, {}, MapFactor::one};
-      for (size_t i = 0; i < map.size(); ++i) {
-        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
-      }
-      Compare(map, MapQuantity::position, MapQuantity::velocity);
+      Compare(Waved({{{MapQuantity::position, axis}}, kind, {}, MapFactor::one}),
+              MapQuantity::position, MapQuantity::velocity);
     }
   }
 }
@@ -212,16 +233,13 @@ TEST(PreparedMap, IsTheSameOverOneAxisOfAnyKind) {
 TEST(PreparedMap, IsTheSameOverProductsOfAxesWithAFactor) {
   for (const MapFactor factor : {MapFactor::one, MapFactor::direction, MapFactor::velocity}) {
     for (const GaussianAxis& axis : AxesOfEveryKind()) {
-      FrictionMap map{{{MapQuantity::motor_position, axis},
-                       {MapQuantity::velocity, SpeedAxis(0.1, 3, 6)},
-                       {MapQuantity::energy, EvenAxis(-1, 1, 3)}},
-                      KernelKind::normalised,
-                      {},
-                      factor};
-      for (size_t i = 0; i < map.size(); ++i) {
-        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
-      }
-      Compare(map, MapQuantity::motor_position, MapQuantity::velocity);
+      Compare(Waved({{{MapQuantity::motor_position, axis},
+                      {MapQuantity::velocity, SpeedAxis(0.1, 3, 6)},
+                      {MapQuantity::energy, EvenAxis(-1, 1, 3)}},
+                     KernelKind::normalised,
+                     {},
+                     factor}),
+              MapQuantity::motor_position, MapQuantity::velocity);
     }
   }
 }
@@ -231,14 +249,11 @@ TEST(PreparedMap, IsTheSameOverAPlaceAndASpeedOfAnyKind) {
     // few speeds, which have a table, and many, which have none
     for (const int speeds : {1, 3, 4, 9}) {
       SCOPED_TRACE(testing::Message() << axis.size() << " centres, " << speeds << " speeds");
-      FrictionMap map{
-          {{MapQuantity::position, axis}, {MapQuantity::velocity, SpeedAxis(0.1, 3, speeds)}},
-          KernelKind::normalised,
-          {},
-          MapFactor::direction};
-      for (size_t i = 0; i < map.size(); ++i) {
-        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
-      }
+      const FrictionMap map = Waved(
+          {{{MapQuantity::position, axis}, {MapQuantity::velocity, SpeedAxis(0.1, 3, speeds)}},
+           KernelKind::normalised,
+           {},
+           MapFactor::direction});
       Compare(map, MapQuantity::position, MapQuantity::velocity);
       // at rest neither side of the speeds counts
       EXPECT_EQ(PreparedMap(map).Value({0.3}), 0);
@@ -250,14 +265,11 @@ TEST(PreparedMap, IsTheSameOverAnyNumberOfCentresOfTheShorterAxis) {
   for (int centres = 1; centres <= 24; ++centres) {
     for (const double factor : {0.6, 1.0, 1.7}) {
       SCOPED_TRACE(testing::Message() << centres << " centres, width times " << factor);
-      FrictionMap map{{{MapQuantity::motor_position, CircleAxis(kTurn, 25)},
-                       {MapQuantity::energy, Wide(EvenAxis(-3, 3, centres), factor)}},
-                      KernelKind::normalised,
-                      {}};
-      for (size_t i = 0; i < map.size(); ++i) {
-        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
-      }
-      Compare(map, MapQuantity::motor_position, MapQuantity::energy);
+      Compare(Waved({{{MapQuantity::motor_position, CircleAxis(kTurn, 25)},
+                      {MapQuantity::energy, Wide(EvenAxis(-3, 3, centres), factor)}},
+                     KernelKind::normalised,
+                     {}}),
+              MapQuantity::motor_position, MapQuantity::energy);
     }
   }
 }

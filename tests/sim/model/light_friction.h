@@ -9,13 +9,7 @@
 
 namespace warmjoint::test {
 
-inline Friction LightFriction() {
-  Friction friction;
-  friction.law = "coulomb";
-  friction.parameters = {{"coulomb", 0.5}};
-  friction.thermal = Thermal{-0.1, 60};
-  return friction;
-}
+inline Friction LightFriction() { return {"coulomb", {{"coulomb", 0.5}}, Thermal{-0.1, 60}}; }
 
 /// Joints of the actuators that are plugins, in their order.
 inline std::vector<std::string> FrictionJoints(const mjModel* m) {

@@ -123,7 +123,7 @@ TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
 
 TEST(IdealPlant, FollowsCornersWithInertia) {
   // up to 1 rad/s within a second, steady for one, and so on for ever
-  Scenario scenario = test::Table1();
+  Scenario scenario = Table1();
   scenario.noise.torque = 0;
   scenario.friction.thermal.reset();
   scenario.motion = {};

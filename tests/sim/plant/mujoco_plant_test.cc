@@ -10,21 +10,19 @@
 #include "sim/plant/plant.h"
 #include "sim/plant/single_joint_model.h"
 #include "tests/support/refusal.h"
+#include "tests/support/table1.h"
 
 namespace warmjoint {
 namespace {
 
 /// Table I in the engine: 20 s holds at speeds from 0.1 to 1 rad/s, stored at 1 Hz; 200 s.
 Scenario Table1() {
-  Scenario scenario;
+  Scenario scenario = test::Table1();
   scenario.name = "table1-mujoco";
   scenario.plant = PlantKind::mujoco;
   scenario.robot = "rotary";
   scenario.joint = "hinge";
-  scenario.friction = {"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-3, 600}};
-  scenario.motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
-  scenario.motion.hold = 20;
-  scenario.sampling.rate = 1;
+  scenario.noise = {};
   scenario.controller.bandwidth = 100;
   scenario.timestep = 0.002;
   scenario.duration = 200;

@@ -249,21 +249,11 @@ constexpr char kTwoLinks[] = R"(
   </worldbody>
 </mujoco>)";
 
-Friction Shoulder() {
-  Friction friction;
-  friction.law = "coulomb";
-  friction.parameters = {{"coulomb", 3}};
-  friction.thermal = Thermal{-0.2, 5};
-  return friction;
-}
+Friction Shoulder(double level = 3) { return {"coulomb", {{"coulomb", level}}, Thermal{-0.2, 5}}; }
 
 /// Another law, with another number of states, that feeds itself once warm.
 Friction Elbow() {
-  Friction friction;
-  friction.law = "stiction";
-  friction.parameters = {{"viscous", 0.1}, {"coulomb", 0.5}, {"static", 0.7}};
-  friction.thermal = Thermal{-3, 0.2};
-  return friction;
+  return {"stiction", {{"viscous", 0.1}, {"coulomb", 0.5}, {"static", 0.7}}, Thermal{-3, 0.2}};
 }
 
 enum class Second { beside, on_the_end };
@@ -271,12 +261,9 @@ enum class Second { beside, on_the_end };
 /// The model with the frictions added in these groups, each of which shares an instance.
 ModelPtr TwoLinks(Second second, const std::vector<std::vector<FrictionForJoint>>& groups) {
   const bool beside = second == Second::beside;
-  const std::string xml =
+  const SpecPtr spec = ParseXml(
       fmt::format(kTwoLinks, beside ? R"(</body><body pos="0 1 0">)" : R"(<body pos="0.4 0 0">)",
-                  beside ? "" : "</body>");
-  char error[500] = "";
-  const SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
-  EXPECT_TRUE(spec) << error;
+                  beside ? "" : "</body>"));
   for (const auto& group : groups) AddFriction(*spec, group, {"test"});
   return CompileModel(*spec, {"test"});
 }
@@ -321,8 +308,7 @@ double Give(const mjModel* model) {
 }
 
 TEST(PluginJoints, OfOneTreeGiveWayByMoreInInstancesOfTheirOwn) {
-  FrictionForJoint shoulder{"shoulder", Shoulder()}, elbow{"elbow", Shoulder()};
-  shoulder.friction.parameters["coulomb"] = elbow.friction.parameters["coulomb"] = 20;
+  const FrictionForJoint shoulder{"shoulder", Shoulder(20)}, elbow{"elbow", Shoulder(20)};
   const ModelPtr shared = TwoLinks(Second::on_the_end, {{shoulder, elbow}});
   const ModelPtr own = TwoLinks(Second::on_the_end, {{shoulder}, {elbow}});
   // 0.8 / 0.6, and by more, since an instance holds what the other's joint leaves of the inertia
@@ -339,19 +325,12 @@ ModelPtr Chain(int links) {
                           i == 0 ? 0 : 0.1, i, 1 - 0.1 * i);
     ends += "</body>";
   }
-  char error[500] = "";
-  const SpecPtr spec(mj_parseXMLString(
-      fmt::format(
-          R"(<mujoco><option timestep="0.001" gravity="0 0 -1"><flag contact="disable"/></option>
-                     <worldbody>{}{}</worldbody></mujoco>)",
-          bodies, ends)
-          .c_str(),
-      nullptr, error, sizeof(error)));
-  EXPECT_TRUE(spec) << error;
+  const SpecPtr spec = ParseXml(fmt::format(
+      R"(<mujoco><option timestep="0.001" gravity="0 0 -1"><flag contact="disable"/></option>
+         <worldbody>{}{}</worldbody></mujoco>)",
+      bodies, ends));
   for (int i = 0; i < links; ++i) {
-    FrictionForJoint friction{fmt::format("j{}", i), Shoulder()};
-    friction.friction.parameters["coulomb"] = 2;
-    AddFriction(*spec, {friction}, {"test"});
+    AddFriction(*spec, {{fmt::format("j{}", i), Shoulder(2)}}, {"test"});
   }
   return CompileModel(*spec, {"test"});
 }

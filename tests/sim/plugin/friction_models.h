@@ -16,6 +16,14 @@ namespace warmjoint::test {
 using Model = ModelPtr;
 using Data = DataPtr;
 
+/// A model as it is written.
+inline SpecPtr ParseXml(const std::string& xml) {
+  char error[500] = "";
+  SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
+  EXPECT_TRUE(spec) << error;
+  return spec;
+}
+
 /// A model, or nothing and the engine's message.
 struct Compiled {
   Model model;

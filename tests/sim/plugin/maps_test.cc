@@ -20,12 +20,12 @@ using namespace test;
 
 /// Law (3) with heat, a ripple over the motor's angle, and a level that grows with the load.
 Friction Rippled() {
-  Friction friction;
-  friction.law = "asymmetric";
-  friction.parameters = {{"viscous", 0.4}, {"coulomb_positive", 3}, {"coulomb_negative", 4}};
-  friction.thermal = Thermal{-0.3, 50};
+  Friction friction{"asymmetric",
+                    {{"viscous", 0.4}, {"coulomb_positive", 3}, {"coulomb_negative", 4}},
+                    Thermal{-0.3, 50},
+                    0,
+                    20};
   friction.second_thermal = Thermal{-0.1, 5};
-  friction.gear = 20;
   friction.load_gain = 0.1;
   FrictionMap map{{{MapQuantity::motor_position, CircleAxis(2 * std::numbers::pi, 12)},
                    {MapQuantity::velocity, SpeedAxis(0.2, 2, 2)}},

@@ -15,12 +15,9 @@ using namespace test;
 constexpr int kWorlds = 64;
 
 Friction Law(double positive, double viscous, double gain) {
-  Friction friction;
-  friction.law = "asymmetric";
-  friction.parameters = {
-      {"viscous", viscous}, {"coulomb_positive", positive}, {"coulomb_negative", 0.9}};
-  friction.thermal = Thermal{gain, 3};
-  return friction;
+  return {"asymmetric",
+          {{"viscous", viscous}, {"coulomb_positive", positive}, {"coulomb_negative", 0.9}},
+          Thermal{gain, 3}};
 }
 
 std::string WithArrays(std::string xml, const std::string& arrays) {

@@ -26,12 +26,8 @@ enum class Form { actuator, passive };
 inline std::vector<Friction> FrictionsOfEveryLaw() {
   std::vector<Friction> all;
   const auto add = [&](const char* law, const std::map<std::string, double>& parameters) {
-    Friction friction;
-    friction.law = law;
-    friction.parameters = parameters;
-    friction.thermal = Thermal{-0.02, 3};
-    FillDefaults(friction);
-    all.push_back(friction);
+    all.push_back({law, parameters, Thermal{-0.02, 3}});
+    FillDefaults(all.back());
     return &all.back();
   };
   all.reserve(Laws().size());

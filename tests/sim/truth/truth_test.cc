@@ -13,9 +13,7 @@ namespace {
 
 Truth Example() {
   Truth truth;
-  truth.friction.law = "viscous_coulomb";
-  truth.friction.parameters = {{"viscous", 5}, {"coulomb", 15}};
-  truth.friction.thermal = Thermal{-3, 600};
+  truth.friction = {"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-3, 600}};
   truth.initial_energy = 1.0 / 3;
   truth.torque_noise = 0.5;
   truth.plant = "ideal";

@@ -11,9 +11,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/folders.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
@@ -47,14 +46,9 @@ TEST(Outputs, MessagesAreOneLineThatNoTerminalActsOn) {
   EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1);
 }
 
-class IdentifyOutputs : public testing::Test {
+class IdentifyOutputs : public InAFolder {
  protected:
-  void SetUp() override {
-    WriteRecordingFile(log_, 480,
-                       [](int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); });
-  }
-
-  std::string at(const std::string& name) const { return scratch_.path() / name; }
+  IdentifyOutputs() { WriteRecordingFile(log_, 480); }
 
   ProgramAnswer Identify(const std::vector<std::string>& more) const {
     std::vector<std::string> command{"identify", log_, "--identifier", "nominal-ls"};
@@ -62,8 +56,7 @@ class IdentifyOutputs : public testing::Test {
     return RunWarmjoint(command);
   }
 
-  ScratchDirectory scratch_;
-  std::string log_ = scratch_.path() / "log.csv";
+  std::string log_ = at("log.csv");
 };
 
 TEST_F(IdentifyOutputs, NeverGoOntoAnInputOrOntoEachOther) {

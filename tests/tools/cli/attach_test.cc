@@ -7,8 +7,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/robots/robot_folder.h"
 #include "sim/model/load_model.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
 
 namespace warmjoint {
 namespace {
@@ -20,53 +19,42 @@ std::string FrictionFile(const std::string& robot) {
   return DataFolder() / "models" / "robots" / robot / "friction.json";
 }
 
-TEST(AttachCommand, WritesAModelWithFrictionOnEachNamedJoint) {
-  const ScratchDirectory scratch;
-  const std::string out = scratch.path() / "out.xml";
-  const ProgramAnswer answer =
-      RunWarmjoint({"attach", "yumi_like", "--joint", "joint_4=" + FrictionFile("yumi_like"),
-                    "--joint", "joint_1=" + FrictionFile("yumi_like"), "-o", out});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  const LoadedModel loaded = LoadModel(out);
+using AttachCommand = InAFolder;
+
+TEST_F(AttachCommand, WritesAModelWithFrictionOnEachNamedJoint) {
+  Call({"attach", "yumi_like", "--joint", "joint_4=" + FrictionFile("yumi_like"), "--joint",
+        "joint_1=" + FrictionFile("yumi_like"), "-o", "out.xml"});
+  const LoadedModel loaded = LoadModel(at("out.xml"));
   EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_ACTUATOR, "joint_4_friction"), 0);
   EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_ACTUATOR, "joint_1_friction"), 0);
 }
 
-TEST(AttachCommand, TellsWhatItChanged) {
-  const ScratchDirectory scratch;
-  const std::string out = scratch.path() / "out.xml";
+TEST_F(AttachCommand, TellsWhatItChanged) {
   const std::string urdf = DataFolder() / "models" / "robots" / "pendulum" / "pendulum.urdf";
   const ProgramAnswer answer =
-      RunWarmjoint({"attach", urdf, "--joint", "hinge=" + FrictionFile("pendulum"), "-o", out});
-  EXPECT_EQ(answer.status, 0) << answer.err;
+      Call({"attach", urdf, "--joint", "hinge=" + FrictionFile("pendulum"), "-o", "out.xml"});
   EXPECT_THAT(answer.err, AllOf(HasSubstr("notice: hinge"), HasSubstr("effort limit")));
-  EXPECT_EQ(LoadModel(out).model->nactuator, 1) << "no motor comes unasked";
+  EXPECT_EQ(LoadModel(at("out.xml")).model->nactuator, 1) << "no motor comes unasked";
 }
 
-TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
-  const ScratchDirectory scratch;
-  const std::string estimate = scratch.path() / "estimate.json", out = scratch.path() / "out.xml";
+TEST_F(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
   std::ifstream plain(FrictionFile("pendulum"));
   const nlohmann::json friction = nlohmann::json::parse(plain)["friction"];
   for (const auto& [status, warns] :
        {std::pair("inadequate_model", true), std::pair("ok", false)}) {
-    WriteWholeFile(estimate, nlohmann::json{{"status", status}, {"friction", friction}}.dump());
+    WriteWholeFile(at("e.json"), nlohmann::json{{"status", status}, {"friction", friction}}.dump());
     const ProgramAnswer answer =
-        RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
-    EXPECT_EQ(answer.status, 0) << answer.err;
+        Call({"attach", "pendulum", "--joint", "hinge=e.json", "-o", "out.xml"});
     EXPECT_EQ(answer.err.find("void") != std::string::npos, warns) << answer.err;
   }
 }
 
-TEST(AttachCommand, TakesPatternsFormAndChangesOfTheModel) {
-  const ScratchDirectory scratch;
-  const std::string out = scratch.path() / "out.xml";
+TEST_F(AttachCommand, TakesPatternsFormAndChangesOfTheModel) {
   const ProgramAnswer answer =
-      RunWarmjoint({"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"),
-                    "--armature", "joint_.*=0.125", "--timestep", "0.00025", "--integrator",
-                    "implicitfast", "--sensors", "--numbers", "-o", out});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  const LoadedModel loaded = LoadModel(out);
+      Call({"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"), "--armature",
+            "joint_.*=0.125", "--timestep", "0.00025", "--integrator", "implicitfast", "--sensors",
+            "--numbers", "-o", "out.xml"});
+  const LoadedModel loaded = LoadModel(at("out.xml"));
   const mjModel* m = loaded.model.get();
   EXPECT_EQ(m->opt.timestep, 0.00025);
   EXPECT_EQ(m->opt.integrator, mjINT_IMPLICITFAST);
@@ -76,12 +64,10 @@ TEST(AttachCommand, TakesPatternsFormAndChangesOfTheModel) {
   EXPECT_THAT(answer.out, HasSubstr(fmt::format("on {} of its joints", m->njnt)));
 }
 
-TEST(AttachCommand, SaysThatARefusedEstimateHoldsNoFriction) {
-  const ScratchDirectory scratch;
-  const std::string estimate = scratch.path() / "estimate.json", out = scratch.path() / "out.xml";
-  WriteWholeFile(estimate, R"({"status": "inadequate_model", "friction": null})");
+TEST_F(AttachCommand, SaysThatARefusedEstimateHoldsNoFriction) {
+  WriteWholeFile(at("e.json"), R"({"status": "inadequate_model", "friction": null})");
   const ProgramAnswer answer =
-      RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
+      Program({"attach", "pendulum", "--joint", "hinge=e.json", "-o", "out.xml"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, AllOf(HasSubstr("holds no friction"), HasSubstr("--force")));
 }

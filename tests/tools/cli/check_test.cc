@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 #include "tools/cli/recording_options.h"
 
 namespace warmjoint {
@@ -19,40 +18,26 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-double Slow(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
-
-class CheckTogether : public testing::Test {
+class CheckTogether : public InAFolder {
  protected:
   void SetUp() override {
-    WriteRecordingFile(scratch_.path() / "a.csv", 480, Slow);
+    WriteRecordingFile(at("a.csv"), 480);
     // every other row: half the rate
-    std::ifstream rows(scratch_.path() / "a.csv");
+    std::ifstream rows(at("a.csv"));
     std::string half, line;
     for (int i = 0; std::getline(rows, line); ++i) {
       if (i == 0 || i % 2 == 1) half += line + "\n";
     }
-    WriteWholeFile(scratch_.path() / "half.csv", half);
-    WriteWholeFile(scratch_.path() / "broken.csv", "time,position\n0,1\n");
+    WriteWholeFile(at("half.csv"), half);
+    WriteWholeFile(at("broken.csv"), "time,position\n0,1\n");
   }
-
-  ProgramAnswer Run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "check");
-    return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
-  }
-
-  nlohmann::json Json(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(), {"--format", "json"});
-    return nlohmann::json::parse(Run(std::move(arguments)).out);
-  }
-
-  const ScratchDirectory scratch_;
 };
 
 TEST_F(CheckTogether, EachHasARowAndItsOwnCheck) {
-  const ProgramAnswer text = Run({"a.csv", "half.csv"});
+  const ProgramAnswer text = Program({"check", "a.csv", "half.csv"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out, HasSubstr("torque in"));
-  const auto told = Json({"a.csv", "half.csv"});
+  const auto told = Json({"check", "a.csv", "half.csv"});
   ASSERT_EQ(told.at("recordings").size(), 2u);
   EXPECT_EQ(told.at("recordings")[0].at("verdict"), "ok");
   EXPECT_EQ(told.at("recordings")[1].at("sampling").at("samples"), 240);
@@ -60,37 +45,37 @@ TEST_F(CheckTogether, EachHasARowAndItsOwnCheck) {
 }
 
 TEST_F(CheckTogether, OneThatCannotBeReadIsTheWorst) {
-  const ProgramAnswer text = Run({"a.csv", "broken.csv"});
+  const ProgramAnswer text = Program({"check", "a.csv", "broken.csv"});
   EXPECT_EQ(text.status, 2);
   EXPECT_THAT(text.out, HasSubstr("unreadable"));
   EXPECT_THAT(text.out, HasSubstr("has no column"));
   EXPECT_THAT(text.out, HasSubstr("motion      "));
-  const auto told = Json({"broken.csv", "a.csv"});
+  const auto told = Json({"check", "broken.csv", "a.csv"});
   EXPECT_EQ(told.at("recordings")[0].at("verdict"), "unreadable");
   EXPECT_EQ(told.at("recordings")[1].at("verdict"), "ok");
 
   // alone it is refused, and options are refused before any file is read
-  EXPECT_THAT(Run({"broken.csv"}).out, Not(HasSubstr("verdict")));
-  EXPECT_EQ(Run({"a.csv", "half.csv", "--gear", "0"}).status, 2);
-  EXPECT_THAT(Run({"a.csv", "half.csv", "--gear", "0"}).out, Not(HasSubstr("unreadable")));
+  EXPECT_THAT(Program({"check", "broken.csv"}).out, Not(HasSubstr("verdict")));
+  EXPECT_EQ(Program({"check", "a.csv", "half.csv", "--gear", "0"}).status, 2);
+  EXPECT_THAT(Program({"check", "a.csv", "half.csv", "--gear", "0"}).out,
+              Not(HasSubstr("unreadable")));
 }
 
 TEST_F(CheckTogether, TellsThatTheFirstCannotBeDrawn) {
-  const ProgramAnswer answer = Run({"broken.csv", "a.csv", "--plot", "log.png"});
+  const ProgramAnswer answer = Program({"check", "broken.csv", "a.csv", "--plot", "log.png"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("log.png"));
-  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "log.png"));
+  EXPECT_FALSE(std::filesystem::exists(at("log.png")));
 }
 
 TEST_F(CheckTogether, RefusesATableThatCannotBeWrittenBeforeItReads) {
-  const ProgramAnswer answer = Run({"broken.csv", "--segments", "absent/segments.csv"});
+  const ProgramAnswer answer =
+      Program({"check", "broken.csv", "--segments", "absent/segments.csv"});
   EXPECT_NE(answer.status, 0);
   EXPECT_THAT(answer.err, HasSubstr("absent/segments.csv"));
 }
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
 
 /// A log in degrees and in columns of another name, four speeds in both directions, 10 s each.
 std::string ForeignLog() {
@@ -110,28 +95,24 @@ constexpr const char* kProject =
     "map: {time: t_s, position: q_deg, velocity: dq, torque: force}\n"
     "unit: {position: deg, velocity: deg/s}\nscale: {torque: -1}\ngear: 100\n";
 
-class TakesProject : public testing::Test {
+class TakesProject : public InAFolder {
  protected:
   void SetUp() override {
-    fs::create_directory(scratch_.path() / "logs");
-    WriteWholeFile(Path("logs/log.csv"), ForeignLog());
-    WriteWholeFile(Path("logs/warmjoint.yaml"), kProject);
-  }
-  std::string Path(const std::string& name) const { return scratch_.path() / name; }
-  ProgramAnswer Identify(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"identify", Path("logs/log.csv"), "--identifier", "nominal-ls", "-o",
-                               Path("estimate.json")});
-    return RunWarmjoint(more);
-  }
-  nlohmann::json Written() const {
-    return nlohmann::json::parse(ReadWholeFile(Path("estimate.json")));
+    fs::create_directory(at("logs"));
+    WriteWholeFile(at("logs/log.csv"), ForeignLog());
+    WriteWholeFile(at("logs/warmjoint.yaml"), kProject);
   }
 
-  ScratchDirectory scratch_;
+  ProgramAnswer Identify(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"identify", at("logs/log.csv"), "--identifier", "nominal-ls", "-o",
+                               at("estimate.json")});
+    return RunWarmjoint(more);
+  }
+  nlohmann::json Written() const { return JsonFile("estimate.json"); }
 };
 
 TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
-  const ProgramAnswer check = RunWarmjoint({"check", Path("logs/log.csv"), "--format", "json"});
+  const ProgramAnswer check = RunWarmjoint({"check", at("logs/log.csv"), "--format", "json"});
   EXPECT_EQ(check.status, 0) << check.err;
   EXPECT_TRUE(nlohmann::json::parse(check.out).is_object()) << "its words go to stderr";
   EXPECT_THAT(check.err, HasSubstr("warmjoint.yaml: map position=q_deg,time=t_s"));
@@ -148,7 +129,7 @@ TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
   EXPECT_EQ(estimate.at("recording").at("gear"), 100);
 
   const ProgramAnswer plot = RunWarmjoint(
-      {"plot", Path("estimate.json"), "--recording", Path("logs/log.csv"), "-o", Path("pictures")});
+      {"plot", at("estimate.json"), "--recording", at("logs/log.csv"), "-o", at("pictures")});
   EXPECT_EQ(plot.status, 0) << plot.err;
   EXPECT_THAT(plot.err, HasSubstr("warmjoint.yaml: map"));
 }
@@ -175,43 +156,38 @@ TEST_F(TakesProject, IsLeftOutWhenAsked) {
 }
 
 TEST_F(TakesProject, RefusesFilesThatDisagreeOrAreNone) {
-  WriteWholeFile(Path("other.csv"), ForeignLog());
-  const ProgramAnswer two = RunWarmjoint({"check", Path("logs/log.csv"), Path("other.csv")});
+  WriteWholeFile(at("other.csv"), ForeignLog());
+  const ProgramAnswer two = RunWarmjoint({"check", at("logs/log.csv"), at("other.csv")});
   EXPECT_EQ(two.status, 2);
   EXPECT_THAT(two.err, HasSubstr("does not lie beside the project file of the other recordings"));
-  WriteWholeFile(Path("logs/warmjoint.yaml"), "gear: 2\ncommand: touch P\n");
+  WriteWholeFile(at("logs/warmjoint.yaml"), "gear: 2\ncommand: touch P\n");
   const ProgramAnswer command = Identify();
   EXPECT_EQ(command.status, 2);
   EXPECT_THAT(command.err, HasSubstr("warmjoint.yaml:2: 'command' does not belong here"));
-  fs::remove(Path("logs/warmjoint.yaml"));
-  fs::create_directory(Path("logs/warmjoint.yaml"));
+  fs::remove(at("logs/warmjoint.yaml"));
+  fs::create_directory(at("logs/warmjoint.yaml"));
   EXPECT_THAT(Identify().err, HasSubstr("is not a regular file"));
 }
 
 TEST_F(TakesProject, LetsAnEstimateFindItsRecordingFromAnotherFolder) {
-  fs::create_directory(Path("estimates"));
-  const auto before = fs::current_path();
-  fs::current_path(scratch_.path());
-  const ProgramAnswer made = RunWarmjoint(
-      {"identify", "logs/log.csv", "--identifier", "nominal-ls", "-o", "estimates/one.json"});
-  fs::current_path(before);
-  ASSERT_EQ(made.status, 0) << made.err;
-  const auto estimate = nlohmann::json::parse(ReadWholeFile(Path("estimates/one.json")));
-  EXPECT_EQ(estimate.at("recording").at("files"), nlohmann::json({"../logs/log.csv"}));
+  fs::create_directory(at("estimates"));
+  Call({"identify", "logs/log.csv", "--identifier", "nominal-ls", "-o", "estimates/one.json"});
+  EXPECT_EQ(JsonFile("estimates/one.json").at("recording").at("files"),
+            nlohmann::json({"../logs/log.csv"}));
 
   // from here, after both have moved, and where the recording came along into its folder
   const auto plots = [&](const std::string& file) {
-    return RunWarmjoint({"-q", "plot", file, "-o", Path("pictures")}).err;
+    return RunWarmjoint({"-q", "plot", file, "-o", at("pictures")}).err;
   };
-  EXPECT_EQ(plots(Path("estimates/one.json")), "");
-  fs::create_directory(Path("moved"));
-  fs::rename(Path("logs"), Path("moved/logs"));
-  fs::rename(Path("estimates"), Path("moved/estimates"));
-  EXPECT_EQ(plots(Path("moved/estimates/one.json")), "");
-  fs::rename(Path("moved/logs/log.csv"), Path("moved/estimates/log.csv"));
-  EXPECT_EQ(plots(Path("moved/estimates/one.json")), "");
-  fs::remove(Path("moved/estimates/log.csv"));
-  EXPECT_THAT(plots(Path("moved/estimates/one.json")), HasSubstr("logs/log.csv is not there"));
+  EXPECT_EQ(plots(at("estimates/one.json")), "");
+  fs::create_directory(at("moved"));
+  fs::rename(at("logs"), at("moved/logs"));
+  fs::rename(at("estimates"), at("moved/estimates"));
+  EXPECT_EQ(plots(at("moved/estimates/one.json")), "");
+  fs::rename(at("moved/logs/log.csv"), at("moved/estimates/log.csv"));
+  EXPECT_EQ(plots(at("moved/estimates/one.json")), "");
+  fs::remove(at("moved/estimates/log.csv"));
+  EXPECT_THAT(plots(at("moved/estimates/one.json")), HasSubstr("logs/log.csv is not there"));
 }
 
 }  // namespace

@@ -6,13 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/atomic_file.h"
 #include "models/friction/friction_json.h"
 #include "tests/support/folders.h"
-#include "tests/support/shared_data.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
@@ -20,21 +17,25 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Four speeds in both directions, 30 s each.
-double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
+using Command = std::vector<std::string>;
 
-TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  const std::string output = scratch.path() / "estimate.json";
-  const ProgramAnswer answer =
-      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "-o", output});
-  ASSERT_EQ(answer.status, 0) << answer.err;
+Command With(Command command, const Command& more) {
+  command.insert(command.end(), more.begin(), more.end());
+  return command;
+}
+
+class IdentifyCommand : public InAFolder {
+ protected:
+  IdentifyCommand() { WriteRecordingFile(at("log.csv"), 480); }
+
+  const Command nominal_{"identify", "log.csv", "--identifier", "nominal-ls"};
+};
+
+TEST_F(IdentifyCommand, WritesTheContractsJsonAndAFrictionFile) {
+  const ProgramAnswer answer = Call(With(nominal_, {"-o", "estimate.json"}));
   EXPECT_THAT(answer.out, HasSubstr("nominal-ls: ok"));
   EXPECT_THAT(answer.out, HasSubstr("held out"));
-
-  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  const auto estimate = JsonFile("estimate.json");
   EXPECT_EQ(estimate.at("status"), "ok");
   // the ripple of 0.2 N.m stands in for noise: 0.1 is some five standard deviations of the level
   EXPECT_NEAR(estimate.at("parameters").at("coulomb").at("value").get<double>(), 15, 0.1);
@@ -42,20 +43,16 @@ TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
   EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
   EXPECT_EQ(estimate.at("metrics").at("n"), 480);
   EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
-  EXPECT_EQ(ReadFriction(output).law, "viscous_coulomb");
+  EXPECT_EQ(ReadFriction(at("estimate.json")).law, "viscous_coulomb");
 }
 
-TEST(Identify, ReadsStandardInput) {
-  const ScratchDirectory scratch;
-  WriteRecordingFile(scratch.path() / "log.csv", 480, SeveralSpeeds);
-  const Surroundings here{scratch.path(), {}};
+TEST_F(IdentifyCommand, ReadsStandardInput) {
   const std::string program = test::BuildFolder() / "warmjoint";
   const auto piped = [&](const std::string& command) {
-    return RunCommandLine({"sh", "-c", command}, here);
+    return RunCommandLine({"sh", "-c", command}, {scratch_.path(), {}});
   };
   const std::string rest = " identify - --identifier nominal-ls --format json";
-  const ProgramAnswer file =
-      RunWarmjoint({"identify", "log.csv", "--identifier", "nominal-ls", "--format", "json"}, here);
+  const auto file = Json(nominal_);
 
   // the same numbers through a pipe, also a slow one, and from a redirected file
   for (const std::string& command :
@@ -63,53 +60,35 @@ TEST(Identify, ReadsStandardInput) {
         "(sleep 4; cat log.csv) | " + program + rest}) {
     const ProgramAnswer answer = piped(command);
     ASSERT_EQ(answer.status, 0) << answer.err;
-    EXPECT_EQ(nlohmann::json::parse(answer.out).at("parameters"),
-              nlohmann::json::parse(file.out).at("parameters"));
+    EXPECT_EQ(nlohmann::json::parse(answer.out).at("parameters"), file.at("parameters"));
   }
 
   // standard input is no output, and cannot be read again
   const ProgramAnswer both = piped("cat log.csv | " + program + " identify - -o - | head -c 1");
   EXPECT_EQ(both.out, "{") << both.err;
   ASSERT_EQ(piped("cat log.csv | " + program + rest + " -o estimate.json").status, 0);
-  const ProgramAnswer plot = RunWarmjoint({"plot", "estimate.json", "-o", "plots"}, here);
+  const ProgramAnswer plot = Program({"plot", "estimate.json", "-o", "plots"});
   EXPECT_EQ(plot.status, 2);
   EXPECT_THAT(plot.err, HasSubstr("--recording"));
   EXPECT_THAT(piped(program + " check - < /dev/null").err, HasSubstr("standard input"));
 }
 
-TEST(Identify, PrintsTheSameJsonAsItWrites) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  const std::string output = scratch.path() / "estimate.json";
-  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
-                                         "--format", "json",    "-o",           output};
-  const ProgramAnswer answer = RunWarmjoint(command);
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  auto printed = nlohmann::json::parse(answer.out);
-  EXPECT_EQ(printed, nlohmann::json::parse(ReadWholeFile(output)));
+TEST_F(IdentifyCommand, PrintsTheSameJsonAsItWrites) {
+  const Command command{"identify", at("log.csv"), "--identifier", "nominal-ls"};
+  auto printed = Json(With(command, {"-o", at("estimate.json")}));
+  EXPECT_EQ(printed, JsonFile("estimate.json"));
   EXPECT_EQ(printed.at("recording").at("files"), nlohmann::json({"log.csv"}));
-
   // once, where both go to standard output, from which no folder of the recording follows
-  std::vector<std::string> both = command;
-  both.back() = "-";
-  auto alone = nlohmann::json::parse(RunWarmjoint(both).out);
-  EXPECT_EQ(alone.at("recording").at("files"), nlohmann::json({recording}));
+  auto alone = Json(With(command, {"-o", "-"}));
+  EXPECT_EQ(alone.at("recording").at("files"), nlohmann::json({at("log.csv")}));
   printed.erase("recording");
   alone.erase("recording");
   EXPECT_EQ(printed, alone);
 }
 
-TEST(Identify, ExplainsEveryTestAndAssumptionWhenAsked) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls"};
-  std::vector<std::string> more = command, json = command;
-  more.push_back("--explain");
-  json.insert(json.end(), {"--format", "json"});
-  const std::string brief = RunWarmjoint(command).out, full = RunWarmjoint(more).out;
-  const auto estimate = nlohmann::json::parse(RunWarmjoint(json).out);
+TEST_F(IdentifyCommand, ExplainsEveryTestAndAssumptionWhenAsked) {
+  const std::string full = Program(With(nominal_, {"--explain"})).out;
+  const auto estimate = Json(nominal_);
   ASSERT_FALSE(estimate.at("diagnostics").empty());
   for (const auto& one : estimate.at("diagnostics")) {
     EXPECT_THAT(full, HasSubstr("\n" + one.at("test").get<std::string>() + " "));
@@ -117,82 +96,53 @@ TEST(Identify, ExplainsEveryTestAndAssumptionWhenAsked) {
   for (const auto& one : estimate.at("assumptions")) {
     EXPECT_THAT(full, HasSubstr("  " + one.at("name").get<std::string>() + ": "));
   }
-  EXPECT_THAT(brief, Not(HasSubstr("test for lack of fit")));
+  EXPECT_THAT(Program(nominal_).out, Not(HasSubstr("test for lack of fit")));
 }
 
-TEST(Identify, HoldsNothingOutWhenAsked) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  const std::string output = scratch.path() / "estimate.json";
-  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
-                                         "-o",       output,    "--holdout"};
-  std::vector<std::string> none = command;
-  none.push_back("0");
-  EXPECT_THAT(RunWarmjoint(none).out, Not(HasSubstr("held out")));
-  EXPECT_TRUE(nlohmann::json::parse(ReadWholeFile(output)).at("holdout").is_null());
-
+TEST_F(IdentifyCommand, HoldsNothingOutWhenAsked) {
+  const Command command = With(nominal_, {"-o", "estimate.json", "--holdout"});
+  EXPECT_THAT(Program(With(command, {"0"})).out, Not(HasSubstr("held out")));
+  EXPECT_TRUE(JsonFile("estimate.json").at("holdout").is_null());
   // another recording of the same joint
-  std::vector<std::string> other = command;
-  other.push_back(recording);
-  EXPECT_EQ(RunWarmjoint(other).status, 0);
-  EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("holdout").at("n"), 480);
+  Call(With(command, {"log.csv"}));
+  EXPECT_EQ(JsonFile("estimate.json").at("holdout").at("n"), 480);
 }
 
-TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 400, [](int i) { return i / 20 % 2 ? -0.5 : 0.5; });
-  const auto identifiers =
-      nlohmann::json::parse(RunWarmjoint({"list", "identifiers", "--format", "json"}).out);
-  for (const auto& identifier : identifiers) {
+TEST_F(IdentifyCommand, OneSpeedAloneGivesStatus3AndNoNumbers) {
+  WriteRecordingFile(at("one.csv"), 400, [](int i) { return i / 20 % 2 ? -0.5 : 0.5; });
+  for (const auto& identifier : Json({"list", "identifiers"})) {
     const std::string name = identifier.at("name");
     if (name == "auto") continue;  // takes a law without slope
-    const std::string output = scratch.path() / (name + ".json");
-    const ProgramAnswer answer = RunWarmjoint({"identify", recording, "--identifier", name, "-o",
-                                               output, "--mjcf", scratch.path() / (name + ".xml")});
+    const ProgramAnswer answer = Program({"identify", "one.csv", "--identifier", name, "-o",
+                                          name + ".json", "--mjcf", name + ".xml"});
     EXPECT_EQ(answer.status, 3) << name;
     EXPECT_THAT(answer.out, HasSubstr("not_identifiable")) << name;
-    const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+    const auto estimate = JsonFile(name + ".json");
     EXPECT_EQ(estimate.at("status"), "not_identifiable") << name;
     EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("viscous")) << name;
     EXPECT_TRUE(estimate.at("parameters").empty()) << name;
     EXPECT_TRUE(estimate.at("friction").is_null()) << name;
-    EXPECT_FALSE(std::filesystem::exists(scratch.path() / (name + ".xml"))) << name;
+    EXPECT_FALSE(std::filesystem::exists(at(name + ".xml"))) << name;
   }
 }
 
-TEST(Identify, TakesSeveralRecordingsAtOnce) {
-  const ScratchDirectory scratch;
-  const std::string first = scratch.path() / "monday.csv", second = scratch.path() / "tuesday.csv";
-  WriteRecordingFile(first, 480, SeveralSpeeds);
-  WriteRecordingFile(second, 240, SeveralSpeeds);
-  const std::string output = scratch.path() / "estimate.json";
-  const ProgramAnswer answer =
-      RunWarmjoint({"identify", first, second, "--identifier", "nominal-ls", "-o", output});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("metrics").at("n"), 720);
-
-  const ProgramAnswer check = RunWarmjoint({"check", first, second, "--format", "json"});
-  ASSERT_EQ(check.status, 0) << check.err;
-  EXPECT_EQ(nlohmann::json::parse(check.out).at("recordings").size(), 2u);
-  EXPECT_THAT(RunWarmjoint({"check", first, second}).out,
-              testing::AllOf(HasSubstr("monday.csv"), HasSubstr("tuesday.csv")));
+TEST_F(IdentifyCommand, TakesSeveralRecordingsAtOnce) {
+  WriteRecordingFile(at("other.csv"), 240);
+  Call({"identify", "log.csv", "other.csv", "--identifier", "nominal-ls", "-o", "estimate.json"});
+  EXPECT_EQ(JsonFile("estimate.json").at("metrics").at("n"), 720);
+  EXPECT_EQ(Json({"check", "log.csv", "other.csv"}).at("recordings").size(), 2u);
+  EXPECT_THAT(Call({"check", "log.csv", "other.csv"}).out,
+              testing::AllOf(HasSubstr("log.csv"), HasSubstr("other.csv")));
 }
 
-TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  const std::string output = scratch.path() / "estimate.json";
-  const auto identify = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"identify", recording, "-o", output});
-    return RunWarmjoint(more);
+TEST_F(IdentifyCommand, TellsGravityFromFrictionOrSaysWhyNot) {
+  const auto identify = [&](const Command& more) {
+    return Program(With({"identify", "log.csv", "-o", "estimate.json"}, more));
   };
   const ProgramAnswer answer = identify({"--identifier", "nominal-ls", "--gravity", "sincos"});
   EXPECT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("gravity_cosine"));
-  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  const auto estimate = JsonFile("estimate.json");
   EXPECT_EQ(estimate.at("gravity").at("kind"), "sincos");
   // nothing pulls: the ripple of 0.2 N.m over 480 samples, four times
   EXPECT_NEAR(estimate.at("gravity").at("sine").get<double>(), 0, 4 * 0.2 / std::sqrt(480));
@@ -205,44 +155,34 @@ TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
   EXPECT_THAT(unable.err, HasSubstr("stribeck cannot tell gravity from friction; use one of"));
 }
 
-TEST(Identify, WritesAMuJoCoModel) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteRecordingFile(recording, 480, SeveralSpeeds);
-  const std::string model = scratch.path() / "friction.xml";
-  ASSERT_EQ(
-      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "--mjcf", model}).status,
-      0);
-  EXPECT_THAT(ReadWholeFile(model), HasSubstr("plugin=\"warmjoint.friction\" actdim=\"2\""));
-  EXPECT_THAT(ReadWholeFile(model), HasSubstr("<config key=\"law\" value=\"viscous_coulomb\"/>"));
+TEST_F(IdentifyCommand, WritesAMuJoCoModel) {
+  Call(With(nominal_, {"--mjcf", "friction.xml"}));
+  const std::string model = File("friction.xml");
+  EXPECT_THAT(model, HasSubstr("plugin=\"warmjoint.friction\" actdim=\"2\""));
+  EXPECT_THAT(model, HasSubstr("<config key=\"law\" value=\"viscous_coulomb\"/>"));
 }
 
-TEST(Identify, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv", output = scratch.path() / "e.json";
-  const std::string model = scratch.path() / "friction.xml";
-  WriteRecordingFile(recording, 2400, SeveralSpeeds,
+TEST_F(IdentifyCommand, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
+  WriteRecordingFile(at("log.csv"), 2400, SeveralSpeeds,
                      [](int i) { return -5.0 * (1 - std::exp(-i / 600.0)); });
-  std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
-                                   "-o",       output,    "--mjcf",       model};
-  const ProgramAnswer answer = RunWarmjoint(command);
+  const Command command = With(nominal_, {"-o", "e.json", "--mjcf", "friction.xml"});
+  const ProgramAnswer answer = Program(command);
   EXPECT_EQ(answer.status, 3) << answer.out;
   EXPECT_THAT(answer.out, HasSubstr("inadequate_model"));
   EXPECT_THAT(answer.out, HasSubstr("held out"));
-  auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  auto estimate = JsonFile("e.json");
   EXPECT_TRUE(estimate.at("parameters").at("coulomb").at("interval95").is_null());
   EXPECT_TRUE(estimate.at("friction").is_null());
-  EXPECT_FALSE(std::filesystem::exists(model));
+  EXPECT_FALSE(std::filesystem::exists(at("friction.xml")));
 
-  command.push_back("--force");
-  const ProgramAnswer forced = RunWarmjoint(command);
+  const ProgramAnswer forced = Program(With(command, {"--force"}));
   EXPECT_EQ(forced.status, 3);
   EXPECT_THAT(forced.out, HasSubstr("void parameter"));
-  estimate = nlohmann::json::parse(ReadWholeFile(output));
+  estimate = JsonFile("e.json");
   EXPECT_EQ(estimate.at("status"), "inadequate_model");
   EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("all numbers are void"));
   EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
-  EXPECT_TRUE(std::filesystem::exists(model));
+  EXPECT_TRUE(std::filesystem::exists(at("friction.xml")));
 }
 
 /// A script that answers 5 v + coulomb sign(v).
@@ -258,69 +198,57 @@ END
                      coulomb);
 }
 
-TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
-  const ScratchDirectory scratch;
-  WriteRecordingFile(scratch.path() / "log.csv", 480, SeveralSpeeds);
-  WriteWholeFile(scratch.path() / "good.sh", FixedAnswer(15));
-  WriteWholeFile(scratch.path() / "bad.sh", FixedAnswer(12));
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(scratch.path());
-  const auto identify = [&](const std::string& script, std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"identify", "log.csv", "--identifier",
-                               "mine=sh " + script + " {recording} {estimate}"});
-    return RunWarmjoint(more);
+TEST_F(IdentifyCommand, TriesACommandOnOneRecordingAndJudgesIt) {
+  WriteWholeFile(at("good.sh"), FixedAnswer(15));
+  WriteWholeFile(at("bad.sh"), FixedAnswer(12));
+  const auto by = [](const std::string& script) {
+    return Command{"identify", "log.csv", "--identifier",
+                   "mine=sh " + script + " {recording} {estimate}"};
   };
-  const ProgramAnswer good = identify("good.sh", {"-o", "estimate.json", "--mjcf", "friction.xml"});
-  const ProgramAnswer bad = identify("bad.sh"), crash = identify("none.sh");
-  const ProgramAnswer slow = identify("good.sh", {"--set", "time_limit=0.0001"});
-  const ProgramAnswer ours = identify("good.sh", {"--gravity", "sincos"});
-  const ProgramAnswer follows = identify("good.sh", {"--follows", "log.csv"});
-  const ProgramAnswer word = identify("good.sh", {"--set", "time_limi=1"});
-  const ProgramAnswer bare = RunWarmjoint({"identify", "log.csv", "--identifier", "mine=good.sh"});
-  // beside one of the list: a row for each, also of one that gives no answer
-  const std::vector<std::string> several{"--identifier", "nominal-ls", "--identifier",
-                                         "gone=sh none.sh {recording} {estimate}"};
-  const ProgramAnswer table = identify("good.sh", several);
-  auto as_json = several;
-  as_json.insert(as_json.end(), {"--format", "json"});
-  const auto rows = nlohmann::json::parse(identify("good.sh", as_json).out);
-  auto with_file = several;
-  with_file.insert(with_file.end(), {"-o", "estimates.json"});
-  const ProgramAnswer filed = identify("good.sh", with_file);
-  std::filesystem::current_path(before);
-
-  EXPECT_EQ(good.status, 0) << good.err;
+  const ProgramAnswer good =
+      Call(With(by("good.sh"), {"-o", "estimate.json", "--mjcf", "friction.xml"}));
   EXPECT_THAT(good.err, HasSubstr("sandbox: "));
-  const auto estimate = nlohmann::json::parse(ReadWholeFile(scratch.path() / "estimate.json"));
+  const auto estimate = JsonFile("estimate.json");
   EXPECT_EQ(estimate.at("identifier"), "mine");
   EXPECT_EQ(estimate.at("metrics").at("n"), 480);
   EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
-  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "friction.xml"));
+  EXPECT_TRUE(std::filesystem::exists(at("friction.xml")));
 
-  // 12 in the place of 15 N.m leaves a residual that depends on direction
-  EXPECT_EQ(bad.status, 3);
-  EXPECT_THAT(bad.out, HasSubstr("inadequate_model"));
-  EXPECT_EQ(crash.status, 3);
-  EXPECT_THAT(crash.err, HasSubstr("mine gave no answer (crashed): exit status"));
-  EXPECT_EQ(slow.status, 3);
-  EXPECT_THAT(slow.err, HasSubstr("(timeout)"));
-  EXPECT_EQ(ours.status, 2);
-  EXPECT_THAT(ours.err, HasSubstr("--gravity: is for identifiers of the list"));
-  EXPECT_EQ(follows.status, 2);
-  EXPECT_THAT(follows.err, HasSubstr("--follows: is for identifiers of the list"));
-  EXPECT_EQ(word.status, 2);
-  EXPECT_THAT(word.err, HasSubstr("did you mean 'time_limit'"));
-  EXPECT_EQ(bare.status, 2);
-  EXPECT_THAT(bare.err, HasSubstr("lacks {estimate}"));
+  const struct {
+    Command command;
+    int status;
+    std::string told;
+  } others[] = {
+      // 12 in the place of 15 N.m leaves a residual that depends on direction
+      {by("bad.sh"), 3, "inadequate_model"},
+      {by("none.sh"), 3, "mine gave no answer (crashed): exit status"},
+      {With(by("good.sh"), {"--set", "time_limit=0.0001"}), 3, "(timeout)"},
+      {With(by("good.sh"), {"--gravity", "sincos"}), 2,
+       "--gravity: is for identifiers of the list"},
+      {With(by("good.sh"), {"--follows", "log.csv"}), 2,
+       "--follows: is for identifiers of the list"},
+      {With(by("good.sh"), {"--set", "time_limi=1"}), 2, "did you mean 'time_limit'"},
+      {{"identify", "log.csv", "--identifier", "mine=good.sh"}, 2, "lacks {estimate}"},
+  };
+  for (const auto& [command, status, told] : others) {
+    const ProgramAnswer answer = Program(command);
+    EXPECT_EQ(answer.status, status) << told;
+    EXPECT_THAT(answer.out + answer.err, HasSubstr(told));
+  }
 
-  EXPECT_EQ(table.status, 0) << table.err;
+  // beside one of the list: a row for each, also of one that gives no answer
+  const Command several = With(by("good.sh"), {"--identifier", "nominal-ls", "--identifier",
+                                               "gone=sh none.sh {recording} {estimate}"});
+  const ProgramAnswer table = Call(several);
   EXPECT_THAT(table.out,
               testing::ContainsRegex("mine +ok .*\n.*nominal-ls +ok .*\n.*gone +crashed"));
   EXPECT_THAT(table.out, HasSubstr("coulomb"));
+  const auto rows = Json(several);
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].at("parameters").at("coulomb").at("value"), 15);
   EXPECT_GT(rows[1].at("holdout").at("rmse").get<double>(), 0);
   EXPECT_EQ(rows[2].at("status"), "crashed");
+  const ProgramAnswer filed = Program(With(several, {"-o", "estimates.json"}));
   EXPECT_EQ(filed.status, 2);
   EXPECT_THAT(filed.err, HasSubstr("--output: is for one identifier"));
 }

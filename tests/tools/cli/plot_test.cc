@@ -6,10 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/cli/table_one_yaml.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 #include "tools/figures/figure.h"
 
 namespace warmjoint {
@@ -42,17 +40,12 @@ std::vector<std::string> NamesOf(const std::map<std::string, std::string>& files
   return names;
 }
 
-/// Runs the program; what it says.
-ProgramAnswer Call(const std::vector<std::string>& arguments) {
-  ProgramAnswer answer = RunWarmjoint(arguments);
-  EXPECT_EQ(answer.status, 0) << answer.err;
-  return answer;
-}
+using Plot = InAFolder;
+using Compare = InAFolder;
+using Report = InAFolder;
 
 // one test, because a run and its pictures take seconds
-TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   WriteWholeFile(at("suite.yaml"), SuiteText());
   Call({"run", at("suite.yaml"), "-o", at("run")});
   const std::string said = Call({"plot", at("run"), "-o", at("once")}).out;
@@ -87,9 +80,7 @@ TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   EXPECT_EQ(held, nlohmann::json::parse(compared.out));
 }
 
-TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   WriteWholeFile(at("warm.yaml"), TableOneYaml(1800));
   Call({"simulate", at("warm.yaml"), "-o", at("warm")});
   Call({"identify", at("warm/recording.csv"), "--identifier", "energy-ml", "-o",
@@ -107,9 +98,7 @@ TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   EXPECT_THAT(ReadWholeFile(at("fit.png")), HasSubstr(finding));
 }
 
-TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
   for (const char* format : {"png", "svg", "pdf"}) {
     Call({"plot", "kernels", "--figure", "3", "--format", format, "--style", "paper", "--size",
           "180", "--title", "none", "--data", "-o", at(format)});
@@ -136,18 +125,14 @@ TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
   EXPECT_FALSE(fs::exists(at("other")));
 }
 
-TEST(Plot, RefusesWhatIsNoSourceAndLeavesNothingBehind) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Plot, RefusesWhatIsNoSourceAndLeavesNothingBehind) {
   const ProgramAnswer answer = RunWarmjoint({"plot", at("nothing"), "-o", at("pictures")});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr(at("nothing")));
   EXPECT_FALSE(fs::exists(at("pictures")));
 }
 
-TEST(Plot, WritesNoDataOverARecording) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Plot, WritesNoDataOverARecording) {
   WriteRecordingFile(at("log.csv"), 480, [](int i) { return (i / 30 % 2 ? -0.4 : 0.4); });
   const std::string before = ReadWholeFile(at("log.csv"));
   RunWarmjoint({"identify", at("log.csv"), "-o", at("e.json")});
@@ -157,9 +142,7 @@ TEST(Plot, WritesNoDataOverARecording) {
   EXPECT_EQ(ReadWholeFile(at("log.csv")), before);
 }
 
-TEST(Compare, KeepsNoticesToItselfWhereAsked) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Compare, KeepsNoticesToItselfWhereAsked) {
   WriteWholeFile(at("suite.yaml"), TableOneSuite(1, "  - {name: nominal-ls}\n"));
   Call({"run", at("suite.yaml"), "-o", at("run")});
   WriteWholeFile(at("run/suite.yaml"), "name: other\n");
@@ -167,9 +150,7 @@ TEST(Compare, KeepsNoticesToItselfWhereAsked) {
   EXPECT_EQ(Call({"compare", at("run"), "--quiet"}).err, "");
 }
 
-TEST(Report, RefusesWhatItCannotTakeBeforeItIsMade) {
-  const ScratchDirectory scratch;
-  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+TEST_F(Report, RefusesWhatItCannotTakeBeforeItIsMade) {
   WriteWholeFile(at("suite.yaml"), TableOneSuite(1, "  - {name: nominal-ls}\n"));
   Call({"run", at("suite.yaml"), "-o", at("run")});
   const std::string before = ReadWholeFile(at("run/results.sqlite"));

@@ -9,42 +9,27 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/warm_recording.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// Four speeds in both directions, 30 s each.
-double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
-
-/// Other ones.
-double OtherSpeeds(int i) { return (i / 20 % 2 ? -1 : 1) * 0.15 * (1 + i / 40 % 3); }
-
-class PredictTest : public testing::Test {
+class PredictTest : public InAFolder {
  protected:
   void SetUp() override {
-    WriteRecordingFile(scratch_.path() / "log.csv", 480, SeveralSpeeds);
-    WriteRecordingFile(scratch_.path() / "other.csv", 240, OtherSpeeds);
-    const ProgramAnswer answer =
-        Run({"identify", "log.csv", "--identifier", "nominal-ls", "-o", "e.json"});
-    ASSERT_EQ(answer.status, 0) << answer.err;
+    WriteRecordingFile(at("log.csv"), 480);
+    // at other speeds
+    WriteRecordingFile(at("other.csv"), 240,
+                       [](int i) { return (i / 20 % 2 ? -1 : 1) * 0.15 * (1 + i / 40 % 3); });
+    Call({"identify", "log.csv", "--identifier", "nominal-ls", "-o", "e.json"});
   }
-
-  ProgramAnswer Run(std::vector<std::string> arguments) const {
-    return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
-  }
-
-  const ScratchDirectory scratch_;
 };
 
 TEST_F(PredictTest, TellsHowWellAStoredEstimateFitsAnotherRecording) {
-  const ProgramAnswer answer = Run({"predict", "e.json", "other.csv", "--format", "json"});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  const auto told = nlohmann::json::parse(answer.out);
+  const auto told = Json({"predict", "e.json", "other.csv"});
   EXPECT_EQ(told.at("metrics").at("n"), 240);
   // the ripple that stands in for noise is below 0.2 N.m
   EXPECT_LT(told.at("metrics").at("rmse").get<double>(), 0.2);
@@ -52,32 +37,26 @@ TEST_F(PredictTest, TellsHowWellAStoredEstimateFitsAnotherRecording) {
 }
 
 TEST_F(PredictTest, WritesPredictionsAndResiduals) {
-  const ProgramAnswer answer = Run({"predict", "e.json", "other.csv", "-o", "p.csv"});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  EXPECT_THAT(answer.out, HasSubstr("RMSE N.m"));
-  const std::string csv = ReadWholeFile(scratch_.path() / "p.csv");
+  EXPECT_THAT(Call({"predict", "e.json", "other.csv", "-o", "p.csv"}).out, HasSubstr("RMSE N.m"));
+  const std::string csv = File("p.csv");
   EXPECT_THAT(csv, HasSubstr("time,position,velocity,torque,predicted,residual,energy,compared\n"));
   EXPECT_GE(std::count(csv.begin(), csv.end(), '\n'), 241);
 }
 
 TEST_F(PredictTest, RefusesAnEstimateWithoutFriction) {
-  auto json = nlohmann::json::parse(ReadWholeFile(scratch_.path() / "e.json"));
+  auto json = JsonFile("e.json");
   json["friction"] = nullptr;
   json["status"] = "inadequate_model";
-  WriteWholeFile(scratch_.path() / "void.json", json.dump());
-  const ProgramAnswer answer = Run({"predict", "void.json", "other.csv"});
+  WriteWholeFile(at("void.json"), json.dump());
+  const ProgramAnswer answer = Program({"predict", "void.json", "other.csv"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("is inadequate_model and holds no friction"));
 }
 
 TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
-  const std::vector<std::string> amperes{"identify", "log.csv",  "--identifier",      "nominal-ls",
-                                         "--unit",   "torque=A", "--torque-constant", "2",
-                                         "--format", "json"};
-  const ProgramAnswer answer = Run(amperes);
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  const auto estimate = nlohmann::json::parse(answer.out);
-  const auto before = nlohmann::json::parse(ReadWholeFile(scratch_.path() / "e.json"));
+  const auto estimate = Json({"identify", "log.csv", "--identifier", "nominal-ls", "--unit",
+                              "torque=A", "--torque-constant", "2"});
+  const auto before = JsonFile("e.json");
   const auto coulomb = [](const nlohmann::json& one) {
     return one.at("parameters").at("coulomb").at("value").get<double>();
   };
@@ -86,7 +65,7 @@ TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   EXPECT_FALSE(estimate.at("friction").is_null());
 
   // a torque is no current
-  const ProgramAnswer refused = Run({"identify", "log.csv", "--torque-constant", "2"});
+  const ProgramAnswer refused = Program({"identify", "log.csv", "--torque-constant", "2"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("give --unit torque=A"));
 }
@@ -106,30 +85,18 @@ void WriteRows(const std::filesystem::path& path, const Measurements& m, Eigen::
 
 /// A run of the joint of Table I, cut in two with a pause of 300 s between: day1.csv, day2.csv that
 /// begins at 0 s, and later.csv, the same by the clock of day1.
-class FollowTest : public testing::Test {
+class FollowTest : public InAFolder {
  protected:
   void SetUp() override {
     Eigen::VectorXd velocity = test::AlternatingSpeeds(kFirst + kPause + kSecond, 7);
     velocity.segment(kFirst, kPause).setZero();
     const Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, 0.3, 7);
     const Eigen::Index second = kFirst + kPause;
-    WriteRows(scratch_.path() / "day1.csv", m, 0, kFirst, 0);
-    WriteRows(scratch_.path() / "day2.csv", m, second, m.size(), m.time[second]);
-    WriteRows(scratch_.path() / "later.csv", m, second, m.size(), 0);
-    ASSERT_EQ(Run({"identify", "day1.csv", "-o", "day1.json"}).status, 0);
+    WriteRows(at("day1.csv"), m, 0, kFirst, 0);
+    WriteRows(at("day2.csv"), m, second, m.size(), m.time[second]);
+    WriteRows(at("later.csv"), m, second, m.size(), 0);
+    Call({"identify", "day1.csv", "-o", "day1.json"});
   }
-
-  ProgramAnswer Run(std::vector<std::string> arguments) const {
-    return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
-  }
-
-  nlohmann::json Json(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(), {"--format", "json"});
-    const ProgramAnswer answer = Run(std::move(arguments));
-    return nlohmann::json::parse(answer.out, nullptr, false);
-  }
-
-  const ScratchDirectory scratch_;
 };
 
 /// By how many deviations a parameter lies off, and its interval.
@@ -200,8 +167,8 @@ TEST_F(FollowTest, PredictsWithTheHeatThatWasLeft) {
 }
 
 TEST_F(FollowTest, RefusesWhatCannotFollow) {
-  const auto refusal = [&](std::vector<std::string> arguments) {
-    const ProgramAnswer answer = Run(std::move(arguments));
+  const auto refusal = [&](const std::vector<std::string>& arguments) {
+    const ProgramAnswer answer = Program(arguments);
     EXPECT_EQ(answer.status, 2) << answer.err;
     return answer.err;
   };
@@ -224,8 +191,8 @@ TEST_F(FollowTest, RefusesWhatCannotFollow) {
               HasSubstr("leave one"));
 
   // what knows no heat leaves none
-  ASSERT_EQ(Run({"identify", "day1.csv", "--identifier", "energy-ml", "--set", "law=coulomb", "-o",
-                 "bad.json"})
+  ASSERT_EQ(Program({"identify", "day1.csv", "--identifier", "energy-ml", "--set", "law=coulomb",
+                     "-o", "bad.json"})
                 .status,
             3);
   EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "bad.json", "--pause", "300"}),

@@ -7,9 +7,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/folders.h"
-#include "tests/tools/cli/recording_file.h"
+#include "tests/tools/cli/little_files.h"
 #include "tests/tools/cli/run_program.h"
-#include "tests/tools/cli/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {

@@ -16,9 +16,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/folders.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/cli/table_one_yaml.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
@@ -34,25 +33,21 @@ std::string SuiteText() {
                        "     claim: {source: us, rmse: 0.5}}\n");
 }
 
-class Run : public testing::Test {
+class Run : public WithASuite {
  protected:
   void SetUp() override { WriteWholeFile(suite_, SuiteText()); }
-
-  std::string Directory(const std::string& name) const { return scratch_.path() / name; }
-
-  std::vector<std::string> Command(const std::string& directory,
-                                   const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> command{"run", suite_, "-o", Directory(directory)};
-    command.insert(command.end(), more.begin(), more.end());
-    return command;
-  }
-
   std::string Results(const std::string& directory) const {
-    return ReadWholeFile(Directory(directory) + "/results.csv");
+    return File(directory + "/results.csv");
   }
+  nlohmann::json Board(const std::string& directory) const { return Json({"compare", directory}); }
 
-  ScratchDirectory scratch_;
-  std::string suite_ = scratch_.path() / "little.yaml";
+  /// Labels of the rows of a board.
+  std::vector<std::string> RowsOf(const std::string& directory) const {
+    const auto board = Board(directory);
+    std::vector<std::string> rows;
+    for (const auto& row : board.at("rows")) rows.push_back(row.at("identifier"));
+    return rows;
+  }
 };
 
 /// Every file of a run by its path in there, the database apart.
@@ -79,18 +74,18 @@ std::set<std::string> Different(const std::filesystem::path& a, const std::files
 }
 
 TEST_F(Run, EveryFileHasTheSameBytesForAnyNumberOfThreads) {
-  ASSERT_EQ(RunWarmjoint(Command("one", {"--jobs", "1", "--keep-recordings"})).status, 0);
-  EXPECT_EQ(FilesOf(Directory("one")).size(), 4u + 2 * 40u);
+  Call(Command("one", {"--jobs", "1", "--keep-recordings"}));
+  EXPECT_EQ(FilesOf(at("one")).size(), 4u + 2 * 40u);
   for (const std::string jobs : {"2", "8"}) {
     ASSERT_EQ(RunWarmjoint(Command(jobs, {"--jobs", jobs, "--keep-recordings"})).status, 0);
-    EXPECT_THAT(Different(Directory("one"), Directory(jobs)), testing::IsEmpty());
+    EXPECT_THAT(Different(at("one"), at(jobs)), testing::IsEmpty());
   }
 }
 
 TEST_F(Run, TakesSeedsOf64BitsAndNoNegativeOnes) {
   const std::string largest = "18446744073709551615";
-  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2", "--seed", largest})).status, 0);
-  EXPECT_EQ(RunWarmjoint({"compare", Directory("run")}).status, 0) << "its own suite.yaml";
+  Call(Command("run", {"--realizations", "2", "--seed", largest}));
+  EXPECT_EQ(RunWarmjoint({"compare", at("run")}).status, 0) << "its own suite.yaml";
   for (const std::string seed : {"-1", "18446744073709551616", "1.5"}) {
     const ProgramAnswer answer = RunWarmjoint(Command("none", {"--seed", seed}));
     EXPECT_EQ(answer.status, 2);
@@ -99,37 +94,37 @@ TEST_F(Run, TakesSeedsOf64BitsAndNoNegativeOnes) {
 }
 
 TEST_F(Run, AnEditedCopyOfTheSuiteIsNotBelieved) {
-  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2"})).status, 0);
-  const std::string copy = Directory("run") + "/suite.yaml";
+  Call(Command("run", {"--realizations", "2"}));
+  const std::string copy = at("run/suite.yaml");
   std::string text = ReadWholeFile(copy);
   text.resize(text.find("  - {name: energy-als"));
   WriteWholeFile(copy, text);
-  const ProgramAnswer answer = RunWarmjoint({"compare", Directory("run"), "--format", "json"});
+  const ProgramAnswer answer = RunWarmjoint({"compare", at("run"), "--format", "json"});
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("rows").size(), 2u);
   EXPECT_THAT(answer.err, HasSubstr("suite.yaml was edited"));
 }
 
 TEST_F(Run, GivesTheSameBytesAfterBeingKilledAgainAndAgain) {
-  ASSERT_EQ(RunWarmjoint(Command("whole")).status, 0);
+  Call(Command("whole"));
 
   // each start is killed a little later, so that some realizations are in and others are not
   for (const double delay : {0.03, 0.08, 0.15, 0.3}) {
     RunAndSignal(Command("killed", {"--jobs", "1"}), SIGKILL, delay);
   }
-  ASSERT_EQ(RunWarmjoint(Command("killed")).status, 0);
-  EXPECT_THAT(Different(Directory("killed"), Directory("whole")), testing::IsEmpty());
+  Call(Command("killed"));
+  EXPECT_THAT(Different(at("killed"), at("whole")), testing::IsEmpty());
 }
 
 TEST_F(Run, IsInterruptedWithStatus130AndGoesOn) {
-  ASSERT_EQ(RunWarmjoint(Command("whole", {"--realizations", "2000"})).status, 0);
+  Call(Command("whole", {"--realizations", "2000"}));
   EXPECT_EQ(RunAndSignal(Command("stopped", {"--realizations", "2000"}), SIGINT, 0.4), 130);
-  EXPECT_FALSE(std::filesystem::exists(Directory("stopped") + "/results.csv"));
-  ASSERT_EQ(RunWarmjoint(Command("stopped", {"--realizations", "2000"})).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(at("stopped") + "/results.csv"));
+  Call(Command("stopped", {"--realizations", "2000"}));
   EXPECT_EQ(Results("stopped"), Results("whole"));
 }
 
 TEST_F(Run, AnotherRunInTheSameDirectoryIsRefusedWithWhatDiffers) {
-  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2"})).status, 0);
+  Call(Command("run", {"--realizations", "2"}));
   const std::string results = Results("run");
   const auto refusal = [&](const std::vector<std::string>& more) {
     const ProgramAnswer answer = RunWarmjoint(Command("run", more));
@@ -146,38 +141,29 @@ TEST_F(Run, AnotherRunInTheSameDirectoryIsRefusedWithWhatDiffers) {
 }
 
 TEST_F(Run, ShardsMergeToTheBytesOfTheWhole) {
-  ASSERT_EQ(RunWarmjoint(Command("whole")).status, 0);
-  ASSERT_EQ(RunWarmjoint(Command("first", {"--shard", "1/2"})).status, 0);
-  ASSERT_EQ(RunWarmjoint(Command("second", {"--shard", "2/2"})).status, 0);
-  ASSERT_EQ(
-      RunWarmjoint({"merge", Directory("first"), Directory("second"), "-o", Directory("merged")})
-          .status,
-      0);
-  EXPECT_THAT(Different(Directory("merged"), Directory("whole")), testing::IsEmpty());
+  Call(Command("whole"));
+  Call(Command("first", {"--shard", "1/2"}));
+  Call(Command("second", {"--shard", "2/2"}));
+  Call({"merge", "first", "second", "-o", "merged"});
+  EXPECT_THAT(Different(at("merged"), at("whole")), testing::IsEmpty());
   EXPECT_LT(Results("first").size(), Results("whole").size());
 
-  const ProgramAnswer twice =
-      RunWarmjoint({"merge", Directory("first"), Directory("first"), "-o", Directory("twice")});
+  const ProgramAnswer twice = Program({"merge", "first", "first", "-o", "twice"});
   EXPECT_EQ(twice.status, 2);
   EXPECT_THAT(twice.err, HasSubstr("holds realization 0"));
-  EXPECT_FALSE(std::filesystem::exists(Directory("twice"))) << "left behind";
+  EXPECT_FALSE(std::filesystem::exists(at("twice"))) << "left behind";
 
-  const ProgramAnswer half = RunWarmjoint({"merge", Directory("second"), "-o", Directory("half")});
-  EXPECT_EQ(half.status, 0);
+  const ProgramAnswer half = Call({"merge", "second", "-o", "half"});
   EXPECT_THAT(half.out, HasSubstr("20 of 40 realizations"));
   EXPECT_THAT(half.err, HasSubstr("no shard holds 20 realizations (0, 1, 2"));
 }
 
 TEST_F(Run, ReplaysOneRealizationBitForBit) {
-  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "4", "--keep-recordings"})).status, 0);
-  ASSERT_EQ(RunWarmjoint({"simulate", "--from", Directory("run"), "--realization", "3", "-o",
-                          Directory("replay")})
-                .status,
-            0);
-  EXPECT_EQ(ReadWholeFile(Directory("replay") + "/truth.json"),
-            ReadWholeFile(Directory("run") + "/recordings/variant-0/realization-3.truth.json"));
-  const ProgramAnswer beyond = RunWarmjoint(
-      {"simulate", "--from", Directory("run"), "--realization", "4", "-o", Directory("none")});
+  Call(Command("run", {"--realizations", "4", "--keep-recordings"}));
+  Call({"simulate", "--from", "run", "--realization", "3", "-o", "replay"});
+  EXPECT_EQ(File("replay/truth.json"), File("run/recordings/variant-0/realization-3.truth.json"));
+  const ProgramAnswer beyond =
+      Program({"simulate", "--from", "run", "--realization", "4", "-o", "none"});
   EXPECT_EQ(beyond.status, 2);
   EXPECT_THAT(beyond.err, HasSubstr("has 0 to 3"));
 }
@@ -193,8 +179,7 @@ TEST_F(Run, IdentifiersOfOthersStandBesideOurs) {
                 .status,
             5)
       << "one of them answered in no realization";
-  const auto board =
-      nlohmann::json::parse(RunWarmjoint({"compare", Directory("run"), "--format", "json"}).out);
+  const auto board = Board("run");
   for (const auto& row : board.at("rows")) {
     if (row.at("identifier") == "broken") {
       EXPECT_EQ(row.at("failures").at("crashed"), 3);
@@ -227,13 +212,13 @@ TEST_F(Run, SaysOfTheWholeWhatItsShardsDoNot) {
                                       "broken=false {recording} {estimate}"};
   std::vector<std::string> parts;
   for (const std::string shard : {"1/2", "2/2"}) {
-    parts.push_back(Directory(shard.substr(0, 1)));
+    parts.push_back(at(shard.substr(0, 1)));
     std::vector<std::string> command = Command(shard.substr(0, 1), more);
     command.insert(command.end(), {"--shard", shard});
     EXPECT_EQ(RunWarmjoint(command).status, 0);
   }
-  EXPECT_EQ(RunWarmjoint({"merge", parts[0], "-o", Directory("half")}).status, 0);
-  const ProgramAnswer whole = RunWarmjoint({"merge", parts[0], parts[1], "-o", Directory("whole")});
+  EXPECT_EQ(RunWarmjoint({"merge", parts[0], "-o", at("half")}).status, 0);
+  const ProgramAnswer whole = RunWarmjoint({"merge", parts[0], parts[1], "-o", at("whole")});
   EXPECT_EQ(whole.status, 5);
   EXPECT_THAT(whole.err, HasSubstr("broken answered in no realization"));
 
@@ -241,7 +226,7 @@ TEST_F(Run, SaysOfTheWholeWhatItsShardsDoNot) {
   planned.insert(planned.end(), {"--local-shards", "1", "--shards", "2"});
   const ProgramAnswer first = RunWarmjoint(planned);
   EXPECT_EQ(first.status, 5) << first.err;
-  EXPECT_EQ(RunWarmjoint({"status", Directory("planned")}).status, 0);
+  EXPECT_EQ(RunWarmjoint({"status", at("planned")}).status, 0);
   EXPECT_EQ(RunWarmjoint(planned).status, 5) << "also when all is there";
 }
 
@@ -252,27 +237,14 @@ const char* const kMine =
     "\"N.m\",'\\\n"
     "  '\"std\": null, \"interval95\": null}}}' > $2\n";
 
-/// Labels of the rows of a board.
-std::vector<std::string> RowsOf(const std::string& directory) {
-  const auto board =
-      nlohmann::json::parse(RunWarmjoint({"compare", directory, "--format", "json"}).out);
-  std::vector<std::string> rows;
-  for (const auto& row : board.at("rows")) rows.push_back(row.at("identifier"));
-  return rows;
-}
-
 TEST_F(Run, ACommandJoinsTheSuitesIdentifiersWithItsFilesByBareName) {
-  WriteWholeFile(scratch_.path() / "mine.sh", kMine);
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(scratch_.path());
+  WriteWholeFile(at("mine.sh"), kMine);
   const ProgramAnswer added =
-      RunWarmjoint({"run", "little.yaml", "-o", "added", "--realizations", "2", "--identifier",
-                    "+mine=sh mine.sh {recording} {estimate}", "--identifier", "+energy-ml"});
-  const ProgramAnswer twice = RunWarmjoint({"run", "little.yaml", "-o", "twice", "--identifier",
-                                            "+em=sh mine.sh {recording} {estimate}"});
-  std::filesystem::current_path(before);
-  EXPECT_EQ(added.status, 0) << added.err;
-  EXPECT_THAT(RowsOf(Directory("added")),
+      Call({"run", "little.yaml", "-o", "added", "--realizations", "2", "--identifier",
+            "+mine=sh mine.sh {recording} {estimate}", "--identifier", "+energy-ml"});
+  const ProgramAnswer twice = Program({"run", "little.yaml", "-o", "twice", "--identifier",
+                                       "+em=sh mine.sh {recording} {estimate}"});
+  EXPECT_THAT(RowsOf("added"),
               testing::UnorderedElementsAre("nominal-ls", "em", "mine", "energy-ml"));
   EXPECT_THAT(added.out, HasSubstr("8 results"));
   EXPECT_THAT(added.out, Not(HasSubstr("without an answer")));
@@ -281,7 +253,7 @@ TEST_F(Run, ACommandJoinsTheSuitesIdentifiersWithItsFilesByBareName) {
 }
 
 TEST_F(Run, ACommandOfASuiteFindsItsFilesBesideTheSuite) {
-  WriteWholeFile(scratch_.path() / "mine.sh", kMine);
+  WriteWholeFile(at("mine.sh"), kMine);
   WriteWholeFile(suite_, SuiteText() +
                              "  - {name: mine, command: \"sh mine.sh {recording} "
                              "{estimate}\"}\n");
@@ -292,11 +264,11 @@ TEST_F(Run, ACommandOfASuiteFindsItsFilesBesideTheSuite) {
   const ProgramAnswer allowed = RunWarmjoint(Command("run", more));
   EXPECT_EQ(allowed.status, 0) << allowed.err;
   EXPECT_THAT(allowed.err, Not(HasSubstr("warning"))) << "the suite stays hidden from it";
-  EXPECT_THAT(RowsOf(Directory("run")), testing::Contains("mine"));
+  EXPECT_THAT(RowsOf("run"), testing::Contains("mine"));
 
   // its own copy of the suite is the same run
   std::vector<std::string> again = Command("run", {"--allow-commands"});
-  again[1] = Directory("run") + "/suite.yaml";
+  again[1] = at("run") + "/suite.yaml";
   EXPECT_EQ(RunWarmjoint(again).status, 0);
 }
 
@@ -316,19 +288,15 @@ TEST_F(Run, NoticesJointsThatDoNotFollow) {
 }
 
 TEST_F(Run, ComparesInEveryFormat) {
-  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "5"})).status, 0);
-  const auto board =
-      nlohmann::json::parse(RunWarmjoint({"compare", Directory("run"), "--format", "json"}).out);
+  Call(Command("run", {"--realizations", "5"}));
+  const auto board = Board("run");
   EXPECT_EQ(board.at("suite"), "little");
   EXPECT_EQ(board.at("realizations"), 5);
   ASSERT_EQ(board.at("rows").size(), 2u);
   for (const auto& row : board.at("rows")) EXPECT_EQ(row.at("runs"), 5);
-  EXPECT_THAT(RunWarmjoint({"compare", Directory("run")}).out,
-              HasSubstr("em: the claim is RMSE 0.5"));
-  EXPECT_THAT(RunWarmjoint({"compare", Directory("run"), "--format", "markdown"}).out,
-              HasSubstr("| nominal-ls |"));
-  EXPECT_THAT(RunWarmjoint({"compare", Directory("run"), "--format", "csv"}).out,
-              HasSubstr("\nall,nominal-ls,5,"));
+  EXPECT_THAT(Program({"compare", "run"}).out, HasSubstr("em: the claim is RMSE 0.5"));
+  EXPECT_THAT(Program({"compare", "run", "--format", "markdown"}).out, HasSubstr("| nominal-ls |"));
+  EXPECT_THAT(Program({"compare", "run", "--format", "csv"}).out, HasSubstr("\nall,nominal-ls,5,"));
 }
 
 TEST_F(Run, CommandsOfASuiteNeedConsent) {
@@ -341,7 +309,7 @@ TEST_F(Run, CommandsOfASuiteNeedConsent) {
   EXPECT_EQ(asked.status, 2);
   EXPECT_THAT(asked.err, HasSubstr("runs the command 'touch P"));
   EXPECT_THAT(asked.err, HasSubstr("--allow-commands"));
-  EXPECT_FALSE(std::filesystem::exists(Directory("run")));
+  EXPECT_FALSE(std::filesystem::exists(at("run")));
   EXPECT_EQ(RunWarmjoint(Command("ours", {"--realizations", "2", "--identifier", "em"})).status, 0)
       << "it is not run";
 
@@ -380,14 +348,14 @@ int WithoutLandlock(const std::vector<std::string>& arguments, const std::string
 }
 
 TEST_F(Run, CommandsNeedConsentToRunWithoutLandlock) {
-  WriteWholeFile(scratch_.path() / "mine.sh", kMine);
+  WriteWholeFile(at("mine.sh"), kMine);
   WriteWholeFile(
       suite_, SuiteText() + "  - {name: mine, command: \"sh mine.sh {recording} {estimate}\"}\n");
-  const std::string err = scratch_.path() / "err";
+  const std::string err = at("err");
   std::vector<std::string> command = Command("run", {"--realizations", "2", "--allow-commands"});
   EXPECT_EQ(WithoutLandlock(command, err), 2);
   EXPECT_THAT(ReadWholeFile(err), HasSubstr("give --unconfined"));
-  EXPECT_FALSE(std::filesystem::exists(Directory("run")));
+  EXPECT_FALSE(std::filesystem::exists(at("run")));
   command.push_back("--unconfined");
   EXPECT_EQ(WithoutLandlock(command, err), 0);
   EXPECT_THAT(ReadWholeFile(err), HasSubstr("warning: commands run unconfined"));

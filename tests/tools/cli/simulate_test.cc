@@ -6,10 +6,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "scenarios/read_scenario.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/cli/table_one_yaml.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
@@ -19,17 +17,14 @@ using ::testing::HasSubstr;
 /// Ten minutes of Table I, ten lines long.
 const std::string kScenario = TableOneYaml(600) + "seed: 1\n";
 
-class Simulate : public testing::Test {
+class Simulate : public InAFolder {
  protected:
-  void SetUp() override { WriteWholeFile(scenario_, kScenario); }
-
+  Simulate() { WriteWholeFile(at("scenario.yaml"), kScenario); }
   ProgramAnswer Into(const std::string& name, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> command{"simulate", scenario_, "-o", scratch_.path() / name};
+    std::vector<std::string> command{"simulate", "scenario.yaml", "-o", name};
     command.insert(command.end(), more.begin(), more.end());
-    return RunWarmjoint(command);
+    return Program(command);
   }
-
-  std::string File(const std::string& name) const { return ReadWholeFile(scratch_.path() / name); }
 
   /// A refusal with this message that leaves nothing but the scenario.
   void ExpectRefusal(const std::vector<std::string>& more, const std::string& message) const {
@@ -40,23 +35,17 @@ class Simulate : public testing::Test {
       EXPECT_EQ(entry.path().filename(), "scenario.yaml") << "left behind";
     }
   }
-
-  ScratchDirectory scratch_;
-  std::string scenario_ = scratch_.path() / "scenario.yaml";
 };
 
 TEST_F(Simulate, WritesRecordingTruthAndScenario) {
   ASSERT_EQ(Into("out").status, 0);
-  EXPECT_EQ(ReadTruth(scratch_.path() / "out/truth.json").force.size(), 600);
+  EXPECT_EQ(ReadTruth(at("out/truth.json")).force.size(), 600);
   // what a reader looks for stands before the lines of 600 numbers
   EXPECT_LT(File("out/truth.json").find("torque_noise"), 1000u);
   EXPECT_THAT(File("out/recording.csv"), testing::StartsWith("time,position,velocity,torque"));
 
   // the written scenario makes the same recording
-  ASSERT_EQ(RunWarmjoint({"simulate", scratch_.path() / "out/scenario.yaml", "-o",
-                          scratch_.path() / "again"})
-                .status,
-            0);
+  Call({"simulate", "out/scenario.yaml", "-o", "again"});
   EXPECT_EQ(File("again/recording.csv"), File("out/recording.csv"));
   EXPECT_EQ(File("again/truth.json"), File("out/truth.json"));
 }
@@ -69,28 +58,27 @@ TEST_F(Simulate, SeedRealizationAndSettingsChangeTheRecording) {
   for (const char* other : {"seed", "realization", "quiet"}) {
     EXPECT_NE(File(std::string(other) + "/recording.csv"), File("out/recording.csv")) << other;
   }
-  EXPECT_EQ(ReadTruth(scratch_.path() / "quiet/truth.json").torque_noise, 0.25);
+  EXPECT_EQ(ReadTruth(at("quiet/truth.json")).torque_noise, 0.25);
 }
 
 TEST_F(Simulate, WritesHdf5ThatIdentifyReads) {
   ASSERT_EQ(Into("out", {"--format", "h5"}).status, 0);
   // it is a joint that warms up
-  EXPECT_THAT(RunWarmjoint({"identify", scratch_.path() / "out/recording.h5", "--identifier",
-                            "nominal-ls", "--holdout", "0"})
-                  .out,
-              HasSubstr("Try --identifier energy-ml"));
+  EXPECT_THAT(
+      Program({"identify", "out/recording.h5", "--identifier", "nominal-ls", "--holdout", "0"}).out,
+      HasSubstr("Try --identifier energy-ml"));
 }
 
 TEST_F(Simulate, ReplacesAnOlderRecordingButNothingElse) {
   ASSERT_EQ(Into("out").status, 0);
   ASSERT_EQ(Into("out", {"--format", "h5"}).status, 0);
-  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "out/recording.csv"));
+  EXPECT_FALSE(std::filesystem::exists(at("out/recording.csv")));
 
-  std::ofstream(scratch_.path() / "out/notes.txt") << "mine";
+  std::ofstream(at("out/notes.txt")) << "mine";
   const ProgramAnswer answer = Into("out");
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("holds 'notes.txt', which would be lost"));
-  EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "out/recording.h5"));
+  EXPECT_TRUE(std::filesystem::exists(at("out/recording.h5")));
 }
 
 TEST_F(Simulate, NoticesAJointThatDoesNotFollowItsMotion) {
@@ -121,25 +109,19 @@ TEST_F(Simulate, RefusesWhatCannotBeAndLeavesNothingBehind) {
   ExpectRefusal({"--set", "plant=mujoco", "--set", "robot=pendulum", "--set", "joint=elbow"},
                 "elbow");
   ExpectRefusal({"--set", "friction.parameters.viscous=fast"}, "fast");
-  WriteWholeFile(scenario_, kScenario + "speeed: 3\n");
+  WriteWholeFile(at("scenario.yaml"), kScenario + "speeed: 3\n");
   ExpectRefusal({}, "scenario.yaml:11: ");
 }
 
-TEST(SimulateMotion, CarriesARecordingOutAgain) {
-  const ScratchDirectory scratch;
-  const std::string log = scratch.path() / "log.csv", scenario = scratch.path() / "again.yaml";
-  WriteRecordingFile(log, 480,
-                     [](int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); });
-  WriteWholeFile(scenario,
+TEST_F(Simulate, CarriesARecordingOutAgain) {
+  WriteRecordingFile(at("log.csv"), 480);
+  WriteWholeFile(at("again.yaml"),
                  "plant: mujoco\nrobot: rotary\njoint: hinge\n"
                  "friction: {law: viscous_coulomb, parameters: {viscous: 5, coulomb: 15}}\n"
                  "sampling: {rate: 10, sensor_rate: 100}\n");
-  const std::string folder = scratch.path() / "again";
-  const ProgramAnswer answer = RunWarmjoint({"simulate", scenario, "--motion", log, "-o", folder});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-
+  Call({"simulate", "again.yaml", "--motion", "log.csv", "-o", "again"});
   // what was done can be done again without the recording
-  const Scenario written = ReadScenario(folder + "/scenario.yaml");
+  const Scenario written = ReadScenario(at("again/scenario.yaml"));
   EXPECT_GT(written.motion.corners.size(), 30u);
   EXPECT_EQ(written.duration, 479);
 }

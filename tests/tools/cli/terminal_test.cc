@@ -5,10 +5,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/folders.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/cli/table_one_yaml.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
@@ -31,17 +29,15 @@ size_t WidestProgress(const std::string& shown) {
   return widest;
 }
 
-class Terminal : public testing::Test {
+class Terminal : public InAFolder {
  protected:
   /// Ten minutes at three speeds in both directions, cold and without warming.
   void WriteLog(int samples) const {
-    WriteRecordingFile(scratch_.path() / "log.csv", samples, [](int i) {
+    WriteRecordingFile(at("log.csv"), samples, [](int i) {
       const double speeds[]{0.2, -0.5, 1.0, -0.2, 0.5, -1.0};
       return speeds[i / 20 % 6];
     });
   }
-
-  ScratchDirectory scratch_;
 };
 
 /// Those that need a real terminal.
@@ -65,25 +61,23 @@ TEST_F(OnTerminal, VerdictHasItsColourWhereOneIsWanted) {
   EXPECT_THAT(shown.out, HasSubstr(kEscape));
   EXPECT_THAT(On(80, command, {{"TERM", "xterm"}, {"NO_COLOR", "1"}}).out, Not(HasSubstr(kEscape)));
   EXPECT_THAT(On(80, command, {{"TERM", "dumb"}}).out, Not(HasSubstr(kEscape)));
-  EXPECT_THAT(RunWarmjoint(command, {scratch_.path(), {}}).out, Not(HasSubstr(kEscape)));
+  EXPECT_THAT(Program(command).out, Not(HasSubstr(kEscape)));
 }
 
 TEST_F(Terminal, QuietLeavesOutNoticesAndKeepsResultsAndErrors) {
   WriteLog(600);
-  WriteWholeFile(scratch_.path() / "warmjoint.yaml", "gear: 2\n");
-  const Surroundings here{scratch_.path(), {}};
-  std::vector<std::string> command{"check", "log.csv"};
-  const ProgramAnswer told = RunWarmjoint(command, here);
+  WriteWholeFile(at("warmjoint.yaml"), "gear: 2\n");
+  const ProgramAnswer told = Program({"check", "log.csv"});
   EXPECT_THAT(told.err, HasSubstr("gear"));  // what the project file sets
   for (const char* flag : {"-q", "--quiet"}) {
-    const ProgramAnswer before = RunWarmjoint({flag, "check", "log.csv"}, here);
-    const ProgramAnswer behind = RunWarmjoint({"check", "log.csv", flag}, here);
+    const ProgramAnswer before = Program({flag, "check", "log.csv"});
+    const ProgramAnswer behind = Program({"check", "log.csv", flag});
     EXPECT_EQ(before.err, "");
     EXPECT_EQ(behind.err, "");
     EXPECT_EQ(before.out, told.out);
     EXPECT_EQ(behind.out, told.out);
   }
-  const ProgramAnswer failed = RunWarmjoint({"-q", "check", "missing.csv"}, here);
+  const ProgramAnswer failed = Program({"-q", "check", "missing.csv"});
   EXPECT_EQ(failed.status, 2);
   EXPECT_THAT(failed.err, HasSubstr("missing.csv"));
 }
@@ -93,11 +87,11 @@ TEST_F(OnTerminal, MachinesReadWhatIsNeverColoured) {
   const std::vector<std::string> command{"check", "log.csv", "--format", "json"};
   std::string shown = On(30, command).out;
   std::erase(shown, '\r');  // what a terminal makes of a line end
-  EXPECT_EQ(shown, RunWarmjoint(command, {scratch_.path(), {}}).out);
+  EXPECT_EQ(shown, Program(command).out);
 }
 
 TEST_F(OnTerminal, ProgressOfARunStaysOnOneLine) {
-  WriteWholeFile(scratch_.path() / "little.yaml",
+  WriteWholeFile(at("little.yaml"),
                  TableOneSuite(30,
                                "  - {name: energy-als, options: {iterations: 60}}\n"
                                "  - {name: energy-ml}\n  - {name: nominal-ls}\n"));
@@ -128,7 +122,7 @@ TEST_F(Terminal, AnInterruptedIdentifySaysSoAndLeavesNothing) {
                      {scratch_.path(), {}});
   EXPECT_EQ(answer.status, 130);
   EXPECT_THAT(answer.err, HasSubstr("interrupted"));
-  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "estimate.json"));
+  EXPECT_FALSE(std::filesystem::exists(at("estimate.json")));
 }
 
 }  // namespace

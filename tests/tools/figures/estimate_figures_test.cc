@@ -15,7 +15,6 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "tests/tools/figures/look.h"
-#include "tests/tools/figures/mapped_recording.h"
 #include "tests/tools/figures/warm_recording.h"
 #include "tools/figures/symbols.h"
 

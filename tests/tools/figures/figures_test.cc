@@ -77,8 +77,7 @@ TEST(Kernels, OfThePlainKindFallToZeroBeyondTheDataAndNormalisedOnesDoNot) {
 
 TEST(Predicted, SaysHowFarPredictionAndMeasurementDiffer) {
   const WarmRecording warm;
-  const Figure figure =
-      *MakePredicted(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  const Figure figure = *MakePredicted(warm.View());
   const Shown drawn = Look(figure);
   EXPECT_EQ(drawn.plots[0].x, drawn.plots[0].y) << "one scale: equal lies on the diagonal";
   // noise of 0.5 over 1200 samples: known to 2 %

@@ -12,7 +12,7 @@
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
-#include "tests/support/excited_recording.h"
+#include "tests/support/warm_recording.h"
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"
 #include "tools/figures/estimate_figures.h"
@@ -34,8 +34,7 @@ std::string AllText(const Words& words) {
 
 TEST(FitPage, TellsTheStoryOfAWarmFit) {
   const WarmRecording warm;
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  const Shown drawn = Look(MakeFitPage(view));
+  const Shown drawn = Look(MakeFitPage(warm.View()));
   EXPECT_EQ(drawn.plots.size(), 10u);
 
   // data and fit are where they belong
@@ -57,7 +56,7 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
   warm.estimate.identifier = "nominal-ls";
   warm.estimate.status = Status::not_identifiable;
   warm.estimate.message = "one speed alone";
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  const FitView view = warm.View();
   EXPECT_THAT(AllText(VerdictOf(view)),
               HasSubstr("there are no numbers to use.\nOne speed alone."));
   Look(MakeFitPage(view));
@@ -66,7 +65,7 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
 TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
   WarmRecording warm;
   const auto bands = [&] {
-    const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+    const Plot plot = FrictionCurve(warm.View());
     return std::count_if(plot.series.begin(), plot.series.end(), [](const Series& series) {
       return std::holds_alternative<Band>(series.shape);
     });
@@ -86,7 +85,7 @@ TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
   map.weights = {4, 4, 4};
   warm.estimate.friction->maps = {map};
   warm.estimate.friction->parameters["coulomb"] = 11;
-  const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  const Plot plot = FrictionCurve(warm.View());
   // 11 + 5 v of the law and 4 of the map, forwards at the fastest
   for (const Series& series : plot.series) {
     if (series.label != "fit, mean at each speed, cold") continue;
@@ -104,7 +103,7 @@ TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
   direction.test = "direction";
   direction.made = direction.rejected = true;
   warm.estimate.diagnostics = {direction};
-  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  const Figure page = MakeFitPage(warm.View());
   int framed = 0;
   for (const Panel& panel : page.panels) {
     if (!panel.frame) continue;
@@ -115,8 +114,7 @@ TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
   EXPECT_EQ(framed, 1);
   const Shown drawn = Look(page);
   EXPECT_GT(SeriesNamed(PlotNamed(drawn, "Level of friction over time"), "fit (void)").points, 100);
-  for (const Series& series :
-       FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate)).series) {
+  for (const Series& series : FrictionCurve(warm.View()).series) {
     const auto* line = std::get_if<Line>(&series.shape);
     EXPECT_TRUE(!line || line->dash == Dash::dashed);
   }
@@ -233,12 +231,12 @@ TEST(FitView, OfACurrentSaysAmperesEverywhere) {
 TEST(FitView, ShowsTheFitBehindALagOfTheTorque) {
   constexpr double lag = 3;  // s
   WarmRecording warm;
-  const FitView plain = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  const FitView plain = warm.View();
   Measurements& m = warm.measurements;
   m.torque = LowPass(m.time, plain.fitted, lag);
-  EXPECT_GT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1);
+  EXPECT_GT(Residuals(warm.View()).norm(), 1);
   warm.estimate.parameters.push_back({"torque_lag", lag, "s", {}, {}});
-  EXPECT_LT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1e-9);
+  EXPECT_LT(Residuals(warm.View()).norm(), 1e-9);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/figures/look.h"
-#include "tests/tools/figures/mapped_recording.h"
+#include "tests/tools/figures/warm_recording.h"
 #include "tools/figures/friction_map.h"
 
 namespace warmjoint::figures {
@@ -32,7 +32,7 @@ TEST(MotorAngle, ShowsTheRippleOfEachSpeedInEachDirection) {
 
 TEST(MotorAngle, IsNothingWithoutAMotorAngle) {
   const WarmRecording warm;
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  const FitView view = warm.View();
   EXPECT_FALSE(MakeMotorAngle(view));
   EXPECT_FALSE(MakeMotorMap(view));
   EXPECT_FALSE(MakeMotorFit(view));

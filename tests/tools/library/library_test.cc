@@ -11,21 +11,15 @@
 #include <functional>
 #include <thread>
 
-#include "models/foundation/atomic_file.h"
 #include "models/robots/robot_folder.h"
 #include "tests/support/refusal.h"
-#include "tests/tools/cli/recording_file.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/cli/table_one_yaml.h"
-#include "tests/tools/scratch_directory.h"
+#include "tests/tools/cli/in_a_folder.h"
+#include "tests/tools/cli/little_files.h"
 
 namespace warmjoint {
 namespace {
 
 using testing::HasSubstr;
-
-/// Four speeds in both directions, 30 s each, rad/s; i: s.
-double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
 
 /// One speed in both directions, rad/s.
 double OneSpeed(int i) { return i / 20 % 2 ? -0.5 : 0.5; }
@@ -48,11 +42,12 @@ struct Asked {
 
 void PrintTo(const Asked& asked, std::ostream* stream) { *stream << asked.name; }
 
-class IdentifyAsTheCommand : public testing::TestWithParam<Asked> {};
+class IdentifyAsTheCommand : public InAFolder, public testing::WithParamInterface<Asked> {};
+
+class Library : public InAFolder {};
 
 TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
-  const ScratchDirectory scratch;
-  const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
+  const std::string log = at("log.csv"), file = at("estimate.json");
   WriteRecordingFile(log, 480, GetParam().velocity);
   std::vector<std::string> arguments{"identify", log, "-o", file};
   arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
@@ -66,12 +61,12 @@ TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
   Estimate estimate = Identify(Prepare(ReadRecordings(source), source.prepare), settings, holdout);
   EXPECT_EQ(estimate.status, GetParam().status) << estimate.message;
   estimate.recording = source;
-  WriteEstimate(estimate, scratch.path() / "ours.json");
-  EXPECT_EQ(ReadWholeFile(scratch.path() / "ours.json"), ReadWholeFile(file));
+  WriteEstimate(estimate, at("ours.json"));
+  EXPECT_EQ(File("ours.json"), File("estimate.json"));
 
   // and there and back as values
-  WriteEstimate(ReadEstimate(file), scratch.path() / "back.json");
-  EXPECT_EQ(ReadWholeFile(scratch.path() / "back.json"), ReadWholeFile(file));
+  WriteEstimate(ReadEstimate(file), at("back.json"));
+  EXPECT_EQ(File("back.json"), File("estimate.json"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -114,10 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
               }}),
     [](const auto& asked) { return asked.param.name; });
 
-TEST(Identify, FollowsAnEarlierRecordingAsTheCommand) {
-  const ScratchDirectory scratch;
-  const std::string log = scratch.path() / "log.csv", earlier = scratch.path() / "earlier.json";
-  const std::string file = scratch.path() / "estimate.json";
+TEST_F(Library, FollowsAnEarlierRecordingAsTheCommand) {
+  const std::string log = at("log.csv"), earlier = at("earlier.json"), file = at("estimate.json");
   WriteRecording(TableOneRun(3600).measurements, log);
   RunWarmjoint({"identify", log, "-o", earlier});
   RunWarmjoint({"identify", log, "--follows", earlier, "--pause", "60", "-o", file});
@@ -126,8 +119,8 @@ TEST(Identify, FollowsAnEarlierRecordingAsTheCommand) {
   const CarriedHeat heat = CarryOver(HeatLeftBy(ReadEstimate(earlier), earlier), 60, recording);
   Estimate estimate = Identify(Prepare(recording), {}, {}, heat);
   estimate.recording = RecordingSource{{log}, {}, {}};
-  WriteEstimate(estimate, scratch.path() / "ours.json");
-  EXPECT_EQ(ReadWholeFile(scratch.path() / "ours.json"), ReadWholeFile(file));
+  WriteEstimate(estimate, at("ours.json"));
+  EXPECT_EQ(File("ours.json"), File("estimate.json"));
   // the truth is -3; its standard error over an hour is some 0.1
   EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 0.5);
 }
@@ -159,9 +152,8 @@ TEST(Identify, AnswersTheSameInManyThreads) {
   for (const std::string& answer : answers) EXPECT_EQ(answer, alone);
 }
 
-TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
-  const ScratchDirectory scratch;
-  WriteWholeFile(scratch.path() / "log.csv",
+TEST_F(Library, ReadsVectorsAsAFileOfThem) {
+  WriteWholeFile(at("log.csv"),
                  "t_ms,position,velocity,torque\n0,0,90,1\n1000,90,90,2\n2000,180,90,1\n"
                  "3000,270,90,2\n");
   std::map<std::string, std::vector<double>> columns{{"t_ms", {0, 1000, 2000, 3000}},
@@ -173,7 +165,7 @@ TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
   settings.unit = {{"time", "ms"}, {"position", "deg"}, {"velocity", "deg/s"}};
   settings.scale = {{"torque", -1}};
   const Measurements made = MakeRecording(columns, settings, "bench");
-  const Measurements read = ReadRecordings({{scratch.path() / "log.csv"}, settings, {}}).front();
+  const Measurements read = ReadRecordings({{at("log.csv")}, settings, {}}).front();
   EXPECT_EQ(made.torque, Eigen::Vector4d(-1, -2, -1, -2));
   EXPECT_EQ(made.time, read.time);
   EXPECT_EQ(made.position, read.position);
@@ -189,18 +181,16 @@ TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
               HasSubstr("absent.csv"));
 }
 
-TEST(Check, SaysWhatTheCommandSays) {
-  const ScratchDirectory scratch;
-  const std::string log = scratch.path() / "log.csv";
-  WriteRecordingFile(log, 480, SeveralSpeeds);
+TEST_F(Library, ChecksAsTheCommand) {
+  const std::string log = at("log.csv");
+  WriteRecordingFile(log, 480);
   const RecordingCheck check = CheckRecording(Prepare(ReadRecordings({{log}, {}, {}})));
   EXPECT_EQ(CheckToText(check), RunWarmjoint({"check", log}).out);
   EXPECT_EQ(check.motion.levels.size(), 8u);
 }
 
-TEST(AttachFriction, WritesTheModelOfTheCommandInBothForms) {
-  const ScratchDirectory scratch;
-  const auto theirs = scratch.path() / "theirs.xml", ours = scratch.path() / "ours.xml";
+TEST_F(Library, WritesTheModelOfTheCommandInBothForms) {
+  const auto theirs = at("theirs.xml"), ours = at("ours.xml");
   const std::string friction = DataFolder() / "models/robots/yumi_like/friction.json";
   for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
     const ProgramAnswer answer = RunWarmjoint(
@@ -217,14 +207,13 @@ TEST(AttachFriction, WritesTheModelOfTheCommandInBothForms) {
     const Attached attached = AttachFriction(
         FindRobot("yumi_like", "model"),
         {ReadFrictionForJoint("joint_.*", friction, "settled:0.2", warnings)}, ours, options);
-    EXPECT_EQ(ReadWholeFile(ours), ReadWholeFile(theirs));
+    EXPECT_EQ(File("ours.xml"), File("theirs.xml"));
     EXPECT_EQ(attached.joints.size(), 7u);
   }
 }
 
-TEST(AttachFriction, RefusesAndWritesNothing) {
-  const ScratchDirectory scratch;
-  const auto out = scratch.path() / "out.xml";
+TEST_F(Library, RefusesToAttachAndWritesNothing) {
+  const auto out = at("out.xml");
   const FrictionForJoint hinge{"hinge",
                                ReadFriction(DataFolder() / "models/robots/pendulum/friction.json")};
   const auto refusal = [&](const FrictionForJoint& friction, const AttachOptions& options) {
@@ -238,10 +227,9 @@ TEST(AttachFriction, RefusesAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
-  const ScratchDirectory scratch;
-  const std::string suite = scratch.path() / "little.yaml";
-  const auto theirs = scratch.path() / "theirs", ours = scratch.path() / "ours";
+TEST_F(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
+  const std::string suite = at("little.yaml");
+  const auto theirs = at("theirs"), ours = at("ours");
   WriteWholeFile(suite, TableOneSuite(6, "  - {name: nominal-ls}\n  - {name: energy-ml}\n"));
   ASSERT_EQ(RunWarmjoint({"run", suite, "-o", theirs, "--realizations", "3"}).status, 0);
   for (const std::string format : {"text", "markdown", "json", "csv"}) {
@@ -276,11 +264,10 @@ TEST(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
   EXPECT_THAT(test::RefusalOf([&] { warmjoint::Run(arguments); }), HasSubstr("from 1 to 1024"));
 }
 
-TEST(Library, HasTheScoreOfTheLeaderboard) {
-  const ScratchDirectory scratch;
+TEST_F(Library, HasTheScoreOfTheLeaderboard) {
   RunArguments arguments;
-  arguments.suite = scratch.path() / "little.yaml";
-  arguments.output = scratch.path() / "run";
+  arguments.suite = at("little.yaml");
+  arguments.output = at("run");
   WriteWholeFile(arguments.suite, TableOneSuite(1, "  - {name: energy-ml}\n"));
   warmjoint::Run(arguments);
   const LeaderboardRow row = ReadLeaderboard(arguments.output).rows.front();

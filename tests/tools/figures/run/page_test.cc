@@ -98,9 +98,8 @@ TEST(Base64, EncodesTheVectorsOfRfc4648) {
 }
 
 Tree DataOf(const WarmRecording& warm) {
-  return LogPageData({MakeFitView(warm.measurements, warm.selection, warm.estimate),
-                      CheckRecording(warm.measurements),
-                      {"warmjoint identify warm.csv"}});
+  return LogPageData(
+      {warm.View(), CheckRecording(warm.measurements), {"warmjoint identify warm.csv"}});
 }
 
 TEST(LogPageData, SaysWhyALogWasRefusedAndWhatToRecord) {
@@ -156,8 +155,7 @@ TEST(LogPageData, HoldsNoMoreSamplesThanAPageCanCarry) {
   }
   warm.selection.keep.setConstant(kSamples, true);
   warm.selection.segments = {{0, kSamples, 1.0}};
-  const FitView view = MakeFitView(m, warm.selection, warm.estimate);
-  const Tree data = LogPageData({view, {}, {}});
+  const Tree data = LogPageData({warm.View(), {}, {}});
   EXPECT_TRUE(data["thinned"]);
   EXPECT_LT(data["samples"].size(), 30000u);
   double highest = 0;
