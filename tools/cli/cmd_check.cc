@@ -15,7 +15,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/log_figure.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"

@@ -17,7 +17,7 @@
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/fit_page.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/identify/identify_recording.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/terminal/progress_line.h"

@@ -13,7 +13,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/pictures.h"
 #include "tools/cli/recording_options.h"
-#include "tools/figures/overlay.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 

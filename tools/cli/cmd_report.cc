@@ -17,7 +17,6 @@
 #include "tools/cli/recording_options.h"
 #include "tools/figures/estimate_view.h"
 #include "tools/figures/log_page.h"
-#include "tools/figures/run/extremes.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/run/run_page.h"
 #include "tools/identify/identify_recording.h"

@@ -10,8 +10,7 @@
 #include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
-#include "tools/figures/remarks.h"
-#include "tools/figures/shown_parameters.h"
+#include "tools/figures/shown_estimate.h"
 #include "tools/terminal/table.h"
 
 namespace warmjoint {

@@ -13,7 +13,6 @@
 #include "models/foundation/parse_number.h"
 #include "tools/cli/typed_options.h"
 #include "tools/figures/estimate_figures.h"
-#include "tools/figures/kernels.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/run/simulation_figures.h"
 #include "tools/figures/run/warm_robot.h"

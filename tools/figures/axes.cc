@@ -144,14 +144,35 @@ Line BinnedMedian(const Eigen::VectorXd& x, const Eigen::VectorXd& y, int bins) 
 }
 
 Figure SinglePlot(const Caption& caption, const Plot& plot) {
-  Figure figure;
-  figure.name = caption.name;
-  figure.title = caption.title;
-  figure.subtitle = caption.subtitle;
-  figure.finding = caption.finding;
-  figure.height = 440;
-  figure.panels.push_back({"", plot});
+  return RowOfPlots(caption, 440, {{"", plot}});
+}
+
+Figure RowOfPlots(const Caption& caption, double height,
+                  const std::vector<std::pair<std::string, Plot>>& plots) {
+  Figure figure{caption.name, caption.title, caption.subtitle, caption.finding};
+  figure.height = height;
+  figure.columns.clear();
+  for (const auto& [title, plot] : plots) {
+    if (plot.series.empty()) continue;
+    figure.panels.push_back({title, plot, 0, static_cast<int>(figure.panels.size())});
+    figure.columns.push_back(1);
+  }
   return figure;
+}
+
+Figure WithoutPanels(const Caption& caption, std::size_t across) {
+  Figure figure{caption.name, caption.title, caption.subtitle, caption.finding};
+  figure.height = 0;
+  figure.rows.clear();
+  figure.columns.assign(across, 1);
+  return figure;
+}
+
+void AddPanel(Figure& figure, const std::string& title, Content content, double height) {
+  const std::size_t place = figure.panels.size(), across = figure.columns.size();
+  if (place % across == 0) figure.rows.push_back(height);
+  figure.panels.push_back({title, std::move(content), static_cast<int>(place / across),
+                           static_cast<int>(place % across)});
 }
 
 }  // namespace warmjoint::figures

@@ -1,4 +1,4 @@
-// Axes that fit their data.
+// Axes that fit their data, and figures put together of plots.
 #pragma once
 
 #include <string>
@@ -8,6 +8,12 @@
 #include "tools/figures/figure.h"
 
 namespace warmjoint::figures {
+
+/// Numbers that were gathered one by one, as shapes have them.
+inline Eigen::VectorXd VectorOf(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
 
 /// Lowest and highest finite value of all; (NaN, NaN) where there is none.
 std::pair<double, double> RangeOf(const std::vector<Eigen::VectorXd>& values);
@@ -57,5 +63,15 @@ struct Caption {
 
 /// A figure of that one plot.
 Figure SinglePlot(const Caption& caption, const Plot& plot);
+
+/// A figure of plots beside each other, each with its title. height: points. Plots without series are left out.
+Figure RowOfPlots(const Caption& caption, double height,
+                  const std::vector<std::pair<std::string, Plot>>& plots);
+
+/// A figure for AddPanel, without panels yet: `across` of them to a row, as high as its rows ask for.
+Figure WithoutPanels(const Caption& caption, std::size_t across = 1);
+
+/// Adds a panel behind the last one. height: of its row, points.
+void AddPanel(Figure& figure, const std::string& title, Content content, double height);
 
 }  // namespace warmjoint::figures

@@ -1,10 +1,10 @@
-#include "tools/figures/envelope.h"
-
+// One recording as it warms: its level of friction and the guesses read off it.
 #include <fmt/core.h>
 
 #include "identification/alternating/first_guess.h"
 #include "identification/fit_parameters.h"
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_view.h"
 #include "tools/figures/number_text.h"
 
@@ -73,29 +73,25 @@ std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& 
   const TorqueEnvelope& envelope = *guess.envelope;
 
   // the guess stands below the title
-  Figure figure;
-  figure.name = "envelope";
-  figure.title = "The level of friction and the first guess of its warming";
   const std::string read = ThermalText(*guess.thermal, measurements);
-  figure.subtitle = fmt::format("{}; first guess (25): {}", what, read);
+  Caption caption{"envelope", "The level of friction and the first guess of its warming",
+                  fmt::format("{}; first guess (25): {}", what, read), ""};
   // in words: how far the level goes, how long it takes, what is guessed from that
-  figure.finding = fmt::format(
+  caption.finding = fmt::format(
       "The level of friction goes from {} to {} {}; 63 % of the way takes {} {}. Guess: {}",
       SignificantText(envelope.cold), SignificantText(envelope.settled), view.torque_unit,
       SignificantText(envelope.time_to_63 / TimeUnit(view)), TimeUnitName(view), read);
   // the truth beside the guess, where it is known
   if (truth) {
     const std::string known = ThermalText(*truth, measurements);
-    figure.subtitle += fmt::format("; truth: {}", known);
-    figure.finding += fmt::format("; truth: {}", known);
+    caption.subtitle += fmt::format("; truth: {}", known);
+    caption.finding += fmt::format("; truth: {}", known);
   }
-  figure.finding += ".";
+  caption.finding += ".";
   // the recording at the left, what is read off it at the right
-  figure.height = 430;
-  figure.columns = {1, 1};
-  figure.panels = {{"The recording and its level of friction", TorquePanel(view, envelope), 0, 0},
-                   {"What the guess is read off", LevelPanel(view, envelope), 0, 1}};
-  return figure;
+  return RowOfPlots(caption, 430,
+                    {{"The recording and its level of friction", TorquePanel(view, envelope)},
+                     {"What the guess is read off", LevelPanel(view, envelope)}});
 }
 
 }  // namespace warmjoint::figures

@@ -363,7 +363,7 @@ struct Figure {
   /// Relative heights; 0: what the row's words and tables need.
   std::vector<double> rows{1};
   std::vector<double> columns{1};  // relative widths
-  std::vector<Panel> panels;
+  std::vector<Panel> panels{};
 
   template <class A>
   void Serialize(A* a) {

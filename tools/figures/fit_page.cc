@@ -1,5 +1,4 @@
-#include "tools/figures/fit_page.h"
-
+// The story of one recording on one page.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "models/foundation/atomic_file.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/number_text.h"
 

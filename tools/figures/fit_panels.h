@@ -19,6 +19,9 @@ Line SegmentMeans(const FitView& fit, const Eigen::VectorXd& values);
 struct Window {
   Eigen::Index begin = 0;
   Eigen::Index end = 0;
+
+  /// The values within it. all: [N].
+  Eigen::VectorXd Of(const Eigen::VectorXd& all) const { return all.segment(begin, end - begin); }
 };
 
 /// The first and the last `segments` moving segments, half of them where they are few, and a little

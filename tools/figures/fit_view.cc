@@ -161,11 +161,13 @@ JointPlace PlaceAt(const FitView& view, Eigen::Index i) {
   return {view.position[i], view.energy[i], load, view.course.motor_position[i]};
 }
 
-double WarmestEnergy(const FitView& view) {
+Eigen::Index WarmestSample(const FitView& view) {
   Eigen::Index at = 0;
   view.energy.cwiseAbs().maxCoeff(&at);
-  return view.energy[at];
+  return at;
 }
+
+double WarmestEnergy(const FitView& view) { return view.energy[WarmestSample(view)]; }
 
 std::string OriginOf(const FitView& view) {
   const std::string& identifier = view.estimate.identifier;

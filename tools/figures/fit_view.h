@@ -79,7 +79,8 @@ JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps);
 /// Where the joint was at sample i of the recording, as SlidingForce reads it.
 JointPlace PlaceAt(const FitView& view, Eigen::Index i);
 
-/// The energy of largest size that the recording reached, torque_unit.
+/// The sample at which the energy is of largest size, and that energy, torque_unit.
+Eigen::Index WarmestSample(const FitView& view);
 double WarmestEnergy(const FitView& view);
 
 /// Where the numbers come from: "day/log.csv, identified by energy-ml", or "..., the truth" where

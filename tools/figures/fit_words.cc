@@ -8,7 +8,7 @@
 
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/number_text.h"
-#include "tools/figures/shown_parameters.h"
+#include "tools/figures/shown_estimate.h"
 #include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {

@@ -1,7 +1,7 @@
+// Torque over velocity, with the fitted curve.
 #include <algorithm>
 #include <cmath>
 
-#include "identification/uncertainty/tails.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/friction_spread.h"
@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kPoints = 60;
 constexpr std::size_t kPlaces = 300;
-constexpr double kThinnestBand = 0.008;  // of the axis: about a line's width
 
 /// The force of steady sliding at an energy and the mean speed of some samples: its mean over their places.
 Eigen::Vector2d MeanOfMaps(const FitView& view, const std::vector<Eigen::Index>& samples,
@@ -44,11 +43,9 @@ void AddMeansOfMaps(Plot& plot, const FitView& view, double energy, Hue hue, std
       speeds.push_back(mean[0]);
       forces.push_back(mean[1]);
     }
-    const auto count = static_cast<Eigen::Index>(speeds.size());
-    if (count == 0) continue;
+    if (speeds.empty()) continue;
     // a line through the means; the legend names it once for both directions
-    const Eigen::VectorXd x = Eigen::Map<Eigen::VectorXd>(speeds.data(), count);
-    const Eigen::VectorXd y = Eigen::Map<Eigen::VectorXd>(forces.data(), count);
+    const Eigen::VectorXd x = VectorOf(speeds), y = VectorOf(forces);
     plot.series.push_back({label, hue, Line{x, y, 2.0, FitDash(view)}});
     plot.series.push_back({"", hue, Scatter{x, y, 3.0, Marker::diamond}});
     label.clear();
@@ -86,12 +83,7 @@ void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, do
     const Eigen::VectorXd force = CurveOf(friction, speeds, energy);
     const Eigen::VectorXd deviation = SpreadOfPrediction(
         spread, friction, [&](const Friction& other) { return CurveOf(other, speeds, energy); });
-    // a band as thin as a line cannot be seen
-    if (deviation.size() > 0 && 2 * kNormal95 * deviation.maxCoeff() > kThinnestBand * range) {
-      plot.series.push_back(
-          {"", hue,
-           Band{speeds, force - kNormal95 * deviation, force + kNormal95 * deviation, 0.35}});
-    }
+    AddBand(plot, "", hue, speeds, force, deviation, range);
     // the legend names the curve once for both directions
     plot.series.push_back({label, hue, Line{speeds, force, 2.0, FitDash(view)}});
     label.clear();

@@ -1,5 +1,4 @@
-#include "tools/figures/friction_map.h"
-
+// Friction over angle and speed as a heat map.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/number_text.h"
 
 namespace warmjoint::figures {
@@ -152,37 +152,30 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
                       LevelMap(view, *across, warmest));
   }
 
-  // title and origin, with what the empty places mean
-  Figure figure;
-  figure.name = "friction_map";
+  // title and origin, with what the empty places mean; cold beside warm
   const bool motor = across->quantity == MapQuantity::motor_position;
-  figure.title = fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position");
-  figure.subtitle = OriginOf(view) + "; empty where the joint did not move about so fast";
+  Figure figure = WithoutPanels(
+      {"friction_map",
+       fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position"),
+       OriginOf(view) + "; empty where the joint did not move about so fast", "Friction"},
+      maps.size());
   // in words: how far friction reaches over the map
   const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
-  figure.finding = "Friction";
   for (const auto& [title, map] : maps) {
     figure.finding += fmt::format(" {} {} to {} {},", &map == &maps[0].second ? "cold" : "warm",
                                   SignificantText(range(map).first),
                                   SignificantText(range(map).second), view.torque_unit);
   }
   figure.finding.back() = '.';
-  figure.height = 0;
-  figure.rows.clear();
-  figure.columns.assign(maps.size(), 1);
   // a row for each direction, with colours that cold and warm share
   for (int direction : {1, -1}) {
     const auto [lowest, highest] = ColoursOf(maps, direction);
     if (!std::isfinite(lowest)) continue;  // it never moved so
     const std::pair<double, double> colours{lowest, highest > lowest ? highest : lowest + 1};
-    // cold beside warm
-    const auto row = static_cast<int>(figure.rows.size());
-    figure.rows.push_back(260);
-    for (std::size_t i = 0; i < maps.size(); ++i) {
+    for (const auto& [name, map] : maps) {
       const std::string title =
-          fmt::format("{}, {}", direction > 0 ? "Forwards" : "Backwards", maps[i].first);
-      figure.panels.push_back({title, PanelOf(view, *across, maps[i].second, direction, colours),
-                               row, static_cast<int>(i)});
+          fmt::format("{}, {}", direction > 0 ? "Forwards" : "Backwards", name);
+      AddPanel(figure, title, PanelOf(view, *across, map, direction, colours), 260);
     }
   }
   if (figure.panels.empty()) return std::nullopt;

@@ -25,6 +25,16 @@ Friction Changed(const Friction& friction, const std::string& name, double step)
   return changed;
 }
 
+void AddBand(Plot& plot, const std::string& label, Hue hue, const Eigen::VectorXd& x,
+             const Eigen::VectorXd& y, const Eigen::VectorXd& deviation, double range) {
+  constexpr double kThinnest = 0.008;  // of the range: about a line's width
+  if (deviation.size() == 0) return;
+  const Eigen::VectorXd reach = kNormal95 * deviation;
+  if (2 * reach.maxCoeff() > kThinnest * range) {
+    plot.series.push_back({label, hue, Band{x, y - reach, y + reach, 0.35}});
+  }
+}
+
 FrictionSpread SpreadOf(const Estimate& estimate) {
   FrictionSpread spread;
   if (!estimate.friction || !estimate.covariance) return spread;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/figures/figure.h"
+
 namespace warmjoint::figures {
 
 /// Covariance of those of the estimate's values that its friction has, as wide as their intervals.
@@ -19,6 +21,11 @@ struct FrictionSpread {
 };
 
 FrictionSpread SpreadOf(const Estimate& estimate);
+
+/// Adds the 95 % band about a curve, unless it is as thin as a line and cannot be seen. x, y: [N]; deviation: [N] of y, empty where it is
+/// not known; range: of what the plot shows, from its lowest to its highest y.
+void AddBand(Plot& plot, const std::string& label, Hue hue, const Eigen::VectorXd& x,
+             const Eigen::VectorXd& y, const Eigen::VectorXd& deviation, double range);
 
 /// The friction with one of its parameters changed by `step`.
 Friction Changed(const Friction& friction, const std::string& name, double step);

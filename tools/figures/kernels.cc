@@ -1,5 +1,4 @@
-#include "tools/figures/kernels.h"
-
+// Normalised kernels beside plain ones.
 #include <fmt/core.h>
 #include <warmjoint/friction.h>
 
@@ -9,6 +8,7 @@
 #include "models/foundation/random_stream.h"
 #include "models/friction/evaluate_map.h"
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/number_text.h"
 
 namespace warmjoint::figures {

@@ -1,8 +1,8 @@
-#include "tools/figures/log_figure.h"
-
+// A recording as it was logged.
 #include <fmt/core.h>
 
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 
 namespace warmjoint::figures {
 namespace {
@@ -25,19 +25,14 @@ Figure MakeLogFigure(const FitView& view) {
   const auto samples = view.time.size();
   const auto kept = view.selection.count();
   const double share = 100 * static_cast<double>(kept) / static_cast<double>(samples);
-  Figure figure;
-  figure.name = "log";
-  figure.title = view.source;
   const std::string segments = IsOfAnyMotion(view) ? "from motion of any kind"
                                                    : fmt::format("in {} segments of constant speed",
                                                                  view.selection.segments.size());
   // the same in words, below the title and for readers who cannot see it
-  figure.subtitle =
-      fmt::format("{} samples; {:.0f} % of them are kept, {}", samples, share, segments);
-  figure.finding =
-      fmt::format("Of {} samples {:.0f} % are kept for the fit, {}.", samples, share, segments);
-  figure.height = 0;
-  figure.rows = {170, 170, 170};
+  Figure figure = WithoutPanels(
+      {"log", view.source,
+       fmt::format("{} samples; {:.0f} % of them are kept, {}", samples, share, segments),
+       fmt::format("Of {} samples {:.0f} % are kept for the fit, {}.", samples, share, segments)});
   // the torque as it was logged, with inertia and gravity
   const Eigen::VectorXd torque = view.torque + view.rigid;
   const Eigen::VectorXd* columns[] = {&view.position, &view.velocity, &torque};
@@ -47,7 +42,7 @@ Figure MakeLogFigure(const FitView& view) {
     // one legend and one name of the time for all
     if (i > 0) plot.series[0].label = plot.series[1].label = "";
     if (i < 2) plot.x.label = "";
-    figure.panels.push_back({"", plot, i, 0});
+    AddPanel(figure, "", plot, 170);
   }
   return figure;
 }

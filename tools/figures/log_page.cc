@@ -12,13 +12,11 @@
 
 #include "identification/lack_of_fit/table.h"
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/log_figure.h"
 #include "tools/figures/number_text.h"
-#include "tools/figures/predicted.h"
 #include "tools/figures/reduce.h"
-#include "tools/figures/remarks.h"
-#include "tools/figures/shown_parameters.h"
+#include "tools/figures/shown_estimate.h"
 
 namespace warmjoint::figures {
 namespace {

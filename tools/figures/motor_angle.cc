@@ -1,11 +1,11 @@
-#include "tools/figures/motor_angle.h"
-
+// What a joint's torque owes to the angle of its motor.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/number_text.h"
 #include "tools/figures/speed_groups.h"
 
@@ -63,26 +63,19 @@ std::optional<Figure> MakeMotorAngle(const FitView& view) {
   const std::string label = TorqueLabel(view, view.warms() ? "torque − sign(v) E" : "torque");
   const DirectionPanel forwards = PanelOf(view, 1, label), backwards = PanelOf(view, -1, label);
 
-  Figure figure;
-  figure.name = "motor_angle";
-  figure.title = "Torque over motor angle";
-  figure.subtitle = fmt::format("{}: samples at constant speed, with their medians", view.source) +
-                    BeyondText(forwards.beyond + backwards.beyond);
   // how much the angle of the motor matters at one speed
-  figure.finding =
+  const std::string finding =
       fmt::format("Over one turn of the motor the median torque at a speed varies by up to {} {}.",
                   SignificantText(std::max(forwards.largest_swing, backwards.largest_swing), 2),
                   view.torque_unit);
-  figure.height = 430;
-  figure.columns = {1, 1};
   // a direction that the joint never took has no panel
-  int column = 0;
-  for (const auto& [panel, title] : {std::pair(&forwards, "Forwards"), {&backwards, "Backwards"}}) {
-    if (panel->plot.series.empty()) continue;
-    figure.panels.push_back({title, panel->plot, 0, column++});
-  }
+  Figure figure =
+      RowOfPlots({"motor_angle", "Torque over motor angle",
+                  fmt::format("{}: samples at constant speed, with their medians", view.source) +
+                      BeyondText(forwards.beyond + backwards.beyond),
+                  finding},
+                 430, {{"Forwards", forwards.plot}, {"Backwards", backwards.plot}});
   if (figure.panels.empty()) return std::nullopt;
-  figure.columns.resize(figure.panels.size());
   return figure;
 }
 

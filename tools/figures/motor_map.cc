@@ -7,8 +7,8 @@
 #include "models/foundation/robust_noise.h"
 #include "models/friction/evaluate_map.h"
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/motor_angle.h"
 #include "tools/figures/number_text.h"
 #include "tools/figures/speed_groups.h"
 
@@ -144,9 +144,7 @@ Window FewTurns(const FitView& view, const Segment& segment) {
 
 Plot InTime(const FitView& view, const Window& window, const Eigen::VectorXd& without,
             const Eigen::VectorXd& with) {
-  const auto part = [&](const Eigen::VectorXd& all) {
-    return Eigen::VectorXd(all.segment(window.begin, window.end - window.begin));
-  };
+  const auto part = [&](const Eigen::VectorXd& all) { return window.Of(all); };
   // a few turns of the motor: measured, and fitted without and with the map
   const Eigen::VectorXd time = part(view.time);
   Plot plot;
@@ -171,19 +169,6 @@ std::string Worth(const FitView& view, const Eigen::VectorXd& without,
                      SignificantText(RootMeanSquare(view, with)), view.torque_unit);
 }
 
-/// Two panels side by side; those without data are left out.
-Figure PairOf(Figure figure, const std::pair<std::string, Plot>& left,
-              const std::pair<std::string, Plot>& right) {
-  figure.height = 430;
-  figure.columns.clear();
-  for (const auto& [title, plot] : {left, right}) {
-    if (plot.series.empty()) continue;
-    figure.panels.push_back({title, plot, 0, static_cast<int>(figure.panels.size())});
-    figure.columns.push_back(1);
-  }
-  return figure;
-}
-
 }  // namespace
 
 std::optional<Figure> MakeMotorMap(const FitView& view) {
@@ -192,16 +177,14 @@ std::optional<Figure> MakeMotorMap(const FitView& view) {
   const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
   const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
   const AnglePanel forwards = OverAngle(view, 1, without), backwards = OverAngle(view, -1, without);
-  Figure figure;
-  figure.name = "motor_map";
-  figure.title = "The map over motor angle";
-  figure.subtitle =
-      OriginOf(view) +
-      "; diamonds are medians of the samples; no line where the joint never moved so" +
-      BeyondText(forwards.beyond + backwards.beyond);
-  figure.finding = Worth(view, without, with);
-  return PairOf(figure, {"Forwards: torque less law and warming", forwards.plot},
-                {"Backwards", backwards.plot});
+  return RowOfPlots(
+      {"motor_map", "The map over motor angle",
+       OriginOf(view) +
+           "; diamonds are medians of the samples; no line where the joint never moved so" +
+           BeyondText(forwards.beyond + backwards.beyond),
+       Worth(view, without, with)},
+      430,
+      {{"Forwards: torque less law and warming", forwards.plot}, {"Backwards", backwards.plot}});
 }
 
 std::optional<Figure> MakeMotorFit(const FitView& view) {
@@ -210,18 +193,15 @@ std::optional<Figure> MakeMotorFit(const FitView& view) {
   const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
   const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
   const std::vector<Segment> slow = SlowSegments(view);
-  Figure figure;
-  figure.name = "motor_fit";
-  figure.title = "Fit with and without the map over motor angle";
-  figure.subtitle = OriginOf(view);
-  figure.finding = Worth(view, without, with);
   // first and last slow segment, where samples follow the motor's turns
   const bool warms = view.warms();
-  return PairOf(figure,
-                {warms ? "Cold: in the first slow segment" : "In the first slow segment",
-                 InTime(view, FewTurns(view, slow.front()), without, with)},
-                {warms ? "Warm: in the last one" : "In the last one",
-                 InTime(view, FewTurns(view, slow.back()), without, with)});
+  return RowOfPlots({"motor_fit", "Fit with and without the map over motor angle", OriginOf(view),
+                     Worth(view, without, with)},
+                    430,
+                    {{warms ? "Cold: in the first slow segment" : "In the first slow segment",
+                      InTime(view, FewTurns(view, slow.front()), without, with)},
+                     {warms ? "Warm: in the last one" : "In the last one",
+                      InTime(view, FewTurns(view, slow.back()), without, with)}});
 }
 
 }  // namespace warmjoint::figures

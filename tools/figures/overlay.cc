@@ -1,11 +1,11 @@
-#include "tools/figures/overlay.h"
-
+// Several estimates in one picture.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <iterator>
 
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/number_text.h"
 
@@ -80,21 +80,12 @@ std::optional<Figure> MakeOverlay(const std::vector<NamedEstimate>& estimates) {
   // who is compared, and on whose samples
   std::vector<std::string> names;
   for (const auto& [name, fit] : fits) names.push_back(name);
-  Figure figure;
-  figure.name = "estimates";
-  figure.title = "Friction by several estimates";
-  figure.subtitle = fmt::format("samples are of {}", fits.front().second->source);
-  // friction over velocity, all while cold
-  figure.finding = fmt::format("Cold friction over velocity by {}.", fmt::join(names, ", "));
-  figure.height = 430;
-  figure.panels.push_back({"Friction over velocity, cold", Curves(fits), 0, 0});
-  // their warm-ups beside it, where some warm
-  const Plot warm_ups = WarmUps(fits);
-  if (!warm_ups.series.empty()) {
-    figure.columns = {1, 1};
-    figure.panels.push_back({"Warm-up", warm_ups, 0, 1});
-  }
-  return figure;
+  // friction over velocity, all while cold, and beside it their warm-ups, where some warm
+  return RowOfPlots({"estimates", "Friction by several estimates",
+                     fmt::format("samples are of {}", fits.front().second->source),
+                     fmt::format("Cold friction over velocity by {}.", fmt::join(names, ", "))},
+                    430,
+                    {{"Friction over velocity, cold", Curves(fits)}, {"Warm-up", WarmUps(fits)}});
 }
 
 }  // namespace warmjoint::figures

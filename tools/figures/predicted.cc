@@ -1,11 +1,11 @@
-#include "tools/figures/predicted.h"
-
+// What an estimate says of a recording against what was measured.
 #include <fmt/core.h>
 
 #include <tuple>
 #include <vector>
 
 #include "tools/figures/axes.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/number_text.h"
 
 namespace warmjoint::figures {
@@ -71,41 +71,34 @@ Plot ResidualOverPredicted(const FitView& view, const std::vector<Direction>& di
   return plot;
 }
 
-/// What differs between the figures.
-struct Words {
-  std::string name, title, samples;
-};
-
-std::optional<Figure> Make(const FitView& view, const Words& words) {
+/// samples: what the figure calls them.
+std::optional<Figure> Make(const FitView& view, const std::string& name, const std::string& title,
+                           const std::string& samples) {
   if (!view.has_fit || view.selection.count() == 0) return std::nullopt;
   const std::vector<Direction> directions = DirectionsOf(view);
   const Eigen::VectorXd residuals = Residuals(view);
   // one number for how far the prediction is off
   const std::string rmse =
       SignificantText(std::sqrt(residuals.array().square().mean())) + " " + view.torque_unit;
-  Figure figure;
-  figure.name = words.name;
-  figure.title = words.title + (view.is_void() ? " (void)" : "");
-  figure.subtitle = fmt::format("{}: RMSE {} over {} {}", OriginOf(view), rmse,
-                                view.selection.count(), words.samples);
-  figure.finding = fmt::format("Measured and predicted torque differ by {} rms.", rmse);
   // predicted over measured torque, and the residual beside it
-  figure.height = 430;
-  figure.columns = {1, 1};
-  figure.panels = {{"", PredictedOverMeasured(view, directions), 0, 0},
-                   {"", ResidualOverPredicted(view, directions), 0, 1}};
-  return figure;
+  return RowOfPlots(
+      {name, title + (view.is_void() ? " (void)" : ""),
+       fmt::format("{}: RMSE {} over {} {}", OriginOf(view), rmse, view.selection.count(), samples),
+       fmt::format("Measured and predicted torque differ by {} rms.", rmse)},
+      430,
+      {{"", PredictedOverMeasured(view, directions)},
+       {"", ResidualOverPredicted(view, directions)}});
 }
 
 }  // namespace
 
 std::optional<Figure> MakePredicted(const FitView& view) {
-  return Make(view, {"predicted", "Predicted against measured torque", "samples"});
+  return Make(view, "predicted", "Predicted against measured torque", "samples");
 }
 
 std::optional<Figure> MakeHeldOut(const FitView& view) {
-  return Make(view, {"held_out", "Predicted against measured torque, on samples that were held out",
-                     "samples that this fit has not seen"});
+  return Make(view, "held_out", "Predicted against measured torque, on samples that were held out",
+              "samples that this fit has not seen");
 }
 
 }  // namespace warmjoint::figures

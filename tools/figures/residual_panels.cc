@@ -1,3 +1,4 @@
+// Panels of residuals: over what they may depend on, and over their own past.
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,8 @@
-// Names of parameters and colours of identifiers, the same in all pictures.
+// Names of parameters and looks of identifiers, the same in all pictures.
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <string>
 
 #include "tools/figures/figure.h"
@@ -19,5 +20,30 @@ std::size_t PlaceInLaws(const std::string& parameter);
 
 /// The hue of an identifier, the same in every figure: fixed for those that come with the program.
 Hue IdentifierHue(const std::string& identifier);
+
+// Rows of one identifier share its colour, and so do a few identifiers; strokes and markers tell them apart.
+
+/// How many rows before rows[place] have the same colour.
+template <typename Rows>
+std::size_t EarlierOfSame(const Rows& rows, std::size_t place) {
+  const Hue hue = IdentifierHue(rows[place].identifier);
+  std::size_t earlier = 0;
+  for (std::size_t i = 0; i < place; ++i) earlier += IdentifierHue(rows[i].identifier) == hue;
+  return earlier;
+}
+
+/// The stroke of a colour's first, second, ... row.
+template <typename Rows>
+Dash DashOf(const Rows& rows, std::size_t place) {
+  static constexpr Dash kOrder[] = {Dash::solid, Dash::dashed, Dash::dotted};
+  return kOrder[EarlierOfSame(rows, place) % std::size(kOrder)];
+}
+
+/// The marker of a colour's first, second, ... row.
+template <typename Rows>
+Marker MarkerOf(const Rows& rows, std::size_t place) {
+  static constexpr Marker kOrder[] = {Marker::circle, Marker::square, Marker::diamond, Marker::up};
+  return kOrder[EarlierOfSame(rows, place) % std::size(kOrder)];
+}
 
 }  // namespace warmjoint::figures

@@ -1,3 +1,4 @@
+// The course of an identifier that iterates.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -87,19 +88,10 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     rmse[k] = estimate.trace[static_cast<std::size_t>(k)].rmse;
   }
 
-  Figure figure;
-  figure.name = "trace";
-  figure.title = fmt::format("Parameters by iteration: {}", estimate.identifier);
-  figure.subtitle = what;
   // three panels to a row
-  constexpr int kAcross = 3;
-  figure.columns.assign(kAcross, 1);
-  figure.rows.clear();
-  const auto add = [&](const std::string& title, const Plot& plot) {
-    const auto place = static_cast<int>(figure.panels.size());
-    if (place % kAcross == 0) figure.rows.push_back(200);
-    figure.panels.push_back({title, plot, place / kAcross, place % kAcross});
-  };
+  constexpr double kRow = 200;  // points
+  Figure figure = WithoutPanels(
+      {"trace", fmt::format("Parameters by iteration: {}", estimate.identifier), what, ""}, 3);
 
   // a panel for each parameter, with the interval that it ended with
   const Hue hue = IdentifierHue(estimate.identifier);
@@ -112,16 +104,15 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     const std::string unit = has_unit ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
     Plot plot = CourseOf(iteration, values, hue, SymbolOf(name) + unit);
     if (parameter) AddInterval(plot, *parameter, hue);
-    add(NameWithSymbol(name), plot);
+    AddPanel(figure, NameWithSymbol(name), plot, kRow);
     figure.finding += fmt::format(" {} {} to {},", name, SignificantText(values[0]),
                                   SignificantText(values[steps - 1]));
   }
   // last how the error of the fit falls
   Plot course = CourseOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
   course.y = MagnitudeAxis(course.y.label, {rmse});
-  add("Root mean square error of the fit", course);
+  AddPanel(figure, "Root mean square error of the fit", course, kRow);
   figure.finding.back() = '.';
-  figure.height = 0;
   return figure;
 }
 

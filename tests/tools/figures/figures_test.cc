@@ -5,10 +5,7 @@
 #include "identification/alternating/first_guess.h"
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"
-#include "tools/figures/envelope.h"
-#include "tools/figures/kernels.h"
-#include "tools/figures/log_figure.h"
-#include "tools/figures/predicted.h"
+#include "tools/figures/estimate_figures.h"
 #include "tools/figures/run/error_by_iteration.h"
 #include "tools/figures/symbols.h"
 

@@ -1,5 +1,3 @@
-#include "tools/figures/fit_page.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
@@ -19,7 +17,6 @@
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/fit_view.h"
 #include "tools/figures/friction_spread.h"
-#include "tools/figures/predicted.h"
 
 namespace warmjoint::figures {
 namespace {

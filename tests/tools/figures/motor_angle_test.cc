@@ -1,11 +1,9 @@
-#include "tools/figures/motor_angle.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"
-#include "tools/figures/friction_map.h"
+#include "tools/figures/estimate_figures.h"
 
 namespace warmjoint::figures {
 namespace {

@@ -71,7 +71,7 @@ std::string Finding(const RunView& run, const std::vector<const RunRow*>& rows) 
     if (rung) text += fmt::format(" with {}", RungName(run, rung));
     for (const RunRow* row : rows) {
       const auto median = [&](const Eigen::VectorXd& values) {
-        return QuartilesOf(Eigen::VectorXd::Zero(1), At(*row, values, rung)).median[0];
+        return MedianOf(At(*row, values, rung));
       };
       text += fmt::format(" {} fits {:.1f} % with RMSE {} {},", row->label, median(row->fit),
                           SignificantText(median(row->rmse)), run.torque_unit);
@@ -80,15 +80,6 @@ std::string Finding(const RunView& run, const std::vector<const RunRow*>& rows) 
   }
   text.back() = '.';
   return text;
-}
-
-/// A panel and its title, below the variant's name.
-void AddPanel(Figure& figure, const std::string& name, const std::string& title, Plot plot,
-              std::size_t across) {
-  const std::size_t place = figure.panels.size();
-  if (place % across == 0) figure.rows.push_back(240);
-  figure.panels.push_back({name.empty() ? title : name + ": " + title, std::move(plot),
-                           static_cast<int>(place / across), static_cast<int>(place % across)});
 }
 
 }  // namespace
@@ -101,25 +92,21 @@ std::optional<Figure> AgreementBars(const RunView& run) {
   }
   if (rows.empty()) return std::nullopt;
 
-  Figure figure;
-  figure.name = "agreement";
-  figure.title = "Agreement with the data";
-  figure.subtitle =
-      RungsSubtitle(run, "bars are medians, dark lines reach from quartile to quartile");
-  figure.finding = Finding(run, rows);
-  const std::string unit = run.torque_unit;
   // names of many rows need the whole width
-  const std::size_t across = rows.size() > kMostBeside ? 1 : 2;
-  figure.columns.assign(across, 1);
-  figure.rows.clear();
-  figure.height = 0;
+  Figure figure = WithoutPanels(
+      {"agreement", "Agreement with the data",
+       RungsSubtitle(run, "bars are medians, dark lines reach from quartile to quartile"),
+       Finding(run, rows)},
+      rows.size() > kMostBeside ? 1 : 2);
+  const std::string unit = run.torque_unit;
   // measures of the same fit, at each variant by itself
   const std::vector<Rung> rungs = RungsOf(run);
   for (const Rung& rung : rungs) {
     const std::string name = RungName(run, rung);
     const auto add = [&](const std::string& title, Eigen::VectorXd RunRow::*values,
                          const std::string& label) {
-      AddPanel(figure, name, title, BarsOf(rows, values, label, rung), across);
+      AddPanel(figure, name.empty() ? title : name + ": " + title,
+               BarsOf(rows, values, label, rung), 240);
     };
     add("Fit", &RunRow::fit, "Fit (%)");
     if (!rung) add("Final prediction error", &RunRow::fpe, fmt::format("FPE ({})", SquareOf(unit)));

@@ -1,3 +1,4 @@
+// How often 95 % intervals hold the truth.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 #include "tools/figures/axes.h"
 #include "tools/figures/run/run_figures.h"
-#include "tools/figures/telling_apart.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {
@@ -45,9 +46,8 @@ struct Drawer {
       lowest = std::min(lowest, lower);
     }
     // the dots of an identifier are one series, which the legend names
-    const auto size = static_cast<Eigen::Index>(x.size());
-    scatter.x = Eigen::Map<const Eigen::VectorXd>(x.data(), size);
-    scatter.y = Eigen::Map<const Eigen::VectorXd>(y.data(), size);
+    scatter.x = VectorOf(x);
+    scatter.y = VectorOf(y);
     plot.series.push_back({row.label, IdentifierHue(row.identifier), scatter});
   }
 };

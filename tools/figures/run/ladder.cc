@@ -8,7 +8,7 @@
 #include "tools/figures/number_text.h"
 #include "tools/figures/run/quartiles.h"
 #include "tools/figures/run/run_figures.h"
-#include "tools/figures/telling_apart.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

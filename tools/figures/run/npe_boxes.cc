@@ -1,3 +1,4 @@
+// Parameter error of each identifier as box plots.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,11 +18,7 @@ namespace {
 /// Whiskers from the 5 % to the 95 % quantile.
 Box BoxOf(double x, const Eigen::VectorXd& values) {
   // finite errors in their order
-  std::vector<double> sorted;
-  for (double value : values) {
-    if (std::isfinite(value)) sorted.push_back(value);
-  }
-  std::sort(sorted.begin(), sorted.end());
+  const std::vector<double> sorted = SortedFinite(values);
   // quartiles as the box, the middle 90 % between the whiskers
   Box box{x,
           Quantile(sorted, 0.05),
@@ -35,8 +32,7 @@ Box BoxOf(double x, const Eigen::VectorXd& values) {
   for (double value : sorted) {
     if (value < box.lower || value > box.upper) outliers.push_back(value);
   }
-  box.outliers = Eigen::Map<const Eigen::VectorXd>(outliers.data(),
-                                                   static_cast<Eigen::Index>(outliers.size()));
+  box.outliers = VectorOf(outliers);
   return box;
 }
 
@@ -47,11 +43,6 @@ std::string LabelOf(const RunRow& row) {
     label += fmt::format("\n{} of {} {}", count, row.runs, Replaced(status, "_", " "));
   }
   return label;
-}
-
-void Append(Eigen::VectorXd& values, double value) {
-  values.conservativeResize(values.size() + 1);
-  values[values.size() - 1] = value;
 }
 
 bool HasNumbers(const Eigen::VectorXd& values) { return values.array().isFinite().any(); }
@@ -92,20 +83,21 @@ Plot BoxesOf(const RunView& run, const Rung& rung) {
   Plot plot;
   std::vector<std::string> labels;
   std::vector<Eigen::VectorXd> shown;
-  Scatter means{Eigen::VectorXd(0), Eigen::VectorXd(0), 4, Marker::diamond};
+  std::vector<double> places, means;
   for (const RunRow& row : run.rows) {
     const Eigen::VectorXd npe = At(row, row.npe, rung);
     if (HasNumbers(npe)) {
       const auto place = static_cast<double>(labels.size());
       plot.series.push_back({"", IdentifierHue(row.identifier), BoxOf(place, 100 * npe)});
       shown.push_back(100 * npe);
-      Append(means.x, place);
-      Append(means.y, 100 * RootMeanSquare(npe));
+      places.push_back(place);
+      means.push_back(100 * RootMeanSquare(npe));
     }
     labels.push_back(rung ? row.label : LabelOf(row));
   }
   if (shown.empty()) return plot;
-  plot.series.push_back({"root mean square", Hue::text, means});
+  plot.series.push_back({"root mean square", Hue::text,
+                         Scatter{VectorOf(places), VectorOf(means), 4, Marker::diamond}});
   if (const double bound = 100 * BoundOf(run, rung); std::isfinite(bound)) {
     plot.series.push_back({"Cramér-Rao bound (rms)", Hue::text, LevelLine{bound}});
     shown.push_back(Eigen::Vector2d(0.9 * bound, 1.1 * bound));
@@ -119,21 +111,15 @@ Plot BoxesOf(const RunView& run, const Rung& rung) {
 }  // namespace
 
 std::optional<Figure> NpeBoxes(const RunView& run) {
-  const std::vector<Rung> rungs = RungsOf(run);
-  Figure figure;
-  figure.name = "npe_boxes";
-  figure.title = "Parameter error of each identifier";
-  figure.subtitle = RungsSubtitle(run, "boxes hold the middle half and its median, whiskers 90 %");
-  figure.finding = Finding(run);
-  figure.height = 0;
-  figure.rows.clear();
+  Figure figure =
+      WithoutPanels({"npe_boxes", "Parameter error of each identifier",
+                     RungsSubtitle(run, "boxes hold the middle half and its median, whiskers 90 %"),
+                     Finding(run)});
   // a row for each variant
-  for (const Rung& rung : rungs) {
+  for (const Rung& rung : RungsOf(run)) {
     Plot plot = BoxesOf(run, rung);
     if (plot.series.empty()) continue;
-    const auto row = static_cast<int>(figure.rows.size());
-    figure.panels.push_back({RungName(run, rung), std::move(plot), row, 0});
-    figure.rows.push_back(rung ? 200 : 350);
+    AddPanel(figure, RungName(run, rung), std::move(plot), rung ? 200 : 350);
   }
   if (figure.panels.empty()) return std::nullopt;
   return figure;

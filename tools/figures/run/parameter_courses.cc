@@ -14,15 +14,6 @@
 namespace warmjoint::figures {
 namespace {
 
-std::vector<double> SortedFinite(const Eigen::VectorXd& values) {
-  std::vector<double> sorted;
-  for (double value : values) {
-    if (std::isfinite(value)) sorted.push_back(value);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  return sorted;
-}
-
 /// The row with the longest course, or nullptr.
 const RunRow* LongestCourse(const RunView& run) {
   const RunRow* longest = nullptr;
@@ -88,7 +79,7 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
   const Hue hue = IdentifierHue(row.identifier);
   // the middle of the courses, and of the truths where they differ
   const QuartileCurve middle = QuartilesOf(iteration, values);
-  const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];
+  const double truth = MedianOf(column.truth);
 
   Plot plot;
   // many courses become bands, few are drawn one by one
@@ -113,15 +104,12 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
   const RunRow* row = LongestCourse(run);
   if (!row) return std::nullopt;
 
-  Figure figure;
-  figure.name = "parameters_by_iteration";
-  figure.title = fmt::format("Parameters by iteration: {}", row->label);
-  figure.subtitle =
-      RunSubtitle(run, row->course.npe.rows() > kMostLines ? "bands hold most of their courses"
-                                                           : "each thin line is one");
-  figure.columns = {1, 1};
-  figure.rows.clear();
-  std::string last;
+  const char* drawn = row->course.npe.rows() > kMostLines ? "bands hold most of their courses"
+                                                          : "each thin line is one";
+  Figure figure = WithoutPanels(
+      {"parameters_by_iteration", fmt::format("Parameters by iteration: {}", row->label),
+       RunSubtitle(run, drawn), "Medians after the last iteration:"},
+      2);
   // a panel for each parameter that the identifier iterates on
   for (const ParameterColumn& column : row->parameters) {
     const auto& names = row->course.names;
@@ -130,24 +118,15 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
     const Eigen::MatrixXd& values =
         row->course.parameters[static_cast<std::size_t>(found - names.begin())];
     if (!values.array().isFinite().any()) continue;
-    // two panels to a row
-    Panel panel{NameWithSymbol(column.name), PanelOf(*row, column, values)};
-    const auto place = static_cast<int>(figure.panels.size());
-    panel.row = place / 2;
-    panel.column = place % 2;
-    if (panel.column == 0) figure.rows.push_back(1);
-    figure.panels.push_back(panel);
+    AddPanel(figure, NameWithSymbol(column.name), PanelOf(*row, column, values), 1);
 
     // where its median ended, beside the truth
-    const Eigen::VectorXd end = values.col(values.cols() - 1);
-    const double middle = QuartilesOf(Eigen::VectorXd::Zero(1), end).median[0];
-    const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];
-    last += fmt::format(" {} {} (truth {}),", column.name, SignificantText(middle),
-                        SignificantText(truth));
+    figure.finding += fmt::format(" {} {} (truth {}),", column.name,
+                                  SignificantText(MedianOf(values.col(values.cols() - 1))),
+                                  SignificantText(MedianOf(column.truth)));
   }
   if (figure.panels.empty()) return std::nullopt;
-  last.back() = '.';
-  figure.finding = "Medians after the last iteration:" + last;
+  figure.finding.back() = '.';
   figure.height = 80 + 250 * static_cast<int>(figure.rows.size());
   return figure;
 }

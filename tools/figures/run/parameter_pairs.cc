@@ -1,3 +1,4 @@
+// Errors of pairs of parameters with their ellipses.
 #include <fmt/core.h>
 
 #include <Eigen/Cholesky>
@@ -62,7 +63,7 @@ const RunRow* BestComplete(const RunView& run) {
   for (const RunRow& row : run.rows) {
     // correlations need several realizations with all parameters
     if (row.parameters.size() < 2 || Complete(row).rows() < 5) continue;
-    const double median = QuartilesOf(Eigen::VectorXd::Zero(1), row.npe).median[0];
+    const double median = MedianOf(row.npe);
     if (median < lowest) {
       lowest = median;
       best = &row;
@@ -148,27 +149,18 @@ std::optional<Figure> ParameterPairs(const RunView& run) {
   const Eigen::MatrixXd errors = Complete(*row);
 
   // every realization is a dot in each panel
-  Figure figure;
-  figure.name = "parameter_pairs";
-  figure.title = fmt::format("Errors of pairs of parameters: {}", row->label);
-  figure.subtitle = RunSubtitle(run, "each dot is one of them");
-  figure.finding = Finding(*row, errors);
-  figure.rows.clear();
-  int place = 0;
-  const int across = errors.cols() > 2 ? 3 : 1;
+  Figure figure = WithoutPanels(
+      {"parameter_pairs", fmt::format("Errors of pairs of parameters: {}", row->label),
+       RunSubtitle(run, "each dot is one of them"), Finding(*row, errors)},
+      errors.cols() > 2 ? 3 : 1);
   // a panel for each pair of parameters
   for (Eigen::Index a = 0; a < errors.cols(); ++a) {
-    for (Eigen::Index b = a + 1; b < errors.cols(); ++b, ++place) {
-      Panel panel{"", PairOf(run, *row, errors, a, b)};
-      panel.row = place / across;
-      panel.column = place % across;
-      if (panel.column == 0) figure.rows.push_back(1);
-      figure.panels.push_back(panel);
+    for (Eigen::Index b = a + 1; b < errors.cols(); ++b) {
+      AddPanel(figure, "", PairOf(run, *row, errors, a, b), 1);
     }
   }
   // one scale for all, so that their ellipses compare
   ShareScale(figure.panels);
-  figure.columns.assign(static_cast<std::size_t>(across), 1);
   figure.height = 80 + 320 * static_cast<int>(figure.rows.size());
   return figure;
 }

@@ -1,20 +1,12 @@
 #include "tools/figures/run/quartiles.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <iterator>
 
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::figures {
-
-std::string MediansSubtitle(const std::string& suite, int realizations) {
-  return fmt::format(
-      "{}: {} realization{}; lines are medians, bands reach from quartile to quartile", suite,
-      realizations, realizations == 1 ? "" : "s");
-}
 
 double RootMeanSquare(const Eigen::VectorXd& values) {
   const auto finite = values.array().isFinite();
@@ -38,6 +30,18 @@ QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& value
     curve.q75[k] = Quantile(known, 0.75);
   }
   return curve;
+}
+
+double MedianOf(const Eigen::VectorXd& values) {
+  return QuartilesOf(Eigen::VectorXd::Zero(1), values).median[0];
+}
+
+std::vector<double> SortedFinite(const Eigen::VectorXd& values) {
+  std::vector<double> sorted;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+               [](double value) { return std::isfinite(value); });
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
 }
 
 }  // namespace warmjoint::figures

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
+#include <vector>
 
 namespace warmjoint::figures {
 
@@ -14,14 +14,16 @@ struct QuartileCurve {
   Eigen::VectorXd q75;
 };
 
-/// What a subtitle says of lines and bands of such curves: "table1: 50 realizations; lines are
-/// medians, bands reach from quartile to quartile".
-std::string MediansSubtitle(const std::string& suite, int realizations);
-
 /// Of what is finite; NaN where nothing is.
 double RootMeanSquare(const Eigen::VectorXd& values);
 
 /// values: [R x K], NaN left out; x: [K].
 QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values);
+
+/// Of one sample, [R], NaN left out; NaN where nothing is left.
+double MedianOf(const Eigen::VectorXd& values);
+
+/// The finite ones, ascending.
+std::vector<double> SortedFinite(const Eigen::VectorXd& values);
 
 }  // namespace warmjoint::figures

@@ -1,3 +1,4 @@
+// Reads the view of a run from its store.
 #include <warmjoint/friction.h>
 #include <warmjoint/prepared_log.h>
 
@@ -14,8 +15,8 @@
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
+#include "tools/figures/axes.h"
 #include "tools/figures/number_text.h"
-#include "tools/figures/run/prime_distance.h"
 #include "tools/figures/run/run_view.h"
 #include "tools/store/run_store.h"
 
@@ -56,15 +57,54 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// first ones, since a course has hundreds of numbers for each.
 constexpr std::size_t kMostCourses = 2000;
 
+// of the answers that a page lists, which it holds without becoming slow to open: some 200 bytes each
+constexpr std::int64_t kMostListed = 2000;
+constexpr int kMostFailures = 500;
+
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Eigen::VectorXi Places(const std::vector<int>& numbers) {
-  return Eigen::Map<const Eigen::VectorXi>(numbers.data(), static_cast<Index>(numbers.size()));
+/// The smallest distance, 1 or a prime, at which at most about `most` of `all` are taken: realizations at
+/// such a distance share no period that a run may have.
+int PrimeDistance(std::int64_t all, std::int64_t most) {
+  const auto divided = [](std::int64_t n) {
+    for (std::int64_t d = 2; d * d <= n; ++d) {
+      if (n % d == 0) return true;
+    }
+    return false;
+  };
+  std::int64_t distance = (all + most - 1) / most;
+  while (divided(distance)) ++distance;
+  return static_cast<int>(distance > 1 ? distance : 1);
 }
 
-VectorXd Column(const std::vector<double>& numbers) {
-  return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
+/// Builds a listing from results as they come.
+class ListingBuilder {
+ public:
+  /// answers: how many the run has when it is finished.
+  explicit ListingBuilder(std::int64_t answers) {
+    listing_.every = PrimeDistance(answers, kMostListed);
+  }
+
+  void Add(const Result& result) {
+    const bool in_turn = result.realization % listing_.every == 0;
+    if (!in_turn && (result.status == "ok" || ++failures_ > kMostFailures)) return;
+    listing_.answers.push_back({{result.variant, result.realization},
+                                result.identifier,
+                                result.status,
+                                result.score ? result.score->npe_continuous : kUnknown,
+                                result.metrics ? result.metrics->rmse : kUnknown,
+                                result.metrics ? result.metrics->fit : kUnknown});
+  }
+  Listing Finish() && { return std::move(listing_); }
+
+ private:
+  Listing listing_;
+  int failures_ = 0;  // listed out of turn
+};
+
+Eigen::VectorXi Places(const std::vector<int>& numbers) {
+  return Eigen::Map<const Eigen::VectorXi>(numbers.data(), static_cast<Index>(numbers.size()));
 }
 
 std::string UnitOf(const std::string& name, const Scenario& scenario) {
@@ -185,23 +225,21 @@ RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
   // numbers of the realizations that are drawn, in one order
   row.variant = Places(variant_);
   row.realization = Places(realization_);
-  row.npe = Column(npe_);
-  row.rmse = Column(rmse_);
-  row.fit = Column(fit_);
-  row.fpe = Column(fpe_);
-  row.mae = Column(mae_);
+  row.npe = VectorOf(npe_);
+  row.rmse = VectorOf(rmse_);
+  row.fit = VectorOf(fit_);
+  row.fpe = VectorOf(fpe_);
+  row.mae = VectorOf(mae_);
   // estimates, truths and bounds of each parameter
   for (const ParameterNumbers& one : parameters_) {
-    row.parameters.push_back({one.name, UnitOf(one.name, suite.scenario), Column(one.estimate),
-                              Column(one.truth), Column(one.bound), one.intervals, one.covered});
+    row.parameters.push_back({one.name, UnitOf(one.name, suite.scenario), VectorOf(one.estimate),
+                              VectorOf(one.truth), VectorOf(one.bound), one.intervals,
+                              one.covered});
   }
   // courses of as many realizations as a picture bears
   row.course = ReadCourse(store, units_, identifier_);
   return row;
 }
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 /// Sizes are the root mean squares of the bounds of all realizations; correlations come from
 /// simulating the first once more. Empty where its plant cannot be made on this machine.

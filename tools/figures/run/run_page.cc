@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -13,6 +15,8 @@
 #include "tools/actions/replay_unit.h"
 #include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
+#include "tools/figures/axes.h"
+#include "tools/figures/fit_panels.h"
 #include "tools/figures/number_text.h"
 
 namespace warmjoint::figures {
@@ -196,6 +200,56 @@ Tree BoardTrees(const Leaderboard& board) {
 }
 
 }  // namespace
+
+std::vector<Extreme> ExtremesOf(const RunRow& row) {
+  // realizations that have numbers
+  std::vector<Extreme> answered;
+  for (Eigen::Index i = 0; i < row.npe.size(); ++i) {
+    if (std::isnan(row.npe[i])) continue;
+    answered.push_back({"", {row.variant[i], row.realization[i]}, row.npe[i]});
+  }
+  // equal errors in the order of units, so that the choice is the same on every machine
+  std::stable_sort(answered.begin(), answered.end(),
+                   [](const Extreme& a, const Extreme& b) { return a.npe < b.npe; });
+
+  std::vector<Extreme> extremes;
+  // no realization is shown twice
+  const auto take = [&](const char* rank, std::size_t at) {
+    if (at >= answered.size()) return;
+    const bool taken = std::any_of(extremes.begin(), extremes.end(), [&](const Extreme& one) {
+      return one.unit == answered[at].unit;
+    });
+    if (!taken) extremes.push_back({rank, answered[at].unit, answered[at].npe});
+  };
+  if (answered.empty()) return extremes;
+  take("best", 0);
+  take("median", (answered.size() - 1) / 2);
+  take("worst", answered.size() - 1);
+  return extremes;
+}
+
+Figure ExtremesFigure(const std::string& label, const std::vector<ReplayedExtreme>& replayed) {
+  constexpr double kRow = 200;  // points
+  Figure figure = WithoutPanels(
+      {"extremes", "Torque and fit of the best, the median and the worst realization",
+       fmt::format("{}, by the NPE of its parameters; simulated once more", label),
+       "Left: measured torque in the direction of motion with the fit. Right: the last segments as "
+       "they were logged. Where even the worst fit follows its torque, the errors of the "
+       "parameters "
+       "are what noise leaves."},
+      2);
+  // a row for each: its whole recording, and its end close up
+  for (const ReplayedExtreme& one : replayed) {
+    const Window warm = WarmWindow(one.view);
+    AddPanel(
+        figure,
+        fmt::format("The {}: {}, NPE {}", one.extreme.rank, one.name, PercentText(one.extreme.npe)),
+        LevelOverTime(one.view), kRow);
+    AddPanel(figure, "Its last segments",
+             CloseUp(one.view, warm, TorqueLimits(one.view, warm, warm)), kRow);
+  }
+  return figure;
+}
 
 Tree RunPageData(const RunPage& page) {
   const Leaderboard& board = page.view.board;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tools/board/leaderboard.h"
-#include "tools/figures/run/listing.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::figures {
@@ -54,6 +53,21 @@ struct RunRow {
   Course course;                             // K = 0 where it does not iterate
 
   int failed() const;
+};
+
+/// What one identifier made of one realization.
+struct ListedAnswer {
+  RunUnit unit;
+  int identifier = 0;  // position in the suite's list
+  std::string status;
+  double npe = 0, rmse = 0, fit = 0;  // 0.01 is 1 %; N.m or N; %; NaN without an answer
+};
+
+/// All answers of a short run. Of a longer one, realizations 0, n, 2 n, ... of each variant, and the first
+/// failures besides.
+struct Listing {
+  int every = 1;
+  std::vector<ListedAnswer> answers;  // in the order of units
 };
 
 struct RunView {

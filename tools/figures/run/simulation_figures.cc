@@ -1,11 +1,28 @@
 #include "tools/figures/run/simulation_figures.h"
 
-#include "tools/figures/envelope.h"
-#include "tools/figures/friction_map.h"
-#include "tools/figures/motor_angle.h"
+#include <warmjoint/prepared_log.h>
+
+#include <cmath>
+
+#include "identification/preparation/select.h"
+#include "models/recording/read_recording.h"
+#include "scenarios/read_scenario.h"
+#include "tools/figures/estimate_figures.h"
 
 namespace warmjoint::figures {
 namespace {
+
+/// Leaves out what only seems to move at a constant speed: the truth knows where a filter smears a
+/// reversal over its neighbours.
+void KeepTrulyConstant(const Truth& truth, Selection& selection) {
+  constexpr double alike = 0.1;  // of the segment's speed
+  for (const Segment& segment : selection.segments) {
+    for (Eigen::Index i = segment.begin; i < segment.end; ++i) {
+      const double off = std::abs(truth.velocity[i] - segment.velocity);
+      if (off > alike * std::abs(segment.velocity)) selection.keep[i] = false;
+    }
+  }
+}
 
 std::optional<Figure> EnvelopeOf(const SimulationView& view) {
   const Friction& friction = view.recording.truth.friction;
@@ -14,20 +31,60 @@ std::optional<Figure> EnvelopeOf(const SimulationView& view) {
                       friction.thermal);
 }
 
-std::optional<Figure> MotorAngleOf(const SimulationView& view) { return MakeMotorAngle(view.fit); }
-
-std::optional<Figure> FrictionMapOf(const SimulationView& view) {
-  return MakeFrictionMap(view.fit);
+/// The picture of a simulation that is one of its truth as a fit.
+template <auto Make>
+std::optional<Figure> OfFit(const SimulationView& view) {
+  return Make(view.fit);
 }
 
 }  // namespace
+
+SimulationView MakeSimulationView(const Scenario& scenario, const Simulation& recording) {
+  Estimate truth;
+  truth.friction = recording.truth.friction;
+  // samples as an identifier takes them, less those that only seem to be at constant speed
+  const Measurements m = Prepare(recording.measurements).raw().measurements;
+  Selection selection =
+      scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
+  KeepTrulyConstant(recording.truth, selection);
+  // the truth's own, not what the sampled motion says of it
+  Prediction known;
+  known.force = recording.truth.force;
+  known.energy = recording.truth.energy;
+  return {scenario, {m, recording.truth}, MakeFitView(m, selection, truth, known)};
+}
+
+bool IsSimulation(const std::filesystem::path& directory) {
+  return std::filesystem::exists(directory / "scenario.yaml") &&
+         std::filesystem::exists(directory / "truth.json");
+}
+
+SimulationView ReadSimulationView(const std::filesystem::path& directory) {
+  const Scenario scenario = ReadScenario(directory / "scenario.yaml", {});
+  // the files are in the units that the scenario says
+  ReadSettings layout;
+  layout.joint = scenario.joint_kind;
+  layout.gear = scenario.friction.gear;
+  const bool hdf5 = std::filesystem::exists(directory / "recording.h5");
+  Simulation recording;
+  recording.measurements =
+      ReadRecordingFile(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
+  recording.truth = ReadTruth(directory / "truth.json");
+  // the truth of another simulation does not fit the recording
+  if (recording.truth.velocity.size() != recording.measurements.size()) {
+    Refuse({directory / "truth.json"},
+           "holds {} samples where the recording beside it has {}; both must be of one simulation",
+           recording.truth.velocity.size(), recording.measurements.size());
+  }
+  return MakeSimulationView(scenario, recording);
+}
 
 const std::vector<SimulationFigure>& SimulationFigures() {
   static const std::vector<SimulationFigure> figures{
       {"envelope", "the recording's envelope and the first guess beside the truth", &EnvelopeOf,
        "friction that warms, at constant speeds, without maps or gravity"},
-      {"motor_angle", "torque over motor angle", &MotorAngleOf, "a gear"},
-      {"friction_map", "friction over angle and velocity, cold and warm", &FrictionMapOf,
+      {"motor_angle", "torque over motor angle", &OfFit<MakeMotorAngle>, "a gear"},
+      {"friction_map", "friction over angle and velocity, cold and warm", &OfFit<MakeFrictionMap>,
        "a map over position or the motor's angle"},
   };
   return figures;

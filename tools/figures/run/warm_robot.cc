@@ -74,13 +74,7 @@ class Model {
   int body_ = 0;
 };
 
-double LargestEnergy(const SimulationView& view) { return view.fit.energy.cwiseAbs().maxCoeff(); }
-
-Index WarmestSample(const SimulationView& view) {
-  Index at = 0;
-  view.fit.energy.cwiseAbs().maxCoeff(&at);
-  return at;
-}
+double LargestEnergy(const SimulationView& view) { return std::abs(WarmestEnergy(view.fit)); }
 
 /// sign(v) F of the truth, which holds no gravity, and as it were without warming.
 Plot FrictionPanel(const SimulationView& view) {
@@ -145,7 +139,7 @@ std::string RobotTitle(const SimulationView& view) {
 
 bool HasWarmRobot(const SimulationView& view) {
   return view.scenario.plant == PlantKind::mujoco && view.fit.warms() &&
-         view.fit.energy.size() > 1 && view.fit.energy.cwiseAbs().maxCoeff() > 0;
+         view.fit.energy.size() > 1 && LargestEnergy(view) > 0;
 }
 
 scene::Rgb HeatColour(double fraction) {
@@ -193,7 +187,7 @@ std::optional<std::vector<scene::Image>> RenderWarmRobot(const SimulationView& v
 std::optional<Figure> MakeWarmRobot(const SimulationView& view, scene::GlContext& context) {
   if (!HasWarmRobot(view)) return std::nullopt;
   // the robot at the begin and at its warmest
-  const Index warmest = WarmestSample(view);
+  const Index warmest = WarmestSample(view.fit);
   const auto images = RenderWarmRobot(view, context, {0, warmest}, 880, 640);
   const auto picture = [](const scene::Image& image) {
     return Picture{scene::EncodePng(image, "")};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/figures/figure.h"
-#include "tools/figures/run/simulation_view.h"
+#include "tools/figures/run/simulation_figures.h"
 #include "tools/scene/context.h"
 #include "tools/scene/image.h"
 

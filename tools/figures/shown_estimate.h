@@ -1,4 +1,4 @@
-// What an estimate has to say, as sentences.
+// What a reader is shown of an estimate: its numbers, and what it has to say.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -7,6 +7,11 @@
 #include <vector>
 
 namespace warmjoint {
+
+/// The rows of every table of parameters. Those of the law that only the prior of a map tells are left
+/// out; "friction at 0.3 rad/s" at three speeds, which the data tell, stands behind the others in their
+/// place.
+std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate);
 
 /// All that an estimate says beside its status, a sentence each: its message, then its warnings.
 std::vector<std::string> Remarks(const Estimate& estimate);
