@@ -201,6 +201,7 @@ END
 TEST_F(IdentifyCommand, TriesACommandOnOneRecordingAndJudgesIt) {
   WriteWholeFile(at("good.sh"), FixedAnswer(15));
   WriteWholeFile(at("bad.sh"), FixedAnswer(12));
+  WriteWholeFile(at("slow.sh"), "sleep 20\n");
   const auto by = [](const std::string& script) {
     return Command{"identify", "log.csv", "--identifier",
                    "mine=sh " + script + " {recording} {estimate}"};
@@ -222,7 +223,7 @@ TEST_F(IdentifyCommand, TriesACommandOnOneRecordingAndJudgesIt) {
       // 12 in the place of 15 N.m leaves a residual that depends on direction
       {by("bad.sh"), 3, "inadequate_model"},
       {by("none.sh"), 3, "mine gave no answer (crashed): exit status"},
-      {With(by("good.sh"), {"--set", "time_limit=0.0001"}), 3, "(timeout)"},
+      {With(by("slow.sh"), {"--set", "time_limit=0.1"}), 3, "(timeout)"},
       {With(by("good.sh"), {"--gravity", "sincos"}), 2,
        "--gravity: is for identifiers of the list"},
       {With(by("good.sh"), {"--follows", "log.csv"}), 2,
