@@ -109,7 +109,7 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
         JumpSpread(gaps_, energy_.cwiseAbs().maxCoeff(), fit_->thermal().time_constant);
   }
   fit_ = FitThermalFriction(is_first ? rows : rows.Along(with_jumps), from);
-  if (is_first && gaps_.size() > starts_.size()) FitJumps(rows, gaps_, *fit_);
+  if (is_first && gaps_.size() > starts_.size()) FitJumps(rows, gaps_, from, *fit_);
   // the energy by this warming, beside which the maps are fitted next
   energy_ = with_jumps.Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
                 .energy;

@@ -80,7 +80,7 @@ std::string AddHeat(LawFit& law) {
   const std::vector<LogGap> gaps = FindGaps(law.measurements());
   if (!gaps.empty()) {
     const std::vector<LogGap> all = Merged(gaps, starts);
-    const Eigen::VectorXd spread = FitJumps(rows, all, law.fit);
+    const Eigen::VectorXd spread = FitJumps(rows, all, law.scanned, law.fit);
     problem.TakeJumps(all, spread);
   }
   law.rows.scale = std::sqrt(law.fit.squares / static_cast<double>(law.rows.torque.size()));

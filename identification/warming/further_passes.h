@@ -10,9 +10,13 @@
 
 namespace warmjoint {
 
-/// Fits once more, the jumps of E at gaps too; from a fit without them, whose place it takes. rows: without gaps; gaps:
-/// with the further starts that are free in `rows`. Returns how far the jumps may be. [J]
-Eigen::VectorXd FitJumps(ThermalRows rows, const std::vector<LogGap>& gaps, ThermalFit& fit);
+/// Fits once more, the jumps of E at gaps too; from a fit without them, whose place it takes. A gap that a fit does
+/// not know may pass for a warm start that cools: where E(0) is free, the jumps are found beside a cold start as well,
+/// E(0) after them, and of both fits the one is taken that leaves less.
+/// rows: without gaps; gaps: with the further starts that are free in `rows`; scanned: where the fit began. Returns how
+/// far the jumps may be. [J]
+Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gaps,
+                         const InitialGuess& scanned, ThermalFit& fit);
 
 /// Fits once more where E(0) was expected, by the noise that the fit leaves: the fit before it knew no
 /// noise to weigh the expectation by. Where the log contradicts what was expected (ContradictsExpected), E(0) is
