@@ -4,8 +4,8 @@
 
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
-#include "tests/support/shared_data.h"
 #include "tests/support/emps_log.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
