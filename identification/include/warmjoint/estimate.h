@@ -226,20 +226,16 @@ struct Assumption {
   }
 };
 
-/// A part of the half width of a parameter's interval.
+/// A part of the half width of a parameter's interval, in its unit: by noise, findings, open_drift, ...
 struct HalfWidthPart {
-  std::string parameter;
-  std::string
-      by;  // "noise", or what makes the interval reach farther: "findings", "open_drift", ...
-  double half_width = 0;  // in the parameter's unit
+  std::string parameter, by;
+  double half_width = 0;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("parameter", &parameter, {.needed = "name it"});
-    a->Field("by", &by,
-             {.meaning = "noise, or what else is known of the answer", .needed = "name it"});
-    a->Field("half_width", &half_width,
-             {.meaning = "in the parameter's unit", .needed = kGiveNumber});
+    a->Field("by", &by, {.meaning = "noise, or what else is known", .needed = "name it"});
+    a->Field("half_width", &half_width, Needed("", "in the parameter's unit"));
   }
 };
 
