@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "tests/support/table1.h"
-#include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/prepare_identifiers.h"
 

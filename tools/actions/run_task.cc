@@ -13,7 +13,6 @@
 #include "tools/actions/suite_names.h"
 #include "tools/board/format_board.h"
 #include "tools/store/database.h"
-#include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/suite/prepare_identifiers.h"

@@ -9,7 +9,7 @@
 #include "scenarios/suite.h"
 #include "tools/store/run_store.h"
 #include "tools/suite/engine.h"
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint {
 

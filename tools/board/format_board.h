@@ -21,7 +21,7 @@ struct BoardFormat {
   std::string (*join)(const std::vector<NamedBoard>& boards);
 };
 
-/// All formats: a new one is its own file and one line in format_board.cc.
+/// All formats: a new one is a function or two and one line in format_board.cc.
 const std::vector<BoardFormat>& BoardFormats();
 
 /// For the terminal: the answer first, then the tables.

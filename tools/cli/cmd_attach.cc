@@ -101,10 +101,8 @@ ExitStatus Attach(const AttachArguments& arguments) {
 
 void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
   // what changes of the model besides friction
-  parser
-      .add_option("--armature", arguments.armatures,
-                  "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
-      ->type_name("JOINT=NUMBER")
+  AddValue(parser, "--armature", "JOINT=NUMBER", arguments.armatures,
+           "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
       ->take_all();
   std::vector<std::string> names;
   for (const auto& [name, unused] : kIntegrators) names.push_back(name);
@@ -113,12 +111,9 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
     if (found != kIntegrators.end()) arguments.options.integrator = found->second;
   };
   AddChoice(parser, "--integrator", ChoiceTarget{"", take}, names, "integrator of the result");
-  parser.add_option("--timestep", arguments.options.timestep, "step of the result, s")
-      ->type_name("NUMBER");
-  parser
-      .add_option("--package", arguments.packages,
-                  "NAME=FOLDER: where package://NAME of a URDF's meshes lies")
-      ->type_name("NAME=DIR")
+  AddValue(parser, "--timestep", "NUMBER", arguments.options.timestep, "step of the result, s");
+  AddValue(parser, "--package", "NAME=DIR", arguments.packages,
+           "NAME=FOLDER: where package://NAME of a URDF's meshes lies")
       ->take_all();
 }
 
@@ -128,24 +123,19 @@ Command AddAttachCommand(CLI::App& program) {
   // the model, and whose friction goes where
   auto arguments = std::make_shared<AttachArguments>();
   CLI::App* parser = program.add_subcommand("attach", "Friction onto the joints of any robot");
-  parser
-      ->add_option("MODEL", arguments->model, "MJCF or URDF file, or one of: warmjoint list robots")
-      ->type_name("MODEL")
+  AddValue(*parser, "MODEL", "MODEL", arguments->model,
+           "MJCF or URDF file, or one of: warmjoint list robots")
       ->required();
-  parser
-      ->add_option("--joint", arguments->joints,
-                   "NAME=FILE or PATTERN=FILE (a regular expression): estimate.json or another "
-                   "friction file for these joints")
-      ->type_name("JOINT=FILE")
+  AddValue(*parser, "--joint", "JOINT=FILE", arguments->joints,
+           "NAME=FILE or PATTERN=FILE (a regular expression): estimate.json or another "
+           "friction file for these joints")
       ->required()
       ->take_all();
 
   // how it acts, and how warm it begins
   AddChoice(*parser, "--as", arguments->options.form, "how friction acts");
-  parser
-      ->add_option("--initial", arguments->initial,
-                   "heat at the start: cold, end (of the estimate's recording) or settled:SPEED")
-      ->type_name("TEXT")
+  AddValue(*parser, "--initial", "TEXT", arguments->initial,
+           "heat at the start: cold, end (of the estimate's recording) or settled:SPEED")
       ->capture_default_str();
 
   // what else the model gets
@@ -157,8 +147,7 @@ Command AddAttachCommand(CLI::App& program) {
 
   // the rest of the model, and where it goes
   AddModelOptions(*parser, *arguments);
-  parser->add_option("-o,--output", arguments->output, "the model with friction, MJCF")
-      ->type_name("FILE")
+  AddValue(*parser, "-o,--output", "FILE", arguments->output, "the model with friction, MJCF")
       ->required();
   return {parser, [arguments] { return Attach(*arguments); }};
 }

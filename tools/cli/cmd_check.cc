@@ -186,14 +186,10 @@ Command AddCheckCommand(CLI::App& program) {
   // how recordings are read, then what is made of them
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.prepare);
-  parser
-      ->add_option("--segments", arguments->segments,
-                   "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI")
-      ->type_name("FILE");
-  parser
-      ->add_option("--plot", arguments->plot,
-                   "picture of the (first) recording with its kept segments: .png, .svg or .pdf")
-      ->type_name("FILE");
+  AddValue(*parser, "--segments", "FILE", arguments->segments,
+           "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI");
+  AddValue(*parser, "--plot", "FILE", arguments->plot,
+           "picture of the (first) recording with its kept segments: .png, .svg or .pdf");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   // the project file counts before anything is read
   return {parser, [arguments, parser] {

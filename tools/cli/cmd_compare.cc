@@ -65,8 +65,8 @@ Command AddCompareCommand(CLI::App& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
       program.add_subcommand("compare", "Leaderboard of a run, or an estimate beside its truth");
-  parser->add_option("RUN", arguments->runs, "run directories, or estimate.json and truth.json")
-      ->type_name("RUN")
+  AddValue(*parser, "RUN", "RUN", arguments->runs,
+           "run directories, or estimate.json and truth.json")
       ->required();
 
   std::vector<std::string> names;

@@ -260,13 +260,10 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
 
 /// What is written, and how much is said.
 void AddOutputOptions(CLI::App& parser, IdentifyArguments& arguments) {
-  parser.add_option("-o,--output", arguments.output, "estimate.json; -: standard output")
-      ->type_name("FILE");
-  parser
-      .add_option("--plot", arguments.plot, "picture of data, fit and verdict: .png, .svg or .pdf")
-      ->type_name("FILE");
-  parser.add_option("--mjcf", arguments.mjcf, "MuJoCo model of a joint with this friction")
-      ->type_name("FILE");
+  AddValue(parser, "-o,--output", "FILE", arguments.output, "estimate.json; -: standard output");
+  AddValue(parser, "--plot", "FILE", arguments.plot,
+           "picture of data, fit and verdict: .png, .svg or .pdf");
+  AddValue(parser, "--mjcf", "FILE", arguments.mjcf, "MuJoCo model of a joint with this friction");
   AddChoice(parser, "--format", arguments.format, {"text", "json"},
             "of what is printed; json: as in estimate.json");
   parser.add_flag("-v,--explain", arguments.explain,
@@ -286,14 +283,11 @@ Command AddIdentifyCommand(CLI::App& program) {
   AddHoldOptions(*parser, arguments->recording.prepare);
 
   // which identifier, and what it is told
-  parser
-      ->add_option(
-          "--identifier", arguments->identifiers,
-          "see: warmjoint list identifiers; or a command of your own, as "
-          "'mine=python3 mine.py {recording} {estimate}'; given several times: a table with "
-          "a row for each")
+  AddValue(*parser, "--identifier", "IDENTIFIER", arguments->identifiers,
+           "see: warmjoint list identifiers; or a command of your own, as "
+           "'mine=python3 mine.py {recording} {estimate}'; given several times: a table with "
+           "a row for each")
       ->take_all()
-      ->type_name("IDENTIFIER")
       ->capture_default_str();
   AddChoice(*parser, "--gravity", arguments->settings.gravity,
             "what gravity does to the torque: nothing, a sine of the angle, or what both "
@@ -303,25 +297,19 @@ Command AddIdentifyCommand(CLI::App& program) {
             "friction; chosen: any where the log holds no speeds");
 
   // what else the verdict and its figures go by
-  parser
-      ->add_option(
-          "--holdout", arguments->holdout,
-          "share of the record's end, or another file, for figures on unseen data; 0: none")
-      ->type_name("SHARE/FILE")
+  AddValue(*parser, "--holdout", "SHARE/FILE", arguments->holdout,
+           "share of the record's end, or another file, for figures on unseen data; 0: none")
       ->capture_default_str();
   AddChoice(*parser, "--start", arguments->settings.start,
             "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
             "far as a slightly warm start moves them; estimated: E(0) is fitted",
             {{"warm", "unknown"}, {"hot", "unknown"}});
   AddFollowOptions(*parser, arguments->earlier);
-  parser
-      ->add_option(
-          "--relevance", arguments->settings.relevance,
-          "change of the friction by lack of fit, as a share, from which a model is refused")
-      ->type_name("NUMBER")
+  AddValue(*parser, "--relevance", "NUMBER", arguments->settings.relevance,
+           "change of the friction by lack of fit, as a share, from which a model is refused")
       ->capture_default_str();
-  parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
-      ->type_name("KEY=VALUE")
+  AddValue(*parser, "--set", "KEY=VALUE", arguments->set,
+           "option of the identifier, as law=asymmetric")
       ->take_all();
 
   parser->add_flag_callback(

@@ -257,8 +257,8 @@ Command AddListCommand(CLI::App& program) {
   for (const Family& family : Families()) names.push_back(family.name);
   AddChoice(*parser, "FAMILY", arguments->family, names, fmt::format("{}", fmt::join(names, ", ")))
       ->required();
-  parser->add_option("NAME", arguments->member, "one member alone, with its options in full")
-      ->type_name("MEMBER");
+  AddValue(*parser, "NAME", "MEMBER", arguments->member,
+           "one member alone, with its options in full");
   AddChoice(*parser, "--format", arguments->format, {"text", "json", "names"},
             "names: one name a line");
   return {parser, [arguments] { return List(*arguments); }};

@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "models/foundation/bad_input.h"
-#include "tools/board/format_board.h"
 #include "tools/cli/command.h"
 #include "tools/cli/end_of_run.h"
+#include "tools/cli/typed_options.h"
 #include "tools/cluster/shards.h"
-#include "tools/store/merge_runs.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {
@@ -50,7 +49,7 @@ ExitStatus Merge(const MergeArguments& arguments) {
   }
 
   // shards that overlap are refused here: each realization has one place
-  const MergedRun merged = MergeRuns(arguments.shards, arguments.output, &WriteTables);
+  const MergedRun merged = MergeRuns(arguments.shards, arguments.output);
   Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
       merged.units - merged.missing.size(), merged.units);
   // what is missing is no failure, but then the whole says nothing yet
@@ -64,15 +63,11 @@ ExitStatus Merge(const MergeArguments& arguments) {
 Command AddMergeCommand(CLI::App& program) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* parser = program.add_subcommand("merge", "Put the shards of a run together");
-  parser
-      ->add_option("SHARD", arguments->shards,
-                   "run directories made with --shard, or one that was planned")
-      ->type_name("RUN")
+  AddValue(*parser, "SHARD", "RUN", arguments->shards,
+           "run directories made with --shard, or one that was planned")
       ->required();
-  parser
-      ->add_option("-o,--output", arguments->output,
-                   "run directory to make; a planned run becomes whole in its own")
-      ->type_name("DIR");
+  AddValue(*parser, "-o,--output", "DIR", arguments->output,
+           "run directory to make; a planned run becomes whole in its own");
   return {parser, [arguments] { return Merge(*arguments); }};
 }
 

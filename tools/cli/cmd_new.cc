@@ -83,8 +83,8 @@ Command AddNewCommand(CLI::App& program) {
   std::vector<std::string> kinds;
   for (const Template& one : kTemplates) kinds.emplace_back(one.kind);
   AddChoice(*parser, "KIND", arguments->kind, kinds, "what to begin")->required();
-  parser->add_option("NAME", arguments->name, "of the file, without extension; it must not exist")
-      ->type_name("TEXT")
+  AddValue(*parser, "NAME", "TEXT", arguments->name,
+           "of the file, without extension; it must not exist")
       ->required();
   return {parser, [arguments] { return MakeNew(*arguments); }};
 }

@@ -13,6 +13,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/pictures.h"
 #include "tools/cli/recording_options.h"
+#include "tools/cli/typed_options.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
@@ -150,21 +151,17 @@ Command AddPlotCommand(CLI::App& program) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG, SVG or PDF files");
   // what is drawn, and where to
-  parser
-      ->add_option("SOURCE", arguments->sources,
-                   "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
-                   "plain kernels); several fill folders of their own")
-      ->type_name("SOURCE")
+  AddValue(*parser, "SOURCE", "SOURCE", arguments->sources,
+           "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
+           "plain kernels); several fill folders of their own")
       ->required();
-  parser->add_option("-o,--output", arguments->output, "directory for the pictures; made if absent")
-      ->type_name("DIR")
+  AddValue(*parser, "-o,--output", "DIR", arguments->output,
+           "directory for the pictures; made if absent")
       ->required();
 
   // whose data is shown
-  parser
-      ->add_option("--recording", arguments->recording.files,
-                   "data of an estimate, instead of the files that it remembers")
-      ->type_name("RECORDING");
+  AddValue(*parser, "--recording", "RECORDING", arguments->recording.files,
+           "data of an estimate, instead of the files that it remembers");
   AddLayoutOptions(*parser, arguments->recording.read);
 
   // how it looks

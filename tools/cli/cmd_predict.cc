@@ -108,28 +108,23 @@ Command AddPredictCommand(CLI::App& program) {
   // the estimate, the recording, and how it is read
   CLI::App* parser = program.add_subcommand(
       "predict", "What a stored estimate predicts of another recording, and how well");
-  parser
-      ->add_option("ESTIMATE", arguments->estimate, "estimate.json of identify, or a friction file")
-      ->type_name("ESTIMATE")
+  AddValue(*parser, "ESTIMATE", "ESTIMATE", arguments->estimate,
+           "estimate.json of identify, or a friction file")
       ->required();
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.prepare);
 
   // with which heat it begins
-  parser
-      ->add_option("--initial", arguments->initial,
-                   "heat at the first sample: cold; end, that at the end of the estimate's own "
-                   "recording; settled:SPEED, that of sliding at SPEED for long")
-      ->type_name("cold|end|settled:SPEED")
+  AddValue(*parser, "--initial", "cold|end|settled:SPEED", arguments->initial,
+           "heat at the first sample: cold; end, that at the end of the estimate's own "
+           "recording; settled:SPEED, that of sliding at SPEED for long")
       ->capture_default_str();
   AddFollowOptions(*parser, arguments->earlier);
 
   // what is written and printed
-  parser
-      ->add_option("-o,--output", arguments->output,
-                   "CSV of time, position, velocity, torque, predicted, residual, energy and "
-                   "whether the sample was compared")
-      ->type_name("FILE");
+  AddValue(*parser, "-o,--output", "FILE", arguments->output,
+           "CSV of time, position, velocity, torque, predicted, residual, energy and "
+           "whether the sample was compared");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);

@@ -15,6 +15,7 @@
 #include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
+#include "tools/cli/typed_options.h"
 #include "tools/figures/estimate_view.h"
 #include "tools/figures/log_page.h"
 #include "tools/figures/run/run_figures.h"
@@ -197,21 +198,15 @@ Command AddReportCommand(CLI::App& program) {
   auto arguments = std::make_shared<ReportArguments>();
   CLI::App* parser = program.add_subcommand(
       "report", "One web page that explains a run, or a log and what was identified from it");
-  parser
-      ->add_option(
-          "SOURCE", arguments->source,
-          "directory of `run`, recording, or estimate file (.json) whose recording is there")
-      ->type_name("SOURCE")
+  AddValue(*parser, "SOURCE", "SOURCE", arguments->source,
+           "directory of `run`, recording, or estimate file (.json) whose recording is there")
       ->required();
-  parser
-      ->add_option("-o,--output", arguments->output,
-                   "the page; RUN/report.html where it is not given for a run")
-      ->type_name("FILE");
-  parser->add_option("--identifier", arguments->settings.identifier, "of a recording")
-      ->type_name("IDENTIFIER")
+  AddValue(*parser, "-o,--output", "FILE", arguments->output,
+           "the page; RUN/report.html where it is not given for a run");
+  AddValue(*parser, "--identifier", "IDENTIFIER", arguments->settings.identifier, "of a recording")
       ->capture_default_str();
-  parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
-      ->type_name("KEY=VALUE")
+  AddValue(*parser, "--set", "KEY=VALUE", arguments->set,
+           "option of the identifier, as law=asymmetric")
       ->take_all();
   AddLayoutOptions(*parser, arguments->recording.read);
   AddHoldOptions(*parser, arguments->recording.prepare);

@@ -15,13 +15,11 @@
 #include "tools/cli/end_of_run.h"
 #include "tools/cli/typed_options.h"
 #include "tools/cluster/plan.h"
-#include "tools/cluster/run_status.h"
 #include "tools/cluster/shards.h"
 #include "tools/cluster/slurm.h"
 #include "tools/store/folders.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
-#include "tools/suite/interrupt.h"
 #include "tools/suite/prepare_identifiers.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
@@ -131,8 +129,7 @@ void AddShardOptions(CLI::App& parser, RunArguments& arguments) {
   AddWholeNumber(parser, "--shards", arguments.shards, 1, kMostShards,
                  "number of shards; default: one for each 1000 realizations and thread")
       ->group("In shards");
-  parser.add_option("--sbatch", arguments.sbatch, "key=value for sbatch")
-      ->type_name("TEXT")
+  AddValue(parser, "--sbatch", "TEXT", arguments.sbatch, "key=value for sbatch")
       ->group("In shards");
   parser.add_flag("--dry-run", arguments.dry_run, "write plan and script, and submit nothing")
       ->group("In shards");
@@ -244,12 +241,10 @@ Command AddRunCommand(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "run", "Run a suite: realizations, identifiers, scores; resumes where it stopped");
   // what is run, and where it is kept
-  parser
-      ->add_option("SUITE", arguments->suite, "suite file (YAML), or one of: warmjoint list suites")
-      ->type_name("SUITE")
+  AddValue(*parser, "SUITE", "SUITE", arguments->suite,
+           "suite file (YAML), or one of: warmjoint list suites")
       ->required();
-  parser->add_option("-o,--output", arguments->output, "run directory, made or resumed")
-      ->type_name("DIR")
+  AddValue(*parser, "-o,--output", "DIR", arguments->output, "run directory, made or resumed")
       ->required();
 
   // what changes of the suite
@@ -258,16 +253,13 @@ Command AddRunCommand(CLI::App& program) {
   AddWholeNumber(*parser, "--realizations", arguments->realizations, 1, kMostRealizations,
                  "instead of the suite's");
   AddWholeNumber(*parser, "--seed", arguments->seed, 0, kLargestSeed, "instead of the suite's");
-  parser
-      ->add_option("--identifier", arguments->identifiers,
-                   "only this one of the suite, another one with its defaults, or your own as "
-                   "'name=command {recording} {estimate}'; +NAME or '+name=command ...' adds to "
-                   "those of the suite; repeatable")
-      ->type_name("IDENTIFIER");
+  AddValue(*parser, "--identifier", "IDENTIFIER", arguments->identifiers,
+           "only this one of the suite, another one with its defaults, or your own as "
+           "'name=command {recording} {estimate}'; +NAME or '+name=command ...' adds to "
+           "those of the suite; repeatable");
 
   // which part of it, and what commands may do
-  parser->add_option("--shard", arguments->shard, "part i of n, to be merged later: i/n")
-      ->type_name("TEXT")
+  AddValue(*parser, "--shard", "TEXT", arguments->shard, "part i of n, to be merged later: i/n")
       ->capture_default_str();
   parser->add_flag("--allow-commands", arguments->allow_commands,
                    "run the commands that the suite names as identifiers");

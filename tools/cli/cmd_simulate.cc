@@ -136,20 +136,17 @@ Command AddSimulateCommand(CLI::App& program) {
   CLI::App* parser =
       program.add_subcommand("simulate", "Simulate a scenario: a recording and its truth");
   // what is simulated: a scenario, a run's realization or a log's motion
-  parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)")
-      ->type_name("SCENARIO");
-  parser->add_option("--from", arguments->from, "run directory: replay its --realization")
-      ->type_name("RUN");
-  parser->add_option("--variant", arguments->variant, "of the run's ladder")->type_name("TEXT");
-  parser
-      ->add_option("--motion", arguments->motion.files, "CSV or HDF5 file whose motion is replayed")
-      ->type_name("RECORDING")
+  AddValue(*parser, "SCENARIO", "SCENARIO", arguments->scenario, "scenario file (YAML)");
+  AddValue(*parser, "--from", "RUN", arguments->from, "run directory: replay its --realization");
+  AddValue(*parser, "--variant", "TEXT", arguments->variant, "of the run's ladder");
+  AddValue(*parser, "--motion", "RECORDING", arguments->motion.files,
+           "CSV or HDF5 file whose motion is replayed")
       ->expected(1);
   AddLayoutOptions(*parser, arguments->motion.read);
 
   // what changes of it
-  parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
-      ->type_name("ENTRY=VALUE")
+  AddValue(*parser, "--set", "ENTRY=VALUE", arguments->set,
+           "another value for a key, as noise.torque=0.1")
       ->take_all();
   constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
   AddWholeNumber(*parser, "--seed", arguments->seed, 0, largest, "instead of the scenario's");
@@ -158,8 +155,8 @@ Command AddSimulateCommand(CLI::App& program) {
 
   // what is written
   AddChoice(*parser, "--format", arguments->format, {"csv", "h5"}, "of the recording; h5: HDF5");
-  parser->add_option("-o,--output", arguments->output, "directory for the files, made as a whole")
-      ->type_name("DIR")
+  AddValue(*parser, "-o,--output", "DIR", arguments->output,
+           "directory for the files, made as a whole")
       ->required();
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->motion);

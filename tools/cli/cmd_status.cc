@@ -1,12 +1,14 @@
 // warmjoint status RUN: which shards of a planned run lack results; --resubmit starts these again.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
-#include "tools/cluster/run_status.h"
+#include "tools/cluster/slurm.h"
 #include "tools/store/folders.h"
 
 namespace warmjoint {
@@ -17,6 +19,65 @@ struct StatusArguments {
   std::string format = "text";
   bool resubmit = false;
 };
+
+struct RunStatus {
+  std::string suite;
+  int finished = 0;  // units (realizations of all variants) of the shards that are done
+  int total = 0;
+  bool merged = false;
+  std::vector<int> done, running, waiting, missing;  // numbers of shards, ascending
+};
+
+/// By the results that lie in the run and by what Slurm's queue says; without it nothing runs or waits.
+RunStatus StatusOf(const Plan& plan, const std::optional<QueuedShards>& queue) {
+  RunStatus status;
+  status.suite = plan.suite.name;
+  status.merged = plan.IsMerged();
+  for (int number = 1; number <= plan.shards; ++number) {
+    status.total += plan.Units(number);
+    // results first, then what the queue says, then what is left
+    if (plan.IsDone(number)) {
+      status.done.push_back(number);
+      status.finished += plan.Units(number);
+    } else if (queue && std::ranges::binary_search(queue->running, number)) {
+      status.running.push_back(number);
+    } else if (queue && std::ranges::binary_search(queue->waiting, number)) {
+      status.waiting.push_back(number);
+    } else {
+      status.missing.push_back(number);
+    }
+  }
+  return status;
+}
+
+std::string StatusText(const Plan& plan, const RunStatus& status) {
+  std::string text = fmt::format("{}: {} of {} realizations{}\n", status.suite, status.finished,
+                                 status.total, status.merged ? ", merged" : "");
+  text += fmt::format("shards: {} done, {} running, {} waiting, {} missing\n", status.done.size(),
+                      status.running.size(), status.waiting.size(), status.missing.size());
+  // what a person has to do
+  const std::string run = plan.run.string();
+  if (!status.missing.empty()) {
+    text += fmt::format(
+        "missing: {}\nthey were not started, or ended without results: see {}/log. `warmjoint "
+        "status {} --resubmit` submits them; without Slurm `run --local-shards N` goes on\n",
+        Ranges(status.missing), plan.folder().string(), run);
+  } else if (!status.merged && status.finished == status.total) {
+    text += fmt::format("all is there: warmjoint merge {}\n", run);
+  }
+  return text;
+}
+
+nlohmann::json StatusJson(const RunStatus& status) {
+  return {{"suite", status.suite},
+          {"realizations", {{"finished", status.finished}, {"total", status.total}}},
+          {"merged", status.merged},
+          {"shards",
+           {{"done", status.done},
+            {"running", status.running},
+            {"waiting", status.waiting},
+            {"missing", status.missing}}}};
+}
 
 /// Starts again what is lost, and says what it was. Nobody else may plan or submit meanwhile.
 void Resubmit(const Plan& plan) {
@@ -40,8 +101,7 @@ ExitStatus ShowStatus(const StatusArguments& arguments) {
 Command AddStatusCommand(CLI::App& program) {
   auto arguments = std::make_shared<StatusArguments>();
   CLI::App* parser = program.add_subcommand("status", "Which shards of a planned run have results");
-  parser->add_option("RUN", arguments->run, "directory of `run --slurm` or --local-shards")
-      ->type_name("RUN")
+  AddValue(*parser, "RUN", "RUN", arguments->run, "directory of `run --slurm` or --local-shards")
       ->required();
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   parser->add_flag("--resubmit", arguments->resubmit,

@@ -1,9 +1,8 @@
-// The command line as a whole, its subcommands, and their one list.
+// The command line as a whole and its subcommands; their one list is in program.cc.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <vector>
 
 namespace warmjoint {
 
@@ -27,9 +26,6 @@ struct Command {
 /// Reads the command line and runs its subcommand. Throws BadInput for arguments that cannot be
 /// used, with the nearest known option or subcommand.
 ExitStatus RunProgram(int argc, const char* const* argv);
-
-/// Adds all subcommands to the program's command line.
-std::vector<Command> AddCommands(CLI::App& program);
 
 Command AddListCommand(CLI::App& program);
 Command AddNewCommand(CLI::App& program);

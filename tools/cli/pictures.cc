@@ -165,21 +165,17 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
             "paper: 180 mm wide, words of 8 points, black, 300 pixels an inch");
 
   // size and resolution
-  parser
-      .add_option("--size", arguments.size,
-                  "width x height of each picture in mm, as 88x60, or its width alone")
-      ->type_name("WxH");
+  AddValue(parser, "--size", "WxH", arguments.size,
+           "width x height of each picture in mm, as 88x60, or its width alone");
   AddNumber(parser, "--dpi", arguments.dpi, {30, 1200, "30 to 1200"},
             "pixels an inch of PNG; the style's where it is not given");
 
   // titles, and which figures
   AddChoice(parser, "--title", arguments.title, {"shown", "none"},
             "of the figures, which papers give in the caption");
-  parser
-      .add_option("--figure", arguments.figures,
-                  "only this one, by its name, or by the number (3 to 12) of the paper's figure "
-                  "that it repeats")
-      ->type_name("NAME|N")
+  AddValue(parser, "--figure", "NAME|N", arguments.figures,
+           "only this one, by its name, or by the number (3 to 12) of the paper's figure "
+           "that it repeats")
       ->take_all();
 }
 

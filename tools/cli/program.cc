@@ -1,3 +1,4 @@
+// The command line as a whole: its subcommands, and what is said of words that none takes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +20,17 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 1 internal error, 2 bad input, 3 identified nothing trustworthy,\n"
     "4 output could not be written, 5 an identifier answered in no realization of a run,\n"
     "130 interrupted.";
+
+/// Adds all subcommands to the program's command line.
+std::vector<Command> AddCommands(CLI::App& program) {
+  return {
+      AddListCommand(program),   AddNewCommand(program),      AddSimulateCommand(program),
+      AddCheckCommand(program),  AddIdentifyCommand(program), AddPredictCommand(program),
+      AddAttachCommand(program), AddRunCommand(program),      AddStatusCommand(program),
+      AddMergeCommand(program),  AddCompareCommand(program),  AddPlotCommand(program),
+      AddReportCommand(program),
+  };
+}
 
 void AddQuiet(CLI::App& parser) {
   parser.add_flag_callback("-q,--quiet", BeQuiet,

@@ -140,12 +140,10 @@ CLI::Option* AddPairs(CLI::App& parser, const char* name, const char* descriptio
 }  // namespace
 
 void AddRecordingOptions(CLI::App& parser, RecordingSource& source) {
-  parser
-      .add_option("RECORDING", source.files,
-                  "table of text, HDF5 or MATLAB file, or - for a text on standard input; several "
-                  "of one joint, each from a "
-                  "cold start")
-      ->type_name("RECORDING")
+  AddValue(parser, "RECORDING", "RECORDING", source.files,
+           "table of text, HDF5 or MATLAB file, or - for a text on standard input; several "
+           "of one joint, each from a "
+           "cold start")
       ->required();
   AddLayoutOptions(parser, source.read);
 }
@@ -179,29 +177,21 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
       .add_option_function<std::string>(
           "--columns", columns, "names of all columns of a text file, in place of its header")
       ->type_name("NAME,...");
-  parser.add_option("--rate", settings.rate, "samples in a second of a file without time, Hz")
-      ->type_name("HZ");
+  AddValue(parser, "--rate", "HZ", settings.rate, "samples in a second of a file without time, Hz");
 
   // sensors that wrap
-  parser
-      .add_option(
-          "--wrap", settings.wrap,
-          "range after which the position starts again, in its unit; a turn is undone anyway")
-      ->type_name("NUMBER");
+  AddValue(parser, "--wrap", "NUMBER", settings.wrap,
+           "range after which the position starts again, in its unit; a turn is undone anyway");
 
   // the joint and its drive
   AddChoice(
       parser, "--joint", settings.joint, "kind of the joint",
       {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});
-  parser.add_option("--gear", settings.gear, "motor turns for each joint turn")
-      ->type_name("NUMBER")
+  AddValue(parser, "--gear", "NUMBER", settings.gear, "motor turns for each joint turn")
       ->capture_default_str();
-  parser
-      .add_option(
-          "--torque-constant", settings.torque_constant,
-          "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m "
-          "or N of --unit torque=A")
-      ->type_name("NUMBER");
+  AddValue(parser, "--torque-constant", "NUMBER", settings.torque_constant,
+           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m "
+           "or N of --unit torque=A");
   parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
 }
 
@@ -219,16 +209,12 @@ void AddHoldOptions(CLI::App& parser, PrepareSettings& holds) {
 }
 
 void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier) {
-  parser
-      .add_option("--follows", earlier.file,
-                  "recording before this one, or its estimate.json: the heat that it left is "
-                  "there at the start, less what cooled in the pause between")
-      ->type_name("FILE");
-  parser
-      .add_option("--pause", earlier.pause,
-                  "s of rest between the end of --follows and the start of the recording; where "
-                  "their stamps share a clock, these tell it")
-      ->type_name("SECONDS");
+  AddValue(parser, "--follows", "FILE", earlier.file,
+           "recording before this one, or its estimate.json: the heat that it left is "
+           "there at the start, less what cooled in the pause between");
+  AddValue(parser, "--pause", "SECONDS", earlier.pause,
+           "s of rest between the end of --follows and the start of the recording; where "
+           "their stamps share a clock, these tell it");
 }
 
 void TakeProject(const CLI::App& parser, RecordingSource& arguments) {

@@ -1,4 +1,4 @@
-// Options whose value is one of a list, or a number within bounds.
+// Options as help shows them: what is taken as it stands, one of a list, a number within bounds.
 #pragma once
 
 #include <warmjoint/field.h>
@@ -13,6 +13,13 @@
 #include <vector>
 
 namespace warmjoint {
+
+/// Adds an option, or an argument, whose value is taken as it is written. form: what help shows of the value, "FILE".
+template <typename T>
+CLI::Option* AddValue(CLI::App& parser, const std::string& name, const std::string& form, T& value,
+                      const std::string& description) {
+  return parser.add_option(name, value, description)->type_name(form);
+}
 
 /// Where a choice goes: its default, and what takes one that is given.
 struct ChoiceTarget {

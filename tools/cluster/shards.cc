@@ -19,8 +19,8 @@
 #include "models/foundation/bad_input.h"
 #include "tools/board/format_board.h"
 #include "tools/store/folders.h"
-#include "tools/suite/interrupt.h"
-#include "tools/suite/progress.h"
+#include "tools/suite/engine.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
@@ -42,6 +42,19 @@ void CopyWhole(const fs::path& file, const fs::path& target) {
     to.Write({block.data(), static_cast<std::size_t>(from.gcount())});
   }
   to.Commit();
+}
+
+/// Units of the run that `merged` lacks.
+std::set<RunUnit> MissingUnits(const RunStore& merged) {
+  const std::set<RunUnit> finished = merged.Finished();
+  std::set<RunUnit> missing;
+  for (int variant = 0; variant < merged.suite().variants(); ++variant) {
+    for (int realization = 0; realization < merged.suite().realizations; ++realization) {
+      const RunUnit unit{variant, realization};
+      if (!finished.contains(unit)) missing.insert(missing.end(), unit);
+    }
+  }
+  return missing;
 }
 
 /// Starts a shard's process, which dies with this one and says on stderr what goes wrong.
@@ -120,6 +133,30 @@ LocalEnd RunLocally(const Plan& plan, int at_once, const std::vector<std::string
   return end;
 }
 
+MergedRun MergeRuns(const std::vector<fs::path>& shards, const fs::path& directory) {
+  if (shards.empty()) Refuse({directory.string()}, "has no shards to merge; give at least one");
+  // all shards must be of one run, before anything is written
+  const RunDescription description = RunStore::OpenToRead(shards.front()).description();
+  for (const auto& path : shards) {
+    RefuseDifferentRun(description, RunStore::OpenToRead(path).description(), {path.string()});
+  }
+
+  // the merged run is not seen before it is whole
+  AtomicDirectory whole(directory, {});
+  MergedRun outcome;
+  {
+    // rows of all shards, their tables, and what is still missing
+    RunStore merged = RunStore::CreateOrResume(whole.temporary(), description);
+    merged.Gather(shards);
+    WriteTables(merged);
+    outcome.missing = MissingUnits(merged);
+    outcome.units = static_cast<std::size_t>(merged.suite().realizations) *
+                    static_cast<std::size_t>(merged.suite().variants());
+  }
+  whole.Commit();
+  return outcome;
+}
+
 void MergePlanned(const Plan& plan) {
   // all shards are there, and nobody else merges
   const std::vector<int> missing = plan.Open();
@@ -132,7 +169,7 @@ void MergePlanned(const Plan& plan) {
   const DirectoryLock lock(plan.run);
   const TemporaryFolder folder("merge");
   const fs::path whole = folder.path() / "run";
-  MergeRuns(ShardsOf(plan.run), whole, &WriteTables);
+  MergeRuns(ShardsOf(plan.run), whole);
 
   // results.sqlite last: a run that has it is whole
   for (const char* name : {"suite.yaml", "results.csv", "summary.csv", "results.sqlite"}) {

@@ -1,10 +1,14 @@
 #include "tools/suite/engine.h"
 
+#include <ceres/version.h>
 #include <fmt/format.h>
+#include <mujoco/mujoco.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <csignal>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -15,12 +19,18 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "sim/plant/plant.h"
-#include "tools/suite/interrupt.h"
-#include "tools/suite/progress.h"
 #include "tools/suite/run_realization.h"
+#include "tools/terminal/progress_line.h"
 
 namespace warmjoint {
 namespace {
+
+std::atomic<bool> interrupted = false;  // lock-free, so that a handler may set it
+
+extern "C" void OnInterrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
 
 /// Longest time that finished realizations wait for the store, and so what a kill can cost.
 constexpr std::chrono::milliseconds kBatchTime{200};
@@ -163,6 +173,27 @@ int Store(Work& work, RunStore& store,
 }
 
 }  // namespace
+
+RunDescription Describe(const Suite& suite) {
+  RunDescription description;
+  description.suite_yaml = SuiteToYaml(suite);
+  // all that the numbers may depend on
+  description.versions = {
+      {"ceres", CERES_VERSION_STRING},
+      {"eigen",
+       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"mujoco", mj_versionString()},
+      {"warmjoint", Version()},
+  };
+  return description;
+}
+
+void CatchInterrupts() {
+  interrupted = false;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, OnInterrupt);
+}
+
+bool Interrupted() { return interrupted; }
 
 RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
                     const RunOptions& options, RunStore& store) {

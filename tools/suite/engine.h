@@ -9,7 +9,7 @@
 
 #include "scenarios/suite.h"
 #include "tools/store/run_store.h"
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint {
 
@@ -47,6 +47,18 @@ struct Shard {
 
 /// Reads "i/n", 1 <= i <= n. Throws BadInput for anything else.
 Shard ReadShard(const std::string& text);
+
+/// The description of running `suite`, fully resolved, with this program and its libraries.
+RunDescription Describe(const Suite& suite);
+
+// Ctrl-C and kill as a wish: loops look at it and stop where nothing is lost.
+
+/// From here on the first SIGINT, SIGTERM or SIGHUP only sets the wish; a second of the same kind ends
+/// the process at once.
+void CatchInterrupts();
+
+/// Whether one came since CatchInterrupts.
+bool Interrupted();
 
 /// How much of a suite is run, and how.
 struct RunOptions {

@@ -14,7 +14,7 @@
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite_identifier.h"
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/sandbox.h"
 
 namespace warmjoint {

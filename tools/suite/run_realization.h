@@ -15,7 +15,7 @@
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tools/store/run_store.h"
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint {
 

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "tools/terminal/say.h"
 
@@ -40,6 +42,28 @@ class ProgressLine {
 
 /// "45 s", "3 min 20 s", "2 h 5 min".
 std::string DurationInWords(double seconds);
+
+/// Realizations with their rate, failures so far and time left, as ProgressLine shows them. One thread at a time.
+class Progress {
+ public:
+  /// total: of things to do; already: of them done before, with so many failures of each status.
+  Progress(int total, int already, std::map<std::string, int> failures = {})
+      : total_(total), already_(already), failures_(std::move(failures)) {}
+
+  /// Counts finished things, 0 too: time may have come for a line.
+  void Add(int finished);
+  void AddFailure(const std::string& status) { ++failures_[status]; }
+
+  /// "37/50 realizations, 12.4/s, 1 s left, failures: not_converged 3".
+  std::string Line(double seconds) const;
+
+ private:
+  int total_;
+  int already_;
+  int finished_ = 0;
+  std::map<std::string, int> failures_;
+  ProgressLine line_;
+};
 
 /// What a command does now, for work that counts no steps: from the first second on a ProgressLine such as
 /// "fitting energy-ml, 12 s", drawn by a thread of its own. While it lives, an interrupt ends the program as
