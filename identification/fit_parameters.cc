@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "models/friction/thermal.h"
@@ -79,13 +80,12 @@ std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measureme
   return rows;
 }
 
-FitParameter StartParameter(int recording, double energy, const Measurements& measurements) {
-  return {NameOf(Role::start, recording), recording == 0 ? Role::start : Role::jump, energy,
-          measurements.torque_unit};
+FitParameter StartParameter(double energy, const Measurements& measurements) {
+  return {NameOf(Role::start), Role::start, energy, measurements.torque_unit};
 }
 
-FitParameter JumpParameter(int which, double energy, const Measurements& measurements) {
-  return {NameOf(Role::jump, which), Role::jump, energy, measurements.torque_unit};
+FitParameter JumpParameter(std::string name, double energy, const Measurements& measurements) {
+  return {std::move(name), Role::jump, energy, measurements.torque_unit};
 }
 
 std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,

@@ -15,7 +15,7 @@ namespace warmjoint {
 inline constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag";
 
 /// The name of the which-th row with a role, of those whose names depend neither on the law nor on the
-/// kind of gravity: heat (gain, time constant), start, jump, inertia and lag.
+/// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia and lag.
 std::string NameOf(Role role, int which = 0);
 
 /// A parameter of any table with its value.
@@ -29,11 +29,11 @@ std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& v
 /// thermal_gain and thermal_time_constant, the latter by its logarithm.
 std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
 
-/// initial_energy, initial_energy_2, ...: E with which the recording begins, from 0 on. energy: N.m or N
-FitParameter StartParameter(int recording, double energy, const Measurements& measurements);
+/// initial_energy: E(0), N.m or N.
+FitParameter StartParameter(double energy, const Measurements& measurements);
 
-/// A change of E where no loss tells it: energy_jump_1, ... at the which-th gap, from 0 on. energy: N.m or N
-FitParameter JumpParameter(int which, double energy, const Measurements& measurements);
+/// A change of E that no logged loss tells, by its name (JumpNames). energy: N.m or N
+FitParameter JumpParameter(std::string name, double energy, const Measurements& measurements);
 
 /// gravity_sine and gravity_cosine, or gravity_offset; of `paired`, whose knots are many, rows
 /// without an interval that reports leave out.

@@ -32,7 +32,7 @@ struct Layout {
     Eigen::Index size;
   };
   /// With these parts in this order.
-  static Layout InOrder(std::initializer_list<Part> parts) {
+  static Layout InOrder(const std::vector<Part>& parts) {
     Layout layout;
     Eigen::Index next = 0;
     for (const Part& one : parts) {
@@ -40,6 +40,13 @@ struct Layout {
       next += one.size;
     }
     return layout;
+  }
+
+  /// The same parts in another order.
+  Layout Reordered(std::initializer_list<Slice Layout::*> order) const {
+    std::vector<Part> parts;
+    for (const auto part : order) parts.push_back({part, (this->*part).size});
+    return InOrder(parts);
   }
 
   Eigen::Index size() const {

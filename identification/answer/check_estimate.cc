@@ -39,7 +39,7 @@ Fit FitOf(const Estimate& estimate, const Measurements& m) {
   }
   if (const EstimatedParameter* start = Find(Role::start, estimate)) {
     fit.initial_energy = start->value;
-    fit.parameters.push_back(StartParameter(0, start->value, m));
+    fit.parameters.push_back(StartParameter(start->value, m));
   }
   return fit;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/inference/apply.h"
 #include "identification/lack_of_fit/remedies.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/table.h"

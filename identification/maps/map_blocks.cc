@@ -72,8 +72,7 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
     : input_(input),
       task_(task),
       initial_(initial),
-      starts_(initial.is_open() ? FurtherStarts(input.measurements, input.selection)
-                                : std::vector<LogGap>()),
+      starts_(FreeStarts(initial, input.measurements, input.selection)),
       gaps_(Merged(FindGaps(input.measurements), starts_)),
       kept_(WithoutRest(input.selection, input.measurements).keep.cast<double>()) {}
 

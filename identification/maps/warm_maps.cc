@@ -133,22 +133,14 @@ ThermalFit Joined(const WarmMaps& warm) {
   return joined;
 }
 
-/// The order of a joined fit by its parts, and that of JointUncertainty.
-Layout JoinedLayout(const Layout& maps, const Layout& joined) {
+/// The unknowns of a joined fit by their parts. maps: of law and maps; joined: of that fit
+Layout JoinedParts(const Layout& maps, const Layout& joined) {
   return Layout::InOrder({{&Layout::law, maps.law.size},
                           {&Layout::weights, maps.weights.size},
                           {&Layout::heat, joined.heat.size},
                           {&Layout::start, joined.start.size},
                           {&Layout::jumps, joined.jumps.size},
                           {&Layout::rigid, maps.rigid.size}});
-}
-Layout JointLayout(const Layout& maps, const Layout& joined) {
-  return Layout::InOrder({{&Layout::law, maps.law.size},
-                          {&Layout::rigid, maps.rigid.size},
-                          {&Layout::weights, maps.weights.size},
-                          {&Layout::heat, joined.heat.size},
-                          {&Layout::start, joined.start.size},
-                          {&Layout::jumps, joined.jumps.size}});
 }
 
 /// Of all unknowns. jacobian: [n x p]; prior: [p]; residual: [n]
@@ -198,9 +190,10 @@ JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& w
   // derivatives of torque and of E at the end by all unknowns
   const ThermalFit joined = Joined(warm);
   JointUncertainty result;
-  result.layout = JointLayout(warm.fit.layout, joined.layout);
-  const std::vector<Eigen::Index> order =
-      JoinedLayout(warm.fit.layout, joined.layout).PlacesOf(result.layout);
+  const Layout parts = JoinedParts(warm.fit.layout, joined.layout);
+  result.layout = parts.Reordered({&Layout::law, &Layout::rigid, &Layout::weights, &Layout::heat,
+                                   &Layout::start, &Layout::jumps});
+  const std::vector<Eigen::Index> order = parts.PlacesOf(result.layout);
   const Eigen::MatrixXd jacobian =
       Kept(WarmJacobian(loop, warm.task.rigid.columns, joined), input.selection)(Eigen::all, order);
   Eigen::VectorXd of_end = Eigen::VectorXd::Zero(joined.layout.size());

@@ -11,11 +11,11 @@ CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) 
     start.energy = found->value;
   }
   // each gap and each further recording has its own, 0 where none was estimated
-  int gap = 0, recording = 1;
-  for (const LogGap& at : Merged(FindGaps(measurements), FurtherStarts(measurements))) {
-    const EstimatedParameter* found =
-        IsStart(at) ? Find(Role::start, estimate, recording++) : Find(Role::jump, estimate, gap++);
-    if (found) start.jumps.push_back({at.behind, found->value});
+  const std::vector<LogGap> gaps = Merged(FindGaps(measurements), FurtherStarts(measurements));
+  const std::vector<std::string> names = JumpNames(gaps, measurements);
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    const EstimatedParameter* found = estimate.Find(names[i]);
+    if (found) start.jumps.push_back({gaps[i].behind, found->value});
   }
   return start;
 }

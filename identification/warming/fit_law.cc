@@ -58,8 +58,7 @@ std::string AddHeat(LawFit& law) {
   // first without gaps, with E(0) as the options have it: where it is open, so is that of each further recording
   LawProblem& problem = law.problem;
   const InitialEnergy initial = InitialEnergyOf(law.input().options);
-  std::vector<LogGap> starts;
-  if (initial.is_open()) starts = FurtherStarts(law.measurements(), law.input().selection);
+  const std::vector<LogGap> starts = FreeStarts(initial, law.measurements(), law.input().selection);
   problem.TakeJumps(starts, JumpSpread(starts, 0, 1));
   law.scanned = problem.Scan(law.measurements().torque, law.fit);
   law.rows.scale = std::sqrt(law.nominal_squares / static_cast<double>(law.rows.torque.size()));
@@ -407,17 +406,13 @@ std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<Lo
                                     const Measurements& measurements) {
   std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
   if (warm.estimates_initial_energy()) {
-    rows.push_back(StartParameter(0, warm.initial_energy(), measurements));
+    rows.push_back(StartParameter(warm.initial_energy(), measurements));
   }
-  // the jumps in the order of x, each by what it stands at
+  // the jumps in the order of x
   const Eigen::VectorXd jumps = warm.jumps();
-  const std::vector<Eigen::Index>& starts = measurements.starts;
-  int gap = 0;
-  for (Eigen::Index i = 0; i < jumps.size(); ++i) {
-    const LogGap& at = gaps[static_cast<size_t>(i)];
-    const auto recording = std::ranges::upper_bound(starts, at.behind) - starts.begin();
-    rows.push_back(IsStart(at) ? StartParameter(static_cast<int>(recording), jumps[i], measurements)
-                               : JumpParameter(gap++, jumps[i], measurements));
+  const std::vector<std::string> names = JumpNames(gaps, measurements);
+  for (size_t i = 0; i < names.size(); ++i) {
+    rows.push_back(JumpParameter(names[i], jumps[static_cast<Eigen::Index>(i)], measurements));
   }
   return rows;
 }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 
+#include "identification/fit_parameters.h"
 #include "models/friction/thermal.h"
 #include "models/recording/measurements.h"
 
@@ -47,17 +48,17 @@ std::vector<LogGap> FurtherStarts(const Measurements& measurements) {
   return starts;
 }
 
-std::vector<LogGap> FurtherStarts(const Measurements& measurements, const Selection& kept) {
-  std::vector<LogGap> starts = FurtherStarts(measurements);
-  for (size_t i = starts.size(); i-- > 0;) {
-    const Eigen::Index begin = measurements.starts[i];
-    const Eigen::Index end =
-        i + 1 < measurements.starts.size() ? measurements.starts[i + 1] : measurements.size();
-    if (!kept.keep.segment(begin, end - begin).any()) {
-      starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+std::vector<LogGap> FreeStarts(const InitialEnergy& initial, const Measurements& measurements,
+                               const Selection& kept) {
+  std::vector<LogGap> free;
+  if (!initial.is_open()) return free;
+  const std::vector<LogGap> all = FurtherStarts(measurements);
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Eigen::Index begin = all[i].behind;
+    const Eigen::Index end = i + 1 < all.size() ? all[i + 1].behind : measurements.size();
+    if (kept.keep.segment(begin, end - begin).any()) free.push_back(all[i]);
   }
-  return starts;
+  return free;
 }
 
 std::vector<LogGap> Merged(const std::vector<LogGap>& one, const std::vector<LogGap>& other) {
@@ -74,6 +75,19 @@ Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, doub
                          : warmest * HoldOver(gaps[i].length, time_constant).cooling;
   }
   return spread;
+}
+
+std::vector<std::string> JumpNames(const std::vector<LogGap>& gaps,
+                                   const Measurements& measurements) {
+  std::vector<std::string> names;
+  int gap = 0;
+  for (const LogGap& at : gaps) {
+    const auto recording =
+        std::ranges::upper_bound(measurements.starts, at.behind) - measurements.starts.begin();
+    names.push_back(IsStart(at) ? NameOf(Role::start, static_cast<int>(recording))
+                                : NameOf(Role::jump, gap++));
+  }
+  return names;
 }
 
 std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps) {

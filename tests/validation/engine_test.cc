@@ -13,6 +13,7 @@
 #include "models/robots/robot_folder.h"
 #include "sim/model/load_model.h"
 #include "sim/plant/plant.h"
+#include "tests/support/bristle_recording.h"
 #include "tests/support/emps_log.h"
 #include "tests/support/judging.h"
 #include "tests/tools/scratch_directory.h"
@@ -178,15 +179,7 @@ TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
 }
 
 TEST(LuGreInTheEngine, ComesBackFromSlowAndSmallTurns) {
-  Scenario scenario = InTheEngine("rotary", "hinge",
-                                  {"lugre",
-                                   {{"viscous", 5},
-                                    {"coulomb", 15},
-                                    {"static", 20},
-                                    {"stribeck_velocity", 0.05},
-                                    {"bristle_stiffness", 2000},
-                                    {"bristle_damping", 40}},
-                                   {}});
+  Scenario scenario = InTheEngine("rotary", "hinge", test::LuGreJoint());
   scenario.motion.speed_list = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1};
   scenario.motion.travel = {{-0.04, 0.04}};
   scenario.motion.order = SegmentOrder::shuffled;

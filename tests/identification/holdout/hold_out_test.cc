@@ -80,7 +80,7 @@ TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
   const auto identify = [](const IdentifierInput& input) {
     Fit fit = KnowTableOne(input);
     fit.jump_samples = {100};
-    fit.parameters = {JumpParameter(0, -2, input.measurements)};
+    fit.parameters = {JumpParameter(NameOf(Role::jump), -2, input.measurements)};
     fit.parameters[0].estimated = false;
     return fit;
   };
