@@ -27,7 +27,7 @@ std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& va
 
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters) {
   // what every fit uses must be finite
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   if (auto why = NotFinite("time", m.time)) return why;
   if (auto why = NotFinite("velocity", m.velocity)) return why;
   if (auto why = NotFinite("torque", m.torque)) return why;
@@ -85,7 +85,7 @@ std::string UnitFor(const ParameterInfo& info, const Measurements& measurements)
   return measurements.torque_unit + std::string(table.substr(torque.size()));
 }
 
-std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,
+std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& measurements,
                        const Selection& selection) {
   // which speeds there are, and whether in both directions
   const Eigen::VectorXd velocity = Kept(measurements.velocity, selection);
@@ -101,7 +101,7 @@ std::string Indistinct(const std::vector<std::string>& mixed, const Measurements
 }
 
 std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
-                       const Measurements& measurements, const Selection& selection) {
+                       const LogSamples& measurements, const Selection& selection) {
   std::vector<std::string> names;
   for (const Eigen::Index i : mixed) {
     names.emplace_back(law.parameters[static_cast<size_t>(i)].name);

@@ -41,12 +41,12 @@ std::string UnitFor(const ParameterInfo& info, const Measurements& measurements)
 
 /// Names of the columns that cannot be told apart, and the motion that would: one sentence.
 /// mixed: names of law parameters.
-std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,
+std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& measurements,
                        const Selection& selection);
 
 /// The same of a law's columns. mixed: their indices.
 std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
-                       const Measurements& measurements, const Selection& selection);
+                       const LogSamples& measurements, const Selection& selection);
 
 /// The sentence on a fitted friction that pushes at a time (s) and so would feed itself.
 std::string WouldFeedItself(double time, std::string_view remedy);

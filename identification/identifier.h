@@ -62,7 +62,7 @@ class IdentifierInput {
 
   const PreparedLog log;
   const View view;
-  const Measurements& measurements;
+  const LogSamples& measurements;
   const Selection& selection;  // filter over all samples, fit on those kept
   const Options options;
   const StartKey start;  // for identifiers that draw their start
@@ -73,7 +73,7 @@ class IdentifierInput {
                   StartKey key, Narrator listener)
       : IdentifierInput(std::move(of), through, seen.measurements, seen.selection, given_options,
                         key, std::move(listener)) {}
-  IdentifierInput(PreparedLog of, View through, const Measurements& samples, const Selection& kept,
+  IdentifierInput(PreparedLog of, View through, const LogSamples& samples, const Selection& kept,
                   const Options& given_options, StartKey key, Narrator listener)
       : log(std::move(of)),
         view(through),

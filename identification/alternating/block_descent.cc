@@ -109,14 +109,14 @@ OutputError::Fit OutputError::Refine(const Eigen::VectorXd& energy, double start
   return {{here.gain, std::exp(theta)}, here.cost, theta > lower && theta < upper};
 }
 
-BlockDescent::BlockDescent(const Measurements& measurements, const Selection& moving,
+BlockDescent::BlockDescent(const LogSamples& measurements, const Selection& moving,
                            const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                            const Eigen::VectorXd& gravity)
     : cofactor_(cofactor),
       // (19) with the measured torque
       output_error_(measurements.time,
                     (measurements.torque - gravity).cwiseProduct(measurements.velocity).cwiseAbs(),
-                    moving, measurements.starts),
+                    moving, measurements.further_starts),
       kept_(static_cast<double>(moving.count())) {
   const Eigen::VectorXd keep = moving.keep.cast<double>();
   const Eigen::VectorXd& v = measurements.velocity;

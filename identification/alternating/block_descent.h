@@ -1,7 +1,7 @@
 // The loop of Algorithm 1: energy and nominal friction fitted in turn.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 
@@ -68,7 +68,7 @@ class BlockDescent {
   /// columns: [N x d] regressor of Fn + G over all samples; cofactor: [d x d] (A^T A)^-1 of the
   /// kept moving ones, with the prior's strength where there are kernels; gravity: [N] G, which
   /// makes no heat, N.m or N.
-  BlockDescent(const Measurements& measurements, const Selection& moving,
+  BlockDescent(const LogSamples& measurements, const Selection& moving,
                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                const Eigen::VectorXd& gravity);
 

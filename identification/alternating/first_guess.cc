@@ -41,7 +41,7 @@ struct Spread {
 
 class Envelope {
  public:
-  Envelope(const Measurements& m, const Selection& selection);
+  Envelope(const LogSamples& m, const Selection& selection);
 
   /// Up to the first window that holds no kept sample: what follows a long rest is colder again.
   const std::vector<Window>& windows() const { return windows_; }
@@ -49,19 +49,19 @@ class Envelope {
   double noise() const { return noise_; }  // standard deviation of a window's level, N.m or N
 
  private:
-  size_t IndexOf(const Measurements& m, Eigen::Index i) const {
+  size_t IndexOf(const LogSamples& m, Eigen::Index i) const {
     const auto index = static_cast<size_t>((m.time[i] - m.time[0]) / width_);
     return std::min<size_t>(index, kWindows - 1);
   }
-  void Average(const Measurements& m, const Selection& selection);
-  Spread SpreadWithin(const Measurements& m, const Selection& selection) const;
+  void Average(const LogSamples& m, const Selection& selection);
+  Spread SpreadWithin(const LogSamples& m, const Selection& selection) const;
 
   double width_;
   double noise_ = 0;
   std::vector<Window> windows_{kWindows};
 };
 
-Envelope::Envelope(const Measurements& m, const Selection& selection)
+Envelope::Envelope(const LogSamples& m, const Selection& selection)
     : width_((m.time[m.size() - 1] - m.time[0]) / kWindows) {
   Average(m, selection);
 
@@ -84,7 +84,7 @@ Envelope::Envelope(const Measurements& m, const Selection& selection)
   windows_.resize(used);
 }
 
-void Envelope::Average(const Measurements& m, const Selection& selection) {
+void Envelope::Average(const LogSamples& m, const Selection& selection) {
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     // losses and motion of all samples, friction of those that a fit uses
     Window& window = windows_[IndexOf(m, i)];
@@ -106,7 +106,7 @@ void Envelope::Average(const Measurements& m, const Selection& selection) {
   }
 }
 
-Spread Envelope::SpreadWithin(const Measurements& m, const Selection& selection) const {
+Spread Envelope::SpreadWithin(const LogSamples& m, const Selection& selection) const {
   Spread spread;
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     if (!selection.keep[i]) continue;
@@ -154,7 +154,7 @@ TorqueEnvelope Describe(const Envelope& envelope, double cold, double settled) {
 
 }  // namespace
 
-FirstGuess GuessThermal(const Measurements& measurements, const Selection& selection) {
+FirstGuess GuessThermal(const LogSamples& measurements, const Selection& selection) {
   const Envelope envelope(measurements, selection);
   const std::vector<Window>& windows = envelope.windows();
   const size_t count = windows.size();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/friction.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -33,6 +33,6 @@ struct FirstGuess {
 /// The paper's (25) takes tau = t63; but losses fall as friction does, so that warming is faster
 /// than the filter by 1 - k |v| (with E in |F v|, Eqs. (19)-(21), at a constant speed).
 /// Refused with a sentence where the level does not change, or has not settled in the last quarter.
-FirstGuess GuessThermal(const Measurements& measurements, const Selection& selection);
+FirstGuess GuessThermal(const LogSamples& measurements, const Selection& selection);
 
 }  // namespace warmjoint

@@ -1,6 +1,6 @@
 #include "identification/alternating/nominal_part.h"
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
@@ -53,7 +53,7 @@ std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) con
 }
 
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier) {
-  const Measurements& m = given.measurements;
+  const LogSamples& m = given.measurements;
   const Law& law = *given.options.Get<LawOption>().law;
   NominalPart part;
   // gravity, where it is asked for

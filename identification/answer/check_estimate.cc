@@ -13,13 +13,14 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/significance.h"
 #include "identification/linear/least_squares.h"
+#include "identification/report/report_fit.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 namespace {
 
 /// The fit that the estimate's friction stands for: a table of its law, heat and start.
-Fit FitOf(const Estimate& estimate, const Measurements& m) {
+Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   Fit fit;
   fit.identifier = estimate.identifier;
   fit.friction = *estimate.friction;
@@ -68,7 +69,16 @@ void TakeOver(const Fit& fit, Inference inference, Estimate& estimate) {
   estimate.warnings = std::move(inference.warnings);
   estimate.diagnostics = std::move(inference.diagnostics);
   estimate.assumptions = std::move(inference.assumptions);
-  if (!inference.gives_friction) estimate.friction.reset();
+  // the numbers that others would use
+  if (inference.gives_friction) {
+    estimate.friction = ReportedFriction(fit, inference);
+  } else {
+    estimate.friction.reset();
+    estimate.covariance.reset();
+    estimate.bands.clear();
+    estimate.friction_at_speeds.clear();
+    estimate.state_end.clear();
+  }
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto one =
         std::ranges::find(estimate.parameters, fit.parameters[i].name, &EstimatedParameter::name);
@@ -85,7 +95,7 @@ void TakeOver(const Fit& fit, Inference inference, Estimate& estimate) {
 /// of d is beyond noise: of p parameters, at an error level of 1 % for all (Bonferroni). inference: of
 /// the fit; selection: samples at constant speed.
 std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
-                                 const Measurements& measurements, const Selection& selection,
+                                 const LogSamples& measurements, const Selection& selection,
                                  const LackOfFitSettings& judging) {
   const std::optional<FittedModel> model = EvaluateModel(fit, inference, measurements, selection);
   if (!model || !model->residual.allFinite() || !model->derivatives.allFinite())

@@ -30,7 +30,7 @@ constexpr double kUnresolvedPath = 5e-3;  // share of the path
 
 /// The row that refuses an answer that is worthless whatever the tests let pass: it rests on next to nothing of the log, or one
 /// number, the mean of the torque, follows it better beyond chance.
-std::optional<Cause> FloorCause(const Fit& fit, const Measurements& m, const Inference& by_noise) {
+std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& by_noise) {
   const auto used = static_cast<double>(fit.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {

@@ -69,9 +69,9 @@ ClosedLoop::Rows ClosedLoop::Signed(const Eigen::MatrixXd& columns) const {
   return rows;
 }
 
-ClosedLoop ClosedLoop::Along(const Measurements& m, const Eigen::MatrixXd& columns,
+ClosedLoop ClosedLoop::Along(const LogSamples& m, const Eigen::MatrixXd& columns,
                              const Eigen::MatrixXd& loss_columns) {
-  ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+  ClosedLoop loop(m.time, m.velocity, columns, m.further_starts);
   if (m.mean_speed) loop.speed_ = *m.mean_speed;
   if (loss_columns.size() > 0) loop.loss_levels_ = loop.Signed(loss_columns);
   return loop;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/friction.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -61,7 +61,7 @@ class ClosedLoop {
 
   /// Along a recording. Where it tells mean speeds, these make the losses, with loss_columns, which are
   /// `columns` at its loss velocity; empty: the same. Both [N x d].
-  static ClosedLoop Along(const Measurements& measurements, const Eigen::MatrixXd& columns,
+  static ClosedLoop Along(const LogSamples& measurements, const Eigen::MatrixXd& columns,
                           const Eigen::MatrixXd& loss_columns = {});
 
   /// The same loop whose E jumps at samples, ascending: [J]

@@ -4,7 +4,7 @@
 
 namespace warmjoint {
 
-MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& energy) {
+MapPoints PointsOf(const LogSamples& measurements, const Eigen::VectorXd& energy) {
   MapPoints points = MapPoints::Zero(measurements.size(), 5);
   const auto column = [&](MapQuantity quantity) { return points.col(static_cast<int>(quantity)); };
   column(MapQuantity::position) = measurements.position;

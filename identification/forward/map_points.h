@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/friction.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 
@@ -14,7 +14,7 @@ using MapPoints = Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor>;
 
 /// The motor position is the logged one, else gear times the joint's; a load that is not logged is
 /// 0. energy: [N] E, N.m or N; empty: 0.
-MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& energy = {});
+MapPoints PointsOf(const LogSamples& measurements, const Eigen::VectorXd& energy = {});
 
 /// One row of it. row: of `points`.
 MapPoint<double> PointAt(const MapPoints& points, Eigen::Index row);

@@ -22,8 +22,8 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
 }
 
 /// Whether the heat with which recordings begin is free, so that a fit knows that of no recording that it has not seen.
-bool HasOwnStarts(const Fit& fit, const Measurements& measurements) {
-  return fit.RowOf(Role::start) && !measurements.starts.empty();
+bool HasOwnStarts(const Fit& fit, const LogSamples& measurements) {
+  return fit.RowOf(Role::start) && !measurements.further_starts.empty();
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
   test.keep.head(before) = false;
   const bool own_starts = HasOwnStarts(first->fit, input.measurements);
   if (own_starts) {
-    const std::vector<Eigen::Index>& starts = input.measurements.starts;
+    const std::vector<Eigen::Index>& starts = input.measurements.further_starts;
     const auto unseen = std::ranges::lower_bound(starts, before);
     if (unseen != starts.end()) test.keep.tail(input.measurements.size() - *unseen) = false;
   }

@@ -1,13 +1,13 @@
 #include "identification/holdout/predict_torque.h"
 
 #include "identification/fit_data.h"
+#include "identification/forward/log_course.h"
 #include "identification/physical_bounds.h"
 #include "models/foundation/low_pass.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 
-TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, Selection asked,
+TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& m, Selection asked,
                                const CourseStart& start) {
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
   // friction, and inertia where the log has an acceleration
@@ -34,7 +34,7 @@ TorqueModel ModelOf(const Fit& fit) {
   return model;
 }
 
-std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
+std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
                                 const CourseStart& start) {
   if (!GivesFriction(fit)) return std::nullopt;
   const Friction& friction = fit.friction;

@@ -3,7 +3,7 @@
 
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <optional>
 
@@ -28,7 +28,7 @@ struct TorquePrediction {
 
 /// Along the motion from its first sample on, from `start`. Inertia acts where the log has an
 /// acceleration (MovingView). asked: samples that are to be compared.
-TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& measurements,
+TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& measurements,
                                Selection asked, const CourseStart& start);
 
 /// What the fit knows of the torque, its lag on the way into the log too.
@@ -38,7 +38,7 @@ TorqueModel ModelOf(const Fit& fit);
 /// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction
 /// runs from the first sample on, from `start`. Nothing where the fit gives no
 /// friction or no sample is left.
-std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
+std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
                                 const CourseStart& start);
 
 }  // namespace warmjoint

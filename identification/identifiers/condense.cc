@@ -19,7 +19,7 @@ constexpr double kTurnParts = 24;
 int Direction(double velocity) { return velocity > 0 ? 1 : velocity < 0 ? -1 : 0; }
 
 /// How far the joint may go within a row, rad or m.
-double LongestWay(const Measurements& m) {
+double LongestWay(const LogSamples& m) {
   const double travel = m.position.maxCoeff() - m.position.minCoeff();
   const double way = travel / kTravelParts;
   if (!KnowsMotorAngle(m)) return way;
@@ -38,7 +38,7 @@ Eigen::ArrayXi SegmentOf(const LogView& all) {
 
 /// First sample of each row, and N.
 std::vector<Index> RowsOf(const LogView& all, Index together) {
-  const Measurements& m = all.measurements;
+  const LogSamples& m = all.measurements;
   const auto& keep = all.selection.keep;
   const Eigen::ArrayXi segment = SegmentOf(all);
   const double longest = LongestStep(m.time), way = LongestWay(m);
@@ -46,7 +46,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
   size_t next = 0;  // recording
   // a row ends where the motion, the segment or the recording does
   for (Index i = 1; i < m.size(); ++i) {
-    const bool starts = next < m.starts.size() && m.starts[next] == i;
+    const bool starts = next < m.further_starts.size() && m.further_starts[next] == i;
     if (starts) ++next;
     const Index begin = first.back();
     const bool alike = keep[i] == keep[begin] && segment[i] == segment[begin] &&
@@ -91,7 +91,7 @@ CondensedLog Condense(const LogView& all, Index rows) {
   // the samples of a row are kept or left out together
   view.selection.keep.resize(count);
   for (Index r = 0; r < count; ++r) view.selection.keep[r] = all.selection.keep[first[r]];
-  for (Index& start : view.measurements.starts) start = row(start);
+  for (Index& start : view.measurements.further_starts) start = row(start);
   // gaps are those of the samples themselves
   view.measurements.gaps = GapsOf(all.measurements.time);
   for (LogGap& gap : *view.measurements.gaps) gap.behind = row(gap.behind);

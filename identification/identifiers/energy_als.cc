@@ -155,7 +155,7 @@ Convergence Judge(const std::vector<DescentState>& states, const Eigen::VectorXd
 }
 
 /// First kept sample whose fitted friction pushes instead of braking, or -1.
-Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted) {
+Eigen::Index FeedsItselfAt(const LogSamples& m, const Eigen::VectorXd& fitted) {
   for (Eigen::Index i = 0; i < fitted.size(); ++i) {
     if (FeedsItself(m.velocity[i], fitted[i])) return i;
   }
@@ -163,7 +163,7 @@ Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted)
 }
 
 /// Why the last state deserves no numbers; nothing where it does. friction: fitted, [N] N.m or N.
-std::optional<Refusal> WhyRefused(const Measurements& m, const DescentState& last,
+std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
                                   const Eigen::VectorXd& friction) {
   if (!last.inside) {
     return Refusal{Status::not_identifiable,
@@ -233,7 +233,7 @@ Uncertainty OfTable(const NominalPart& part, Eigen::Index d, Uncertainty known) 
 
 /// Law, warming, gravity and maps of the last state: the model and its table.
 Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const DescentState& last) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Law& law = *input.options.Get<LawOption>().law;
   const Eigen::VectorXd values =
       last.nominal.head(static_cast<Eigen::Index>(law.parameters.size()));

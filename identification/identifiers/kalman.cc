@@ -11,7 +11,7 @@
 // last pass moved a parameter by more than its standard deviation; not_identifiable as energy-ml.
 // The trace holds parameters and energy at 50 moments of the last pass.
 #include <fmt/format.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -37,7 +37,7 @@ namespace {
 /// The recording as the filters read it, and what it tells beforehand.
 struct KalmanTrack {
   const Law& law;
-  const Measurements& measurements;
+  const LogSamples& measurements;
   const Selection& selection;
   ClosedLoop loop;
   Eigen::VectorXd column_rms;  // [d] of the law's columns over the kept samples
@@ -255,7 +255,7 @@ Refusal RanAway() { return {Status::not_converged, "the filters ran away", Frict
 std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const Ending& ending,
                                   const LeastSquares& joint, const LoopResponse& response,
                                   double nominal_squares) {
-  const Measurements& m = track.measurements;
+  const LogSamples& m = track.measurements;
   const Eigen::Index p = ending.x.size() + 2;
 
   // how clearly the warming is seen, and how well its time constant is known
@@ -282,7 +282,7 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
 /// The fit that the last pass makes, with its verdict. nominal_squares: of the fit without warming.
 Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
              double nominal_squares) {
-  const Measurements& m = track.measurements;
+  const LogSamples& m = track.measurements;
   const KalmanPass& last = passes.back();
   const Ending ending = EndingOf(last);
   const auto& [x, thermal] = ending;
@@ -327,10 +327,10 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
 }
 
 Fit FitOnline(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Law& law = *input.options.Get<LawOption>().law;
   const auto d = static_cast<int>(law.parameters.size());
-  if (!m.starts.empty()) {
+  if (!m.further_starts.empty()) {
     return Refused(
         kName, Status::bad_data,
         "kalman follows one recording; give one, or try --identifier energy-ml for several");

@@ -49,13 +49,13 @@ double Lowest(const F& f, double a, double b) {
 /// section within a factor of four to both sides of `start`. A fit without c would give k and tau a
 /// part of it.
 Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal& start) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   // torque and law over samples that a fit uses, losses over all
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const Eigen::VectorXd velocity = Kept(m.velocity, input.selection);
   const Eigen::MatrixXd columns = Kept(LawColumns(law, m.velocity), input.selection);
   const Eigen::VectorXd loss = m.torque.cwiseProduct(m.velocity).cwiseAbs();
-  const ThermalFilter filter(m.time, m.starts);
+  const ThermalFilter filter(m.time, m.further_starts);
 
   // law, k and c at a given tau: k and the squares that are left
   const auto fit = [&](double time_constant) {

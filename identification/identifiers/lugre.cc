@@ -175,7 +175,7 @@ constexpr double kNothingKnown = 2.35;     // the same: a factor of 100
 /// the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
 std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const FallingLaw& law,
                                            double distance) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Selection steady = SteadySamples(input, distance);
   if (steady.count() < 8) return std::nullopt;
 
@@ -219,7 +219,7 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& sca
 }
 
 /// Why bristle_stiffness cannot be told, or bristle_damping; nothing where they can.
-std::optional<std::string> UnidentifiableBristle(const Measurements& m, const LugreProblem& problem,
+std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const LugreProblem& problem,
                                                  const LugreAnswer& answer) {
   const double stiffness = answer.Deviation(problem.log_stiffness());
   if (!(stiffness < kImpreciseBristle)) {
@@ -268,8 +268,7 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
 }
 
 /// Law and, where it is estimated, inertia at a point: the model and its table.
-void SetModel(const Measurements& m, const LugreProblem& problem, const LugrePoint& point,
-              Fit& fit) {
+void SetModel(const LogSamples& m, const LugreProblem& problem, const LugrePoint& point, Fit& fit) {
   const Law& law = problem.law->law;
   const std::vector<double> p = LugreValuesAt(problem, point);
   const Eigen::Map<const Eigen::VectorXd> values(p.data(), static_cast<Eigen::Index>(p.size()));
@@ -308,7 +307,7 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProbl
 }
 
 /// Voids a fit that misses what happens around turns.
-void JudgeTurns(const Measurements& m, const NoiseOfGroups& noise, Fit& fit) {
+void JudgeTurns(const LogSamples& m, const NoiseOfGroups& noise, Fit& fit) {
   const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
   if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
   fit.causes.push_back(Voids(
@@ -327,15 +326,16 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   if (fit.refusal) return;
 
   // the model, and how well it fits
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   SetModel(m, problem, answer.fit.solution, fit);
   fit.used = problem.used;
   fit.inertia_torque = answer.fit.solution.x[problem.inertia()] * problem.acceleration;
   // friction with which each recording begins: the load of the bristle and the viscous part
   const double viscous = answer.fit.solution.x[0];
+  const std::vector<SampleRange> recordings = m.Recordings();
   for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
-    const Eigen::Index first = r == 0 ? 0 : m.starts[r - 1];
-    fit.first_friction.push_back(answer.fit.loads[r] + viscous * problem.motion.velocity(first));
+    const double velocity = problem.motion.velocity(recordings[r].first);
+    fit.first_friction.push_back(answer.fit.loads[r] + viscous * velocity);
   }
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = fit.torque - answer.fit.residual.cwiseProduct(problem.deviation);
@@ -380,7 +380,7 @@ struct LuGreOptions {
 
 Fit FitLugre(const IdentifierInput& given) {
   const IdentifierInput input = given.Through(View::raw);
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const auto& options = input.options.Get<LuGreOptions>();
   const FallingLaw& law = *options.law;
   if (auto why = Unusable(input, static_cast<int>(law.levels()) + 5)) {

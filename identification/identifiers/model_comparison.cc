@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "identification/fit_data.h"
+#include "identification/forward/log_course.h"
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -156,7 +157,7 @@ std::optional<double> ModelComparison::LagOfBest(const IdentifierInput& all) con
 bool ModelComparison::MayHaveMap() const {
   const Trial* best = BestTrial();
   if (!best) return true;
-  const Measurements& m = log_.view.measurements;
+  const LogSamples& m = log_.view.measurements;
   if (m.position_integrated) return KnowsMotorAngle(m);
   const MapPoints points = Kept(PointsOf(m), best->fit.used);
   return LeavesOverPlace(best->fit.residual(), points);
@@ -179,7 +180,7 @@ ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
     return MapGivenEnergy(quick_.With(options), energy);
   };
   ChosenKernels kernels;
-  const Measurements& m = log_.view.measurements;
+  const LogSamples& m = log_.view.measurements;
   if (!m.position_integrated) kernels.position = chosen(WarmMap::map);
   if (KnowsMotorAngle(m)) kernels.motor = chosen(WarmMap::motor);
   return kernels;

@@ -8,7 +8,7 @@
 // Intervals as in uncertainty.h, for the weighted samples; with a warming they hold the noise that
 // comes through the heat, too.
 #include <fmt/format.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -41,7 +41,7 @@ namespace {
 /// when it accelerates, so that F v, unlike |F v|, loses nothing to accelerations.
 class MeasuredHeat {
  public:
-  MeasuredHeat(const Measurements& measurements, const Thermal& thermal);
+  MeasuredHeat(const LogSamples& measurements, const Thermal& thermal);
 
   /// (1 - M) of each column. columns: [N x q]; returns [N x q].
   Eigen::MatrixXd TakenOff(const Eigen::MatrixXd& columns) const;
@@ -56,9 +56,9 @@ class MeasuredHeat {
   Eigen::VectorXd direction_;  // [N] its sign
 };
 
-MeasuredHeat::MeasuredHeat(const Measurements& measurements, const Thermal& thermal)
+MeasuredHeat::MeasuredHeat(const LogSamples& measurements, const Thermal& thermal)
     : thermal_(thermal),
-      filter_(measurements.time, measurements.starts),
+      filter_(measurements.time, measurements.further_starts),
       velocity_(measurements.velocity),
       direction_(measurements.velocity.array().sign()) {}
 
@@ -175,7 +175,7 @@ Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
 }
 
 Fit FitOnline(const IdentifierInput& given) {
-  const Measurements& m = given.measurements;
+  const LogSamples& m = given.measurements;
   LinearTask task = BeginLinear(given, 0);
   if (task.refusal) return Refused(kName, *task.refusal);
   const auto& [law, gravity, columns, refusal] = task;

@@ -10,12 +10,13 @@
 // ks - kc not to a half of itself, which is so when slow speeds are missing. inadequate_model
 // where friction rises from rest instead of falling. The trace holds the scan, by its vs.
 #include <fmt/format.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/forward/log_course.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
@@ -27,7 +28,6 @@
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/thermal_fit.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -41,7 +41,7 @@ Eigen::Index Gain(const StribeckProblem& problem) { return LogVs(problem) + 1; }
 
 /// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
-  const Measurements& m = problem.measurements;
+  const LogSamples& m = problem.measurements;
   // cold, by linear least squares
   const Eigen::MatrixXd columns = LawColumns(problem.law.without, m.velocity);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
@@ -111,7 +111,7 @@ std::optional<Thermal> ThermalAt(const StribeckProblem& problem, const Eigen::Ve
 
 /// Law, whose exponent was given, and warming at x: the model and its table.
 void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit) {
-  const Measurements& m = problem.measurements;
+  const LogSamples& m = problem.measurements;
   const Law& law = problem.law.law;
   const auto vs = static_cast<size_t>(LogVs(problem));
   const Eigen::VectorXd values = LawAt(problem, x);
@@ -126,7 +126,7 @@ void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit
 
 /// Voids a fit whose friction feeds itself on this motion. Where the data rule the law out, or
 /// chance alone may keep it within its bounds, there is no friction to run.
-void JudgeWarmth(const Measurements& m, std::string_view without, Fit& fit) {
+void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
@@ -220,7 +220,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
 }
 
 Fit FitStribeck(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const auto& options = input.options.Get<StribeckOptions>();
   const FallingLaw& law = *options.law;
   const auto levels = static_cast<size_t>(law.levels());
@@ -236,7 +236,7 @@ Fit FitStribeck(const IdentifierInput& input) {
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   StribeckProblem problem{m,
                           input.selection,
-                          FindIntervals(m.time, m.starts),
+                          FindIntervals(m.time, m.further_starts),
                           options.exponent,
                           options.warming,
                           torque.norm() / std::sqrt(static_cast<double>(torque.size())),

@@ -179,7 +179,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
 
 std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
                             const CourseStart& start, const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   if (m.acceleration || !structure.CanEstimateLag()) return std::nullopt;
 
   // whether what the model leaves shows a lag at all
@@ -195,7 +195,7 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
   return behind.torque_lag->time_constant;
 }
 
-Selection Settled(const Measurements& m, Selection selection, double lag) {
+Selection Settled(const LogSamples& m, Selection selection, double lag) {
   const KeptRuns all = FindRuns(m, selection);
   for (const KeptRun& run : all.runs) {
     const double begin = all.time[run.begin];

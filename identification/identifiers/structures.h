@@ -110,6 +110,6 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
 /// The selection without the first five time constants of each run, after which 1/150 of what the lag
 /// held is left, or without half of the run where it is shorter: what structures that know no lag may
 /// see.
-Selection Settled(const Measurements& measurements, Selection selection, double lag);
+Selection Settled(const LogSamples& measurements, Selection selection, double lag);
 
 }  // namespace warmjoint

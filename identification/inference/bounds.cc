@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
+#include "identification/forward/log_course.h"
 #include "identification/linear/command.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/parameter_rows.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -133,7 +133,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
 namespace {
 
 /// F + G + M a by the friction and what stands beside it. [N] N.m or N
-Eigen::VectorXd TorqueOf(const Fit& fit, const Measurements& m) {
+Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& m) {
   Eigen::VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
   if (fit.gravity) torque += fit.gravity->Torque(m.position);
   if (fit.inertia && m.acceleration) torque += *fit.inertia * *m.acceleration;
@@ -161,7 +161,7 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
 
 }  // namespace
 
-void HoldAtBounds(const Inference& told, const Measurements& measurements, Fit& fit) {
+void HoldAtBounds(const Inference& told, const LogSamples& measurements, Fit& fit) {
   // free gravity and maps have weights beside the table, which would have to follow
   const bool free = fit.gravity && fit.gravity->kind == GravityKind::paired;
   if (free || !fit.friction.maps.empty()) return;

@@ -106,7 +106,7 @@ Inference Infer(const Fit& fit) {
   return Apply(std::move(by_noise), std::move(causes));
 }
 
-Fit AtBounds(Fit fit, const Measurements& measurements) {
+Fit AtBounds(Fit fit, const LogSamples& measurements) {
   if (fit.refusal || IsRefused(fit.causes) || !LeavesBounds(fit.parameters)) return fit;
   const Inference told = Apply(ByNoise(fit), fit.causes);
   if (told.status == Status::ok) HoldAtBounds(told, measurements, fit);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -47,6 +47,6 @@ Inference Infer(const Fit& fit);
 
 /// The fit with what noise puts beyond a bound set to it (bounds.h); the fit itself where there is nothing to set, or
 /// the whole interval lies beyond. measurements: of the fit.
-Fit AtBounds(Fit fit, const Measurements& measurements);
+Fit AtBounds(Fit fit, const LogSamples& measurements);
 
 }  // namespace warmjoint

@@ -38,7 +38,7 @@ double PhaseOf(Index begin, Index end, const Segment& one) {
 }
 
 /// What bins know besides their samples.
-void Describe(const Measurements& measurements, Bins& bins) {
+void Describe(const LogSamples& measurements, Bins& bins) {
   const auto m = static_cast<Index>(bins.begin.size());
   const Eigen::VectorXd& t = measurements.time;
   const double duration = t[t.size() - 1] - t[0];
@@ -54,7 +54,7 @@ void Describe(const Measurements& measurements, Bins& bins) {
 
 /// Neighbours that belong together, as many of them as `parts` of a segment leave, and no more than a 400th
 /// of all. parts: 1 or more.
-Bins Gather(const Measurements& measurements, const Selection& selection, Index parts) {
+Bins Gather(const LogSamples& measurements, const Selection& selection, Index parts) {
   const Eigen::VectorXd& v = measurements.velocity;
   const std::vector<Segment>& segments = selection.segments;
   const auto at = [&](Index i) -> const Segment& { return segments[static_cast<size_t>(i)]; };
@@ -120,11 +120,11 @@ void WriteMeans(const Bins& bins, const Eigen::Ref<const Eigen::MatrixXd>& all, 
 
 }  // namespace
 
-Bins MakeBins(const Measurements& measurements, const Selection& selection) {
+Bins MakeBins(const LogSamples& measurements, const Selection& selection) {
   return Gather(measurements, selection, 1);
 }
 
-Bins BinsWithinHolds(const Measurements& measurements, const Selection& selection) {
+Bins BinsWithinHolds(const LogSamples& measurements, const Selection& selection) {
   const auto holds = static_cast<Index>(selection.segments.size());
   const Index parts = std::clamp(kInHolds / std::max<Index>(holds, 1), Index{2}, kInHold);
   return Gather(measurements, selection, parts);

@@ -1,7 +1,7 @@
 // Samples of a fit taken together where the speed stays: what slow structure needs of them.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -55,10 +55,10 @@ inline Eigen::MatrixXd MeansOfRows(const Bins& bins, MakeRow&& row) {
   return means;
 }
 
-Bins MakeBins(const Measurements& measurements, const Selection& selection);
+Bins MakeBins(const LogSamples& measurements, const Selection& selection);
 
 /// The same, but eight of them a segment, fewer where there are more than a thousand segments: for what
 /// changes within each one.
-Bins BinsWithinHolds(const Measurements& measurements, const Selection& selection);
+Bins BinsWithinHolds(const LogSamples& measurements, const Selection& selection);
 
 }  // namespace warmjoint

@@ -79,7 +79,7 @@ ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
 /// t: [N] share of the log; slowest: [N] what the slowest drift has left to do by then. [m x 8], drifts, level, bend, slope
 /// and zeros
 WARMJOINT_FOR_EACH_PROCESSOR
-MatrixXd Along(const FittedModel& model, const Measurements& m, const Bins& bins, const ArrayXd& t,
+MatrixXd Along(const FittedModel& model, const LogSamples& m, const Bins& bins, const ArrayXd& t,
                const ArrayXd& slowest) {
   // the law's forces at a velocity beside that of the sample, whose direction they have
   const auto by_speed = [&](Index n, double v, Four& g) {
@@ -105,7 +105,7 @@ MatrixXd Along(const FittedModel& model, const Measurements& m, const Bins& bins
 
 }  // namespace
 
-HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
+HeatingForces HeatingForcesOf(const FittedModel& model, const LogSamples& m, const Bins& bins) {
   const double share = 1 / (m.time[m.size() - 1] - m.time[0]);
   const ArrayXd t = (m.time.array() - m.time[0]) * share;
   const MatrixXd all = Along(model, m, bins, t, Decay(model, t, 1 / kSlowest));
@@ -119,7 +119,7 @@ constexpr int kMemories = 6;  // time constants that are tried
 
 /// Means over bins of the measured losses filtered with three time constants that span those of a recording. [m x 3]
 WARMJOINT_FOR_EACH_PROCESSOR
-Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m, const Bins& bins,
+Eigen::MatrixXd Energies(const FittedModel& model, const LogSamples& m, const Bins& bins,
                          const ThermalFilter& filter) {
   const double duration = m.time[m.size() - 1] - m.time[0];
   const Eigen::VectorXd loss = model.torque.cwiseProduct(m.velocity).cwiseAbs();
@@ -128,7 +128,7 @@ Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m, const 
 }
 
 /// Median duration of the segments; 0 where there are none.
-double MedianHold(const FittedModel& model, const Measurements& m) {
+double MedianHold(const FittedModel& model, const LogSamples& m) {
   const std::vector<Segment>& segments = model.selection.segments;
   Eigen::VectorXd durations(static_cast<Eigen::Index>(segments.size()));
   for (size_t i = 0; i < segments.size(); ++i) {
@@ -150,8 +150,8 @@ std::vector<double> MemoryTimes(double hold, double duration) {
 
 /// Means over bins of |v| behind filters of first order, which begin at the first speed, less |v|. [m x times]
 WARMJOINT_FOR_EACH_PROCESSOR
-Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& times,
-                           const Bins& bins, const ThermalFilter& filter) {
+Eigen::MatrixXd LateSpeeds(const LogSamples& m, const std::vector<double>& times, const Bins& bins,
+                           const ThermalFilter& filter) {
   if (times.empty()) return Eigen::MatrixXd(bins.size(), 0);
   const Eigen::VectorXd speed = m.velocity.cwiseAbs();
   static_assert(kMemories <= 8);
@@ -166,12 +166,12 @@ constexpr double kAlikeSpeeds = 0.02;
 
 }  // namespace
 
-Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
+Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, const Bins& bins) {
   const Eigen::MatrixXd none(bins.size(), 0);
   Circumstances known;
   known.torque = bins.Means(model.torque);
   known.residual = bins.Means(model.residual);
-  const ThermalFilter filter(m.time, m.starts);
+  const ThermalFilter filter(m.time, m.further_starts);
   known.energies = Energies(model, m, bins, filter);
   known.initial = known.loads = known.temperatures = none;
 
@@ -192,7 +192,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   return known;
 }
 
-std::optional<double> OneSpeed(const Measurements& m) {
+std::optional<double> OneSpeed(const LogSamples& m) {
   const double largest = m.velocity.cwiseAbs().maxCoeff();
   std::vector<double> speeds;
   for (const double v : m.velocity) {

@@ -1,7 +1,7 @@
 // What a joint went through while a log was recorded, as far as tests for lack of fit ask about it.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -24,7 +24,7 @@ struct HeatingForces {
   Eigen::MatrixXd slope;   // [m x 1] of v E, E of the fit; [m x 0] where it knows no warming
 };
 
-HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& measurements,
+HeatingForces HeatingForcesOf(const FittedModel& model, const LogSamples& measurements,
                               const Bins& bins);
 
 /// Means over each bin; [m x 0] where something is not known or not asked.
@@ -43,11 +43,11 @@ struct Circumstances {
   double hold = 0;           // median duration of a segment, s; 0 where none are known
 };
 
-Circumstances CircumstancesOf(const FittedModel& model, const Measurements& measurements,
+Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& measurements,
                               const Bins& bins);
 
 /// The speed |v|, rad/s or m/s, of a log that moves at one alone: those between its tenth and its ninetieth percentile, rests
 /// left out, differ by less than 2 %. What turns with the joint then looks like what is periodic in time for fifty turns.
-std::optional<double> OneSpeed(const Measurements& measurements);
+std::optional<double> OneSpeed(const LogSamples& measurements);
 
 }  // namespace warmjoint

@@ -208,7 +208,7 @@ void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
 /// The tests of what changes within segments and stays from one to the next. A bristle's force
 /// depends on the way since the last reversal by itself, and by how much between two samples the log
 /// does not tell: of a law that has one nothing more can be said. rest: [N]
-void TestWithin(const FittedModel& model, const Measurements& m, const Bins& bins,
+void TestWithin(const FittedModel& model, const LogSamples& m, const Bins& bins,
                 const Eigen::MatrixXd& derivatives, const Circumstances& known,
                 Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
   if (model.has_bristle) {
@@ -298,7 +298,7 @@ void AddHiddenMeans(const Bins& bins, const ForceMoves& moves, Index p, Examinat
 }
 
 /// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
-void TakeOffRounding(const FittedModel& model, const Measurements& m, const Bins& bins,
+void TakeOffRounding(const FittedModel& model, const LogSamples& m, const Bins& bins,
                      const ForceMoves& moves, Index p, Eigen::VectorXd& rest,
                      Examination& examination) {
   const double variance = examination.squares / examination.samples;
@@ -366,7 +366,7 @@ std::vector<Finding> NotMade(const std::string& reason) {
   return table;
 }
 
-Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const Measurements& m,
+Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const LogSamples& m,
                             const Selection& selection) {
   // the fit along the log, and why it may not be examined
   Examination examination;

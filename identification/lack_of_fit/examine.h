@@ -1,7 +1,7 @@
 // What the residual of a fit still shows: the whole table of tests for lack of fit on one log.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <string>
@@ -40,7 +40,7 @@ struct Examination {
 /// Makes all tests at one error level (significance.h). Where they cannot be made each says why.
 /// by_noise: what noise says of the fit; selection: samples at constant speed.
 Examination ExamineResidual(const Fit& fit, const Inference& by_noise,
-                            const Measurements& measurements, const Selection& selection);
+                            const LogSamples& measurements, const Selection& selection);
 
 /// The table of tests, none made: for one reason, or where that is empty each for its own.
 std::vector<Finding> NotMade(const std::string& reason);

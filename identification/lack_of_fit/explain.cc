@@ -37,7 +37,7 @@ double BiasOf(const Cause& cause, std::size_t i) {
 
 /// "position (period 0.0025 m): 1.3 N rms, 3.2 % of the friction, 54 % of the residual's variance".
 std::string Describe(const Examination& examination, const Finding& finding,
-                     const Measurements& measurements) {
+                     const LogSamples& measurements) {
   const double rms = examination.Rms(finding);
   const double share = 100 * std::min(finding.explained / examination.squares, 1.0);
   return fmt::format(
@@ -102,7 +102,7 @@ std::string ExplainHeldLosses(const Cause& cause, const Explained& of) {
                      : ": the intervals cover both; log faster");
 }
 
-std::string ExplainGaps(const Measurements& measurements) {
+std::string ExplainGaps(const LogSamples& measurements) {
   return fmt::format(
       "{}: the losses during that time are unknown, and intervals were widened to "
       "cover this; record without gaps",
@@ -114,7 +114,7 @@ std::string ExplainRounding(const Cause& cause, const Explained& of) {
   if (!worst) return "";
   const bool hides = cause.source == Source::hidden_steps;
   const FitParameter& parameter = of.fit.parameters[cause.rows[*worst]];
-  const Measurements& m = of.input.measurements;
+  const LogSamples& m = of.input.measurements;
   return fmt::format(
       "the torque comes in steps of {:.3g} {}, which its noise does not even out: {} {} by {:.2g} "
       "{}; log the torque in finer steps",
@@ -124,7 +124,7 @@ std::string ExplainRounding(const Cause& cause, const Explained& of) {
       parameter.name + (hides ? "" : " changed"), BiasOf(cause, *worst), parameter.unit);
 }
 
-std::string ExplainFindings(const Examination& examination, const Measurements& measurements) {
+std::string ExplainFindings(const Examination& examination, const LogSamples& measurements) {
   std::vector<std::string> words;
   for (const Finding* finding : examination.Found()) {
     words.push_back(Describe(examination, *finding, measurements));
@@ -132,8 +132,7 @@ std::string ExplainFindings(const Examination& examination, const Measurements& 
   return fmt::format("the residual depends on {}", fmt::join(words, "; and on "));
 }
 
-std::string ExplainTooMuch(const Finding& worst, double relevance,
-                           const Measurements& measurements) {
+std::string ExplainTooMuch(const Finding& worst, double relevance, const LogSamples& measurements) {
   return fmt::format("modelling {} would change the friction by {:.2g} % (--relevance {:.3g})",
                      worst.test->quantity(worst, measurements), 100 * worst.harm, relevance);
 }

@@ -34,17 +34,16 @@ std::string ExplainColdStart(const Cause& cause, const Explained& of);
 std::string ExplainHeldLosses(const Cause& cause, const Explained& of);
 
 /// Of gaps in the log.
-std::string ExplainGaps(const Measurements& measurements);
+std::string ExplainGaps(const LogSamples& measurements);
 
 /// Of a torque in steps, whose effect was taken off or hides; empty where it stays within all intervals.
 std::string ExplainRounding(const Cause& cause, const Explained& of);
 
 /// "the residual depends on ...": each finding with its size, the largest first.
-std::string ExplainFindings(const Examination& examination, const Measurements& measurements);
+std::string ExplainFindings(const Examination& examination, const LogSamples& measurements);
 
 /// Of findings that change the friction too much: the worst by --relevance, or all together. worst: the one that changes it most.
-std::string ExplainTooMuch(const Finding& worst, double relevance,
-                           const Measurements& measurements);
+std::string ExplainTooMuch(const Finding& worst, double relevance, const LogSamples& measurements);
 std::string ExplainTooMuchTogether(double share, double most);
 
 /// Of findings that intervals were widened for. largest: share by which one changes the friction.

@@ -61,7 +61,7 @@ double Counted(const Finding& finding) {
 
 /// Why what was found is too much to live with; nothing where it is not.
 std::optional<std::string> TooMuch(const Examination& examination, const Finding& worst,
-                                   const LackOfFitSettings& judging, const Measurements& m) {
+                                   const LackOfFitSettings& judging, const LogSamples& m) {
   if (Counted(worst) > judging.relevance) return ExplainTooMuch(worst, judging.relevance, m);
   double explained = 0;
   for (const Finding* finding : examination.Found()) explained += finding->explained;
@@ -92,7 +92,7 @@ void ActOnFindings(const Explained& of, const LackOfFitSettings& judging,
   const std::string remedy = found[0]->test->remedy({*found[0], of.identifier, of.input, of.fit});
   const Finding& worst =
       **std::ranges::max_element(found, {}, [](const Finding* one) { return Counted(*one); });
-  const Measurements& m = of.input.measurements;
+  const LogSamples& m = of.input.measurements;
   const std::string depends = ExplainFindings(examination, m);
   if (const auto why = TooMuch(examination, worst, judging, m)) {
     row->action = Action::refuse;

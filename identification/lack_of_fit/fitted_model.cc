@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "identification/forward/closed_loop.h"
+#include "identification/forward/log_course.h"
 #include "identification/gravity.h"
 #include "identification/lack_of_fit/held_loss.h"
 #include "identification/linear/linear_laws.h"
@@ -12,6 +13,7 @@
 #include "identification/warming/estimated_start.h"
 #include "identification/warming/gaps.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -37,7 +39,7 @@ Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& va
 }
 
 /// What maps add to law and warming. [N]
-Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, const Measurements& m,
+Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, const LogSamples& m,
                          const Prediction& prediction) {
   Eigen::VectorXd force = prediction.force;
   for (Eigen::Index i = 0; i < force.size(); ++i) {
@@ -76,10 +78,11 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
 }
 
 /// The motion, with a bristle bent at each start as the fit tells, else as the torque does.
-JointCourse CourseFor(const Fit& fit, const Measurements& m) {
+JointCourse CourseFor(const Fit& fit, const LogSamples& m) {
   JointCourse course = CourseOf(m, BristleStart::torque);
+  const std::vector<SampleRange> recordings = m.Recordings();
   for (size_t r = 0; r < fit.first_friction.size(); ++r) {
-    course.torque[r == 0 ? 0 : m.starts[r - 1]] = fit.first_friction[r];
+    course.torque[recordings[r].first] = fit.first_friction[r];
   }
   return course;
 }
@@ -92,7 +95,7 @@ struct Jumps {
   std::vector<bool> is_assumed;  // [J]
 };
 
-Jumps JumpsOf(const Fit& fit, const Measurements& m) {
+Jumps JumpsOf(const Fit& fit, const LogSamples& m) {
   Jumps jumps{Merged(FindGaps(m), FurtherStarts(m)), {}, {}};
   jumps.values = Eigen::VectorXd::Zero(std::ssize(jumps.at));
   const std::vector<EnergyJump> fitted = fit.Start().jumps;
@@ -107,7 +110,7 @@ Jumps JumpsOf(const Fit& fit, const Measurements& m) {
 
 /// Beside a warming that was estimated, the law's parameters act through the losses too. Returns the
 /// derivatives by the jumps that are no assumption, [N x J].
-Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Measurements& m,
+Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const LogSamples& m,
                            FittedModel& model) {
   const std::vector<double> values = LawValues(fit.friction);
   const Thermal& thermal = *fit.friction.thermal;
@@ -149,7 +152,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
 }  // namespace
 
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
-                                         const Measurements& m, const Selection& selection) {
+                                         const LogSamples& m, const Selection& selection) {
   if (fit.refusal) return std::nullopt;
   const Law& law = *FindLaw(fit.friction.law);
   const std::vector<double> values = LawValues(fit.friction);

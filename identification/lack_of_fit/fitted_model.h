@@ -1,7 +1,7 @@
 // The model that a fit holds, over the recording that it was fitted to.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -39,7 +39,7 @@ struct FittedModel {
 
 /// Nothing where the fit was refused. inference: of the fit; selection: samples at constant speed.
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
-                                         const Measurements& measurements,
+                                         const LogSamples& measurements,
                                          const Selection& selection);
 
 }  // namespace warmjoint

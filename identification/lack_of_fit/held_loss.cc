@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/recording/measurements.h"
+#include "identification/forward/log_course.h"
+#include "models/friction/along_motion.h"
 
 namespace warmjoint {
 namespace {
@@ -60,7 +61,7 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
   return 0.5 * step * power > kMatters * *inference.parameters[*tau].std;
 }
 
-Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const Measurements& measurements,
+Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& measurements,
                                 const CourseStart& start) {
   const AlongMotion model(friction);
   const JointCourse course = CourseOf(measurements);

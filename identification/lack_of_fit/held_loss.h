@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/friction_model.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 
@@ -19,7 +19,7 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
 /// The force of a friction whose losses follow its heat all the time, less its force by (22): 8/7
 /// of what (22) with an eighth of each step makes of it. Constant speed over each step.
 /// Returns [N] N.m or N.
-Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const Measurements& measurements,
+Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& measurements,
                                 const CourseStart& start = {});
 
 }  // namespace warmjoint

@@ -122,7 +122,7 @@ MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
 
 }  // namespace
 
-Finding TestLag(const FittedModel& model, const Measurements& measurements, VectorXd& residual,
+Finding TestLag(const FittedModel& model, const LogSamples& measurements, VectorXd& residual,
                 ErrorLevel& level) {
   Finding finding;
   finding.test = FindLackOfFitTest("lag");

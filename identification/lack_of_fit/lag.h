@@ -1,7 +1,7 @@
 // Torque that follows the velocity late.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 
@@ -18,7 +18,7 @@ namespace warmjoint {
 /// A torque that is late by d samples leaves all of F0 - F1 in d samples. The finding's lag is the
 /// area under what is left over F0 - F1, s: T for a first-order filter.
 /// residual: [N] tau - F; what is found is taken off it.
-Finding TestLag(const FittedModel& model, const Measurements& measurements,
-                Eigen::VectorXd& residual, ErrorLevel& level);
+Finding TestLag(const FittedModel& model, const LogSamples& measurements, Eigen::VectorXd& residual,
+                ErrorLevel& level);
 
 }  // namespace warmjoint

@@ -208,7 +208,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
   return ripple;
 }
 
-std::optional<AngleAxis> MotorAxis(const Measurements& m) {
+std::optional<AngleAxis> MotorAxis(const LogSamples& m) {
   if (!KnowsMotorAngle(m)) return std::nullopt;
   AngleAxis axis{FindLackOfFitTest("motor_angle"), {}, 2 * std::numbers::pi, 1, kMotorHarmonics};
   const Eigen::ArrayXd turns = MotorPosition(m).array() / axis.length;
@@ -218,7 +218,7 @@ std::optional<AngleAxis> MotorAxis(const Measurements& m) {
 
 /// The travel of the kept samples, down to periods of which half of the samples see two a period or more: at speeds that
 /// differ, faster ones tell them, too.
-std::optional<AngleAxis> PositionAxis(const FittedModel& model, const Measurements& m) {
+std::optional<AngleAxis> PositionAxis(const FittedModel& model, const LogSamples& m) {
   if (m.position_integrated) return std::nullopt;
   const Selection& selection = model.selection;
   const VectorXd kept = Kept(m.position, selection);
@@ -305,7 +305,7 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
   return finding;
 }
 
-std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& m, VectorXd& residual,
+std::vector<Finding> TestRipple(const FittedModel& model, const LogSamples& m, VectorXd& residual,
                                 ErrorLevel& level) {
   std::vector<Finding> findings;
   const auto add = [&](Finding finding) {

@@ -36,7 +36,7 @@ Finding TestAxis(const AngleAxis& axis, const Eigen::VectorXd& velocity, const S
 
 /// The tests along the motor angle, where it is known, and along the travel; beside a map over one of them also for ripple that
 /// changes with the speed, as cos(k pi r) does, k = 1 to 4; r: share of the samples that are slower.
-std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& measurements,
+std::vector<Finding> TestRipple(const FittedModel& model, const LogSamples& measurements,
                                 Eigen::VectorXd& residual, ErrorLevel& level);
 
 }  // namespace warmjoint

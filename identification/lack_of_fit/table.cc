@@ -15,19 +15,19 @@ namespace {
 
 /// "time", whatever was found.
 template <const char* const& text>
-std::string Say(const Finding&, const Measurements&) {
+std::string Say(const Finding&, const LogSamples&) {
   return text;
 }
 
 /// "; at the log's one speed it may as well be ...", or nothing where the speeds tell. other: of that speed.
 template <typename Other>
-std::string OrElse(const Measurements& measurements, Other&& other) {
+std::string OrElse(const LogSamples& measurements, Other&& other) {
   const std::optional<double> speed = OneSpeed(measurements);
   if (!speed) return "";
   return fmt::format("; the log's one speed cannot tell that from {}", other(*speed));
 }
 
-std::string Period(const Finding& finding, const Measurements& measurements) {
+std::string Period(const Finding& finding, const LogSamples& measurements) {
   const auto turned = [&](double speed) {
     return fmt::format("position, period {:.3g} {}", speed * finding.period,
                        kPositionUnit.For(measurements.joint));
@@ -35,12 +35,12 @@ std::string Period(const Finding& finding, const Measurements& measurements) {
   return fmt::format("time (periodic, {:.3g} s{})", finding.period, OrElse(measurements, turned));
 }
 
-std::string Lag(const Finding& finding, const Measurements&) {
+std::string Lag(const Finding& finding, const LogSamples&) {
   return fmt::format("the time since the last change of speed (the torque lags by some {:.1g} s)",
                      finding.lag);
 }
 
-std::string Memory(const Finding& finding, const Measurements&) {
+std::string Memory(const Finding& finding, const LogSamples&) {
   return fmt::format("the speed of the last {:.2g} s (friction follows the speed late)",
                      finding.period);
 }
@@ -50,7 +50,7 @@ std::string InTime(double speed, double period) {
   return fmt::format("time, {:.3g} Hz", speed / period);
 }
 
-std::string Position(const Finding& finding, const Measurements& measurements) {
+std::string Position(const Finding& finding, const LogSamples& measurements) {
   const bool turns = measurements.joint == JointKind::rotary;
   return fmt::format(
       "position (period {:.3g} {}{}{})", finding.period, kPositionUnit.For(measurements.joint),
@@ -58,7 +58,7 @@ std::string Position(const Finding& finding, const Measurements& measurements) {
       OrElse(measurements, [&](double speed) { return InTime(speed, finding.period); }));
 }
 
-std::string MotorAngle(const Finding& finding, const Measurements& measurements) {
+std::string MotorAngle(const Finding& finding, const LogSamples& measurements) {
   const auto in_time = [&](double speed) {
     return InTime(measurements.gear * speed, finding.period);
   };
@@ -67,8 +67,8 @@ std::string MotorAngle(const Finding& finding, const Measurements& measurements)
 }
 
 /// "speed x motor angle (period 0.1 rad)", of what changes with both.
-template <std::string (*angle)(const Finding&, const Measurements&)>
-std::string BySpeed(const Finding& finding, const Measurements& measurements) {
+template <std::string (*angle)(const Finding&, const LogSamples&)>
+std::string BySpeed(const Finding& finding, const LogSamples& measurements) {
   return "speed x " + angle(finding, measurements);
 }
 

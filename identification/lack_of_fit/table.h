@@ -50,7 +50,7 @@ struct LackOfFitTest {
   Features (*features)(const Bins& bins, const Circumstances& known,
                        const GrowingFit& fit) = nullptr;
   /// What the residual depends on, in a message.
-  std::string (*quantity)(const Finding& finding, const Measurements& measurements) = nullptr;
+  std::string (*quantity)(const Finding& finding, const LogSamples& measurements) = nullptr;
   /// The law, identifier or recording that helps; names only what is there.
   std::string (*remedy)(const Advice& advice) = nullptr;
   // for those who never saw warmjoint: what it asks of the residual, and what helps where the answer is yes

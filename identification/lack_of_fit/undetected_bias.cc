@@ -88,7 +88,7 @@ Possible OpenFactors::Interval(Index i, const Possible& possible) const {
 }
 
 /// s v^2, without heat. [m x 1]
-MatrixXd Curve(const Measurements& m, const Bins& bins) {
+MatrixXd Curve(const LogSamples& m, const Bins& bins) {
   return bins.Means(m.velocity.cwiseProduct(m.velocity.cwiseAbs()));
 }
 
@@ -124,7 +124,7 @@ Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inf
 
 }  // namespace
 
-void AddUndetectedBias(const FittedModel& model, const Measurements& m, const Bins& bins,
+void AddUndetectedBias(const FittedModel& model, const LogSamples& m, const Bins& bins,
                        const Circumstances& known, Index p, const ForceMoves& fit,
                        Examination& examination) {
   // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain

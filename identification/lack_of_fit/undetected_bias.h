@@ -1,7 +1,7 @@
 // How far off an assumption may be for all that a log tells, and what that does to the parameters.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/circumstances.h"
@@ -22,7 +22,7 @@ namespace warmjoint {
 ///   may be that of the first moment or of the last, d or d - 1. Of all of them the largest counts, for each
 ///   parameter by itself; c at most the friction, or 1.
 /// fit: over the bins.
-void AddUndetectedBias(const FittedModel& model, const Measurements& measurements, const Bins& bins,
+void AddUndetectedBias(const FittedModel& model, const LogSamples& measurements, const Bins& bins,
                        const Circumstances& known, Eigen::Index p, const ForceMoves& fit,
                        Examination& examination);
 

@@ -30,9 +30,9 @@ double KeptRuns::Duration() const {
   return Median(durations);
 }
 
-KeptRuns FindRuns(const Measurements& m, const Selection& selection) {
+KeptRuns FindRuns(const LogSamples& m, const Selection& selection) {
   // where a run ends although no sample is left out
-  std::set<Eigen::Index> breaks(m.starts.begin(), m.starts.end());
+  std::set<Eigen::Index> breaks(m.further_starts.begin(), m.further_starts.end());
   for (const Segment& segment : selection.segments) breaks.insert(segment.begin);
 
   KeptRuns found;

@@ -1,7 +1,7 @@
 // Runs of kept samples at one constant speed, each of which begins with what a lag still holds.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -31,7 +31,7 @@ struct KeptRuns {
 };
 
 /// A run ends where a sample is left out, a segment begins, or the joint is cold again
-/// (Measurements::starts).
-KeptRuns FindRuns(const Measurements& measurements, const Selection& selection);
+/// (LogSamples::starts).
+KeptRuns FindRuns(const LogSamples& measurements, const Selection& selection);
 
 }  // namespace warmjoint

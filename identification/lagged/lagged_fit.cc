@@ -121,7 +121,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
 }
 
 void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model,
-            const Measurements& m, Fit& fit) {
+            const LogSamples& m, Fit& fit) {
   const KeptRuns& runs = *rows->runs();
   const VectorXd torque = AtKept(model, runs);
   const VectorXd measured = AtKept(m.torque, runs);

@@ -64,7 +64,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
 /// table, model and used samples, `jacobian` of the model without lag, and prior of the errors.
 /// model: [N] torque of the model without lag.
 void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd& model,
-            const Measurements& measurements, Fit& fit);
+            const LogSamples& measurements, Fit& fit);
 
 /// What the message of a fit adds that was asked for a lag and sees none.
 inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none is fitted";

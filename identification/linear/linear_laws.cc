@@ -65,7 +65,7 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   return columns;
 }
 
-Eigen::MatrixXd LossColumns(const Law& law, const Measurements& m) {
+Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& m) {
   return m.loss_velocity ? LawColumns(law, *m.loss_velocity) : Eigen::MatrixXd();
 }
 

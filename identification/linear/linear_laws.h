@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/friction.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <span>
@@ -42,6 +42,6 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity);
 
 /// The same at the loss velocity of a log, which makes the losses of ClosedLoop::Along; empty where it
 /// tells none.
-Eigen::MatrixXd LossColumns(const Law& law, const Measurements& measurements);
+Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& measurements);
 
 }  // namespace warmjoint

@@ -29,7 +29,7 @@ int CellOf(double position) {
 
 /// Whether each cell of the turn is passed in both directions.
 std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   // how often each cell is passed in each direction
   std::array<int, kGravityKnots> forwards{}, backwards{};
   for (Eigen::Index i = 0; i < m.size(); ++i) {
@@ -47,7 +47,7 @@ std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
 
 /// Keeps paired samples; says why not where they are too few.
 void SelectPairs(const IdentifierInput& input, RigidPart& fit) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const auto paired = PairedCells(input);
   // in cells passed one way alone, friction and gravity are not told apart
   for (Eigen::Index i = 0; i < m.size(); ++i) {
@@ -87,7 +87,7 @@ Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
 
 /// Sets the columns of G and their transform, or says why there are none.
 void PrepareGravity(const IdentifierInput& input, FittedGravity asked, RigidPart& fit) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
 
   // a linear joint carries one weight wherever it is
   const bool linear = m.joint == JointKind::linear;
@@ -171,8 +171,8 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
       moves_mass ? ", with accelerations that differ" : "");
 }
 
-void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
-              const Measurements& measurements, Fit& fit) {
+void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
+              Fit& fit) {
   const Eigen::Index q = rigid.gravity_count();
   if (q > 0) {
     fit.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};

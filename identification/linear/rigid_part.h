@@ -62,8 +62,8 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
 
 /// Puts both into a fit: their model, and their rows of the table behind those that are there.
 /// values: [q] fitted.
-void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
-              const Measurements& measurements, Fit& fit);
+void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
+              Fit& fit);
 
 /// A remedy where a fitted friction pushes the joint, which the fit does not hold already: another law, else gravity, else the
 /// torque's sign. identifier: one that can do both; law: of the fit; gravity: its option.

@@ -42,7 +42,7 @@ std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& la
 }
 
 /// Why no map over a quantity can be told from the kept samples, [n x 5] `points`.
-std::optional<std::string> Unseen(MapQuantity quantity, const Measurements& measurements,
+std::optional<std::string> Unseen(MapQuantity quantity, const LogSamples& measurements,
                                   const MapPoints& points) {
   if (quantity == MapQuantity::load && !measurements.load) {
     return "the recording has no column load; log the load that the joint transmits, or use "
@@ -74,7 +74,7 @@ std::string ShapeOf(const std::vector<FrictionMap>& maps) {
 }
 
 /// The table's rows of the law, without intervals and with a warning where kernels can imitate it.
-void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements, Fit& fit) {
+void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, Fit& fit) {
   fit.parameters = LawParameters(law, maps.law(), measurements);
   std::vector<std::string> imitated;
   // what kernels can imitate has no figure of its own
@@ -178,7 +178,7 @@ MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifi
 }
 
 Eigen::VectorXd TorqueOfEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   if (energy.size() == 0) return Eigen::VectorXd::Zero(input.selection.count());
   const Eigen::VectorXd direction =
       m.velocity.unaryExpr([](double v) { return static_cast<double>(Sign(v)); });
@@ -239,7 +239,7 @@ MapTask WithGravity(const MapTask& task, const MapWeights& fit, const Eigen::Vec
 /// Whether maps over the angle of a joint have taken up gravity: what they hold of g1 sin p + g2 cos p is relevant
 /// beside the friction of the law, and a fit that has both tells that gravity apart from them beyond doubt.
 bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const bool asks = m.joint == JointKind::rotary && task.rigid.gravity_count() == 0 &&
                     m.position.allFinite() && input.selection.count() > 2 * maps.free() + 6;
   if (!asks) return false;
@@ -268,7 +268,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
 
 /// All but errors and bands.
 Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Law& law = *task.law;
 
   // the law, and the maps beside it

@@ -12,7 +12,7 @@ namespace warmjoint {
 namespace {
 
 /// The loop of law columns and, with maps that are not 0, the maps' values as one column more.
-ClosedLoop LoopOf(const Measurements& m, const Law& law, const MapBlock& maps) {
+ClosedLoop LoopOf(const LogSamples& m, const Law& law, const MapBlock& maps) {
   const Eigen::MatrixXd columns = LawColumns(law, m.velocity), of_loss = LossColumns(law, m);
   const Eigen::VectorXd values = maps.Everywhere();
   if (!(values.norm() > 1e-9 * (columns * maps.fit().law()).norm())) {
@@ -77,7 +77,7 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
       kept_(WithoutRest(input.selection, input.measurements).keep.cast<double>()) {}
 
 bool WarmingBlock::FitGiven(const MapBlock& maps) {
-  const Measurements& m = input_.measurements;
+  const LogSamples& m = input_.measurements;
   const ClosedLoop loop = LoopOf(m, *task_.law, maps);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
 

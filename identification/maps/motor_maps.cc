@@ -117,7 +117,7 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
 }
 
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
-                         const Measurements& measurements, Fit& fit) {
+                         const LogSamples& measurements, Fit& fit) {
   for (const int direction : {1, 0}) {
     // harmonics of one direction that stand out of the noise
     std::vector<std::string> found;

@@ -37,6 +37,6 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
 /// at 2 a turn" and so on; and a warning where the motor's angle is not known.
 /// covariance: of the map's weights, [q x q].
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
-                         const Measurements& measurements, Fit& fit);
+                         const LogSamples& measurements, Fit& fit);
 
 }  // namespace warmjoint

@@ -7,8 +7,8 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/forward/log_course.h"
 #include "identification/physical_bounds.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -20,7 +20,7 @@ double Range(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
 
 /// E that law, maps and warming predict together, [N] N.m or N.
 Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& warm,
-                         const Measurements& measurements) {
+                         const LogSamples& measurements) {
   Friction friction = FrictionOf(*task.law, maps.law(), measurements);
   friction.thermal = warm.friction.thermal;
   friction.maps = maps.maps;
@@ -28,7 +28,7 @@ Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& war
 }
 
 /// Rows of what the first fit tells of the heat, without intervals.
-std::vector<FitParameter> HeatOf(const Fit& warm, const Measurements& m) {
+std::vector<FitParameter> HeatOf(const Fit& warm, const LogSamples& m) {
   std::vector<FitParameter> rows = HeatParameters(*warm.friction.thermal, m);
   std::ranges::copy_if(warm.parameters, std::back_inserter(rows), [](const FitParameter& row) {
     return row.role == Role::start || row.role == Role::jump;
@@ -38,7 +38,7 @@ std::vector<FitParameter> HeatOf(const Fit& warm, const Measurements& m) {
 }
 
 /// Adds the warming, which has no column of its own, and checks the friction against its own heat.
-Fit Complete(const Fit& warm, int rounds, const Measurements& m, Fit fit) {
+Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   // gain, time constant and start of the warming stay as the fit without these maps has them
   fit.friction.thermal = warm.friction.thermal;
   fit.initial_energy = warm.initial_energy;
@@ -72,7 +72,7 @@ Fit Complete(const Fit& warm, int rounds, const Measurements& m, Fit fit) {
 
 Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
                        const MapMaker& maker) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   // the energy that the fit without these maps predicts
   if (warm) task.energy = PredictFriction(warm->friction, m, warm->Start()).energy;
   task.candidates = maker(Kept(PointsOf(m, task.energy), input.selection));

@@ -13,6 +13,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/forward/log_course.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/holes.h"
@@ -22,7 +23,6 @@
 #include "identification/warming/fit_law.h"
 #include "identification/warming/law_problem.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -177,7 +177,7 @@ Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
 /// residual: [n] of law, maps and heat, N.m or N
 JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& warm,
                                  const Eigen::VectorXd& residual) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   // columns of law and kernels, and those of the losses where they differ
   const Eigen::MatrixXd law = LawColumns(*warm.task.law, m.velocity);
   const Eigen::MatrixXd of_loss = LossColumns(*warm.task.law, m);
@@ -216,7 +216,7 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
 }
 
 /// Adds the warming to a fit of law and maps. known: JointCovariance
-void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements& measurements,
+void AddHeat(const WarmMaps& warm, const Uncertainty& known, const LogSamples& measurements,
              Fit& fit) {
   const ThermalFit& warming = warm.warming;
   fit.friction.thermal = warming.thermal();
@@ -278,7 +278,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
 
 Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   const std::string& name = warm.task.identifier;
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   if (auto why = InsignificantWarming(warm.visible, kContext)) {
     return Refused(name, Status::not_identifiable, *why);
   }

@@ -15,7 +15,7 @@ constexpr Index kRest = 5;        // samples
 constexpr double kSteady = 0.05;  // change of the speed over two samples, relative
 
 /// Samples of rests. [N]
-Mask Rests(const Measurements& m) {
+Mask Rests(const LogSamples& m) {
   const double most = MeasureVelocity(m).Rest();
   Mask rests = Mask::Constant(m.size(), false);
   for (Index i = 0; i < m.size();) {
@@ -28,14 +28,6 @@ Mask Rests(const Measurements& m) {
   return rests;
 }
 
-/// First sample of each recording, and N.
-std::vector<Index> SegmentBounds(const Measurements& m) {
-  std::vector<Index> bounds{0};
-  bounds.insert(bounds.end(), m.starts.begin(), m.starts.end());
-  bounds.push_back(m.size());
-  return bounds;
-}
-
 /// The samples in order, and which of them begin a recording.
 struct Grid {
   std::vector<Index> samples;
@@ -43,12 +35,11 @@ struct Grid {
 };
 
 /// Every so manieth sample of each recording.
-Grid EverySample(const Measurements& m, Index every) {
+Grid EverySample(const LogSamples& m, Index every) {
   Grid grid;
-  const std::vector<Index> bounds = SegmentBounds(m);
-  for (size_t r = 0; r + 1 < bounds.size(); ++r) {
-    if (r > 0) grid.starts.push_back(static_cast<Index>(grid.samples.size()));
-    for (Index i = bounds[r]; i < bounds[r + 1]; i += every) grid.samples.push_back(i);
+  for (const SampleRange& one : m.Recordings()) {
+    if (one.first > 0) grid.starts.push_back(static_cast<Index>(grid.samples.size()));
+    for (Index i = one.first; i < one.end(); i += every) grid.samples.push_back(i);
   }
   return grid;
 }
@@ -72,7 +63,7 @@ Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd&
 /// The problem on a grid. used: [N] of all samples; scale: N.m or N.
 LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const FallingLaw& law,
                        const Mask& used, double scale) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   // rests stand still, and constant speed has no acceleration
   const Eigen::VectorXd still = Rests(m).select(0.0, m.velocity.array());
   const Eigen::VectorXd time = m.time(grid.samples);
@@ -95,15 +86,14 @@ LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const Fal
 }  // namespace
 
 LugreProblem MakeLugreProblem(const IdentifierInput& input, const FallingLaw& law, double scale) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Mask& keep = input.selection.keep;
   const Mask rests = Rests(m);
 
   // each recording from its first kept sample to the last one
   Mask used = Mask::Constant(m.size(), false);
-  const std::vector<Index> bounds = SegmentBounds(m);
-  for (size_t r = 0; r + 1 < bounds.size(); ++r) {
-    Index first = bounds[r], last = bounds[r + 1] - 1;
+  for (const SampleRange& one : m.Recordings()) {
+    Index first = one.first, last = one.end() - 1;
     while (first <= last && !keep[first]) ++first;
     while (last > first && !keep[last]) --last;
     if (first > last) continue;
@@ -121,7 +111,7 @@ HalvedProblem Halve(const IdentifierInput& input, const LugreProblem& problem) {
 }
 
 Selection SteadySamples(const IdentifierInput& input, double distance) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Eigen::VectorXd& v = m.velocity;
   Selection steady{Mask::Constant(m.size(), false), {}};
   double way = 0;  // since the last turn

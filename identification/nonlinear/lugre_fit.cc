@@ -165,7 +165,7 @@ bool DerivativesAt(const LugreProblem& problem, const Eigen::VectorXd& x,
 }
 
 /// The ways, rad or m, from one turn or rest to the next.
-std::vector<double> Ways(const Measurements& m) {
+std::vector<double> Ways(const LogSamples& m) {
   std::vector<double> ways{0};
   for (Eigen::Index i = 1; i < m.size(); ++i) {
     const double from = m.velocity[i - 1], to = m.velocity[i];
@@ -177,7 +177,7 @@ std::vector<double> Ways(const Measurements& m) {
 }
 
 /// The smallest and the largest presliding distance that the motion may show, rad or m.
-std::pair<double, double> Distances(const Measurements& m) {
+std::pair<double, double> Distances(const LogSamples& m) {
   double shortest = 0, longest = 0;
   for (Eigen::Index i = 1; i < m.size(); ++i) {
     const double travel =
@@ -253,9 +253,9 @@ std::vector<double> LugreValuesAt(const LugreProblem& problem, const LugrePoint&
 }
 
 std::vector<LugrePoint> ScanBristle(
-    const LugreProblem& problem, const Measurements& measurements,
+    const LugreProblem& problem, const LogSamples& measurements,
     const std::function<std::optional<Eigen::VectorXd>(double distance)>& steady) {
-  const Measurements& m = measurements;
+  const LogSamples& m = measurements;
   const auto [shortest, longest] = Distances(m);
   std::vector<LugrePoint> points;
   if (!(shortest > 0) || !(longest > shortest)) return points;

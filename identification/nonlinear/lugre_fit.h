@@ -1,7 +1,7 @@
 // Least squares of a LuGre law over a recorded motion, by Ceres.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -70,7 +70,7 @@ std::vector<double> LugreValuesAt(const LugreProblem& problem, const LugrePoint&
 /// 10 sampling intervals. steady(d): x up to ln vs of the samples that slide steadily then, nothing where
 /// they do not tell. The inertia is what suits each best. Best first.
 std::vector<LugrePoint> ScanBristle(
-    const LugreProblem& problem, const Measurements& measurements,
+    const LugreProblem& problem, const LogSamples& measurements,
     const std::function<std::optional<Eigen::VectorXd>(double distance)>& steady);
 
 /// A point with its fall from the level at rest replaced by others: vs at 16 values, even in ln vs

@@ -37,7 +37,7 @@ class Residuals {
     using std::abs;
     using std::exp;
     using std::isfinite;
-    const Measurements& m = problem_.measurements;
+    const LogSamples& m = problem_.measurements;
     // the law's parameters, vs by its logarithm
     std::array<T, L::parameters.size()> law;
     std::copy_n(x, kLogVs, law.begin());
@@ -117,7 +117,7 @@ Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
 
 /// The start at one vs: everything else from it.
 std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velocity) {
-  const Measurements& m = problem.measurements;
+  const LogSamples& m = problem.measurements;
   const Eigen::MatrixXd columns = LinearColumns(problem, velocity);
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);

@@ -1,7 +1,7 @@
 // Least squares of a law with the Stribeck effect over a recorded motion, with or without warming, by Ceres.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -37,7 +37,7 @@ struct StribeckOptions {
 };
 
 struct StribeckProblem {
-  const Measurements& measurements;
+  const LogSamples& measurements;
   const Selection& selection;  // E runs over all samples, the fit is to those kept
   Intervals intervals;         // FindIntervals(time, starts)
   double exponent = 2;         // delta, fixed

@@ -16,7 +16,7 @@ constexpr double kImpreciseFall = 0.5;   // standard deviation of ks - kc over i
 
 }  // namespace
 
-std::string SlowSpeeds(const Measurements& measurements, const Selection& selection) {
+std::string SlowSpeeds(const LogSamples& measurements, const Selection& selection) {
   const Eigen::ArrayXd speed = Kept(measurements.velocity, selection).col(0).array().abs();
   const std::string_view unit = kVelocityUnit.For(measurements.joint);
   const double slowest = speed.minCoeff();
@@ -28,7 +28,7 @@ std::string SlowSpeeds(const Measurements& measurements, const Selection& select
 
 std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
                                       std::span<const ParameterInfo> unknown) {
-  const Measurements& m = input.measurements;
+  const LogSamples& m = input.measurements;
   const Eigen::MatrixXd columns = LawColumns(law.without, m.velocity);
   const LeastSquares sliding =
       SolveLeastSquares(Kept(columns, input.selection), Kept(m.torque, input.selection));
@@ -38,8 +38,7 @@ std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const Fallin
   return Refusal{Status::not_identifiable, Indistinct(names, m, input.selection)};
 }
 
-Refusal NoFall(const FallingLaw& law, const Measurements& measurements,
-               const Selection& selection) {
+Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection) {
   return {Status::not_identifiable,
           fmt::format("{} and stribeck_velocity cannot be told from coulomb; {}", law.rest(),
                       SlowSpeeds(measurements, selection))};
@@ -52,7 +51,7 @@ StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
 
 std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
                                                   const StribeckEvidence& evidence,
-                                                  const Measurements& measurements,
+                                                  const LogSamples& measurements,
                                                   const Selection& selection) {
   if (evidence.log_deviation < kImpreciseLogVs &&
       evidence.fall_deviation < kImpreciseFall * std::abs(evidence.fall)) {

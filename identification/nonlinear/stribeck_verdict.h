@@ -19,7 +19,7 @@ struct StribeckEvidence {
 
 /// "the slowest constant speed is ...; hold several slower ones ...": the remedy of all verdicts on
 /// missing slow speeds. selection: samples at constant speed.
-std::string SlowSpeeds(const Measurements& measurements, const Selection& selection);
+std::string SlowSpeeds(const LogSamples& measurements, const Selection& selection);
 
 /// Why not even the law without its fall, Eq. (2) or (3), can be told, which comes before any Stribeck
 /// effect; nothing where it can. unknown: rows of the law that then cannot be told.
@@ -27,7 +27,7 @@ std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const Fallin
                                       std::span<const ParameterInfo> unknown);
 
 /// Why no scan finds a fall from the level at rest. selection: samples at constant speed.
-Refusal NoFall(const FallingLaw& law, const Measurements& measurements, const Selection& selection);
+Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection);
 
 /// What a fit says of its effect. x: its linear parameters, at least; log_deviation: of ln(vs);
 /// covariance: of the linear parameters, [l x l].
@@ -38,7 +38,7 @@ StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
 /// ks - kc not to a half of itself. Nothing where they can.
 std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
                                                   const StribeckEvidence& evidence,
-                                                  const Measurements& measurements,
+                                                  const LogSamples& measurements,
                                                   const Selection& selection);
 
 }  // namespace warmjoint

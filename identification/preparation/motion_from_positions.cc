@@ -102,7 +102,7 @@ class MotionBuilder {
 
   FilledLog Fill(Measurements log) && {
     log.velocity = std::move(velocity_);
-    FilledLog motion{{std::move(log), {std::move(found_.keep), {}}}, 0};
+    FilledLog motion{{LogSamples(std::move(log)), {std::move(found_.keep), {}}}, 0};
     // the segments with the samples that they reached
     for (const Plateau& plateau : found_.plateaus) {
       if (!plateau.moves || plateau.end <= plateau.begin) continue;

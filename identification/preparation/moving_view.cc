@@ -187,8 +187,8 @@ double ClearSpeed(const Measurements& m) {
 }
 
 LogView ViewMotion(const Measurements& measurements, MotionSource source) {
-  LogView view{measurements, {}};
-  Measurements& m = view.measurements;
+  LogView view{LogSamples(measurements), {}};
+  LogSamples& m = view.measurements;
   const std::vector<SampleRange> pieces = PiecesOf(m.time);
   const double clear = ClearSpeed(m);
   // by differences where noise allows them, else by polynomials over as many samples as it takes

@@ -77,12 +77,12 @@ struct PreparedLog::Maker {
   /// at each switch of speed. selection: what moves at constant speed, before `holds` leaves some of it out.
   static Log ByColumn(Measurements measurements, Selection selection,
                       const PrepareSettings& holds) {
-    Log log{.raw = {std::move(measurements), std::move(selection)}};
+    Log log{.raw = {LogSamples(std::move(measurements)), std::move(selection)}};
     auto level = TakeSegmentVelocity(log.raw.measurements, log.raw.selection);
     TakeOptions(holds, log.raw.measurements.time, log.raw.selection);
     if (level) {
       log.velocity_noise = level->noise;
-      log.constant_speed = {std::move(level->measurements), log.raw.selection};
+      log.constant_speed = {LogSamples(std::move(level->measurements)), log.raw.selection};
     }
     if (auto split = SplitAtSwitches(log.constant_speed ? *log.constant_speed : log.raw)) {
       log.unresolved_path = split->unresolved_path;
@@ -96,7 +96,7 @@ struct PreparedLog::Maker {
   static Log ByPositions(Measurements measurements, const PrepareSettings& holds) {
     measurements.notes.emplace_back(
         "velocity computed from the positions, one value for each segment");
-    Log log{.raw = {std::move(measurements), {}}, .source = MotionSource::positions};
+    Log log{.raw = {LogSamples(std::move(measurements)), {}}, .source = MotionSource::positions};
     auto& [measured, selection] = log.raw;
     ConstantSpeed found = FindFromPositions(measured);
     FilledLog motion = MotionFromPositions(measured, found);

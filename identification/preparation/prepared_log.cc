@@ -20,7 +20,10 @@ constexpr Index kFewestSamples = 3;  // of a recording, as readers ask
 
 LogView Head(const LogView& all, double time) {
   const Index n = (all.measurements.time.array() < time).count();
-  LogView head{FirstSamples(all.measurements, n), {all.selection.keep.head(n), {}}};
+  LogView head{all.measurements, {all.selection.keep.head(n), {}}};
+  ForEachColumn(head.measurements, [n](Eigen::VectorXd& column) {
+    column.conservativeResize(std::min(n, column.size()));
+  });
   for (Segment segment : all.selection.segments) {
     if (segment.begin >= n) break;
     segment.end = std::min(segment.end, n);
@@ -49,20 +52,20 @@ void Append(const Column& more, Column& column) {
 }
 
 /// Columns that a recording may lack, by their names for people.
-constexpr std::pair<std::optional<Eigen::VectorXd> Measurements::*, const char*> kOptional[] = {
+constexpr std::pair<std::optional<Eigen::VectorXd> LogSamples::*, const char*> kOptional[] = {
     {&Measurements::motor_position, "motor_position"},
     {&Measurements::load, "load"},
     {&Measurements::temperature, "temperature"},
-    {&Measurements::acceleration, "acceleration"},
-    {&Measurements::mean_speed, "mean_speed"},
-    {&Measurements::loss_velocity, "loss_velocity"}};
+    {&LogSamples::acceleration, "acceleration"},
+    {&LogSamples::mean_speed, "mean_speed"},
+    {&LogSamples::loss_velocity, "loss_velocity"}};
 
 /// Puts a recording behind others. step: s, between their last sample and its first
 void Append(const LogView& next, double step, LogView& stack) {
-  const Measurements& more = next.measurements;
-  Measurements& all = stack.measurements;
+  const LogSamples& more = next.measurements;
+  LogSamples& all = stack.measurements;
   const Index n = all.size();
-  all.starts.push_back(n);
+  all.further_starts.push_back(n);
   all.source += " + " + more.source;
   Append(Named(more.source, more.notes), all.notes);
   // the columns; one that may be absent is gone where either lacks it
@@ -135,6 +138,15 @@ double UnresolvedPath(const std::vector<PreparedLog>& recordings) {
 }
 
 }  // namespace
+
+std::vector<SampleRange> LogSamples::Recordings() const {
+  std::vector<SampleRange> recordings{{0, size()}};
+  for (const Index start : further_starts) {
+    recordings.back().count = start - recordings.back().first;
+    recordings.push_back({start, size() - start});
+  }
+  return recordings;
+}
 
 PreparedLog Join(std::vector<PreparedLog> recordings) {
   if (recordings.empty()) Refuse({}, "no recording is given");

@@ -7,10 +7,11 @@
 #include <functional>
 
 #include "identification/fit.h"
+#include "identification/forward/log_course.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
-#include "models/recording/measurements.h"
+#include "models/friction/along_motion.h"
 
 namespace warmjoint {
 namespace {
@@ -125,7 +126,7 @@ bool IsAsFitted(const Fit& fit, const Inference& inference) {
 }  // namespace
 
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
-                                         const Friction& friction, const Measurements& m) {
+                                         const Friction& friction, const LogSamples& m) {
   if (!friction.thermal) return {};
 
   // E of both stages at the end of the log: by the fit's own recursion, or along the motion
@@ -147,7 +148,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
 
   // when, and a row for each stage
   std::vector<EstimatedParameter> state;
-  if (m.starts.empty()) state.push_back({"time", m.time[m.size() - 1], "s", {}, {}});
+  if (m.further_starts.empty()) state.push_back({"time", m.time[m.size() - 1], "s", {}, {}});
   const double reach = StudentQuantile(inference.known.freedom, kIntervalLevel);
   for (int stage = 0; stage < (friction.second_thermal ? 2 : 1); ++stage) {
     EstimatedParameter one{

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <vector>
 
@@ -17,7 +17,6 @@ namespace warmjoint {
 /// by the fit's own slopes, or central differences where it has none, and reaches farther by what
 /// the verdict widened them. Empty where nothing warms.
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
-                                         const Friction& friction,
-                                         const Measurements& measurements);
+                                         const Friction& friction, const LogSamples& measurements);
 
 }  // namespace warmjoint

@@ -123,19 +123,6 @@ TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
   return entry;
 }
 
-/// The friction with what the verdict moved.
-Friction FrictionOf(const Fit& fit, const Inference& inference) {
-  Friction friction = fit.friction;
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
-    if (row.role == Role::law) friction.parameters[row.name] = inference.parameters[i].value;
-  }
-  if (const auto gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1); gain && tau) {
-    friction.thermal = Thermal{inference.parameters[*gain].value, inference.parameters[*tau].value};
-  }
-  return friction;
-}
-
 /// Covariance of the values that have an interval, to first order.
 ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inference) {
   ParameterCovariance of;
@@ -190,7 +177,7 @@ void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double&
 }
 
 /// Bands along maps, and friction at speeds, by the law that is reported.
-void AddMapFigures(const Fit& fit, const Inference& inference, const Measurements& measurements,
+void AddMapFigures(const Fit& fit, const Inference& inference, const LogSamples& measurements,
                    Estimate& estimate) {
   estimate.bands = fit.bands;
   for (size_t b = 0; b < estimate.bands.size(); ++b) {
@@ -213,8 +200,20 @@ void AddMapFigures(const Fit& fit, const Inference& inference, const Measurement
 
 }  // namespace
 
+Friction ReportedFriction(const Fit& fit, const Inference& inference) {
+  Friction friction = fit.friction;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (row.role == Role::law) friction.parameters[row.name] = inference.parameters[i].value;
+  }
+  if (const auto gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1); gain && tau) {
+    friction.thermal = Thermal{inference.parameters[*gain].value, inference.parameters[*tau].value};
+  }
+  return friction;
+}
+
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
-                   const Measurements& measurements) {
+                   const LogSamples& measurements) {
   // who answers, with which status, and why
   Estimate estimate;
   estimate.identifier = fit.identifier;
@@ -244,7 +243,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog
   if (!inference.gives_friction) return estimate;
 
   // and what can be used elsewhere
-  estimate.friction = FrictionOf(fit, inference);
+  estimate.friction = ReportedFriction(fit, inference);
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
   AddMapFigures(fit, inference, measurements, estimate);
   // without intervals there is no covariance either

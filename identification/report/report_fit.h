@@ -12,6 +12,9 @@ namespace warmjoint {
 /// constant the discrete pair of Eq. (22) for the median sampling interval; metrics, trace, friction,
 /// gravity, bands and the covariance of the values. measurements: what the fit saw.
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
-                   const Measurements& measurements);
+                   const LogSamples& measurements);
+
+/// The fit's friction with what the causes moved.
+Friction ReportedFriction(const Fit& fit, const Inference& inference);
 
 }  // namespace warmjoint

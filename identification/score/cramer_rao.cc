@@ -16,7 +16,7 @@ namespace {
 /// Rows W J with W R W^T = sigma^2 I, R the covariance of the noise at the kept samples: for coloured
 /// noise the innovations of a scalar Kalman filter that follows it, sigma over their deviation.
 /// jacobian: [n x p]; sigma: of the whole noise, N.m or N.
-Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const Measurements& measurements,
+Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const LogSamples& measurements,
                          const Selection& selection, const Truth& truth) {
   if (!(truth.correlation_time > 0)) return jacobian;
   const Eigen::VectorXd time = Kept(measurements.time, selection);
@@ -55,7 +55,7 @@ Eigen::VectorXd Deviations(const Eigen::MatrixXd& jacobian, double sigma, Eigen:
 
 }  // namespace
 
-CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,
+CramerRao CramerRaoBound(const LogSamples& measurements, const Selection& selection,
                          const Truth& truth, KnownInitialEnergy initial_energy, double step,
                          const Eigen::MatrixXd& nuisance) {
   const Law& law = *FindLaw(truth.friction.law);

@@ -1,7 +1,7 @@
 // The accuracy that no unbiased estimate beats.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 #include <warmjoint/simulation.h>
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ enum class KnownInitialEnergy { yes, no };
 /// noise, parameters that the motion cannot tell apart, or a law that is not linear.
 /// nuisance: [N x q] further columns of J, of parameters that are unknown too and get no bound.
 /// step: sampling interval of the discrete pair, s.
-CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,
+CramerRao CramerRaoBound(const LogSamples& measurements, const Selection& selection,
                          const Truth& truth, KnownInitialEnergy initial_energy, double step,
                          const Eigen::MatrixXd& nuisance = {});
 

@@ -52,7 +52,7 @@ double BoundNpe(const std::vector<ParameterScore>& all) {
 }
 
 /// Columns of what else a fit to motion of any kind estimates: inertia, and gravity where it did.
-Eigen::MatrixXd Nuisance(const Estimate& estimate, const Measurements& m) {
+Eigen::MatrixXd Nuisance(const Estimate& estimate, const LogSamples& m) {
   if (!m.acceleration) return {};
   if (!estimate.gravity) return *m.acceleration;
   const GravityModel& gravity = *estimate.gravity;
@@ -88,7 +88,7 @@ const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
   return SeenThrough(any ? View::moving : View::raw, log);
 }
 
-Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
+Score ScoreEstimate(const Estimate& estimate, const LogSamples& measurements,
                     const Selection& selection, const Truth& truth) {
   Score score;
   score.continuous = score.discrete = ScoreParameters(estimate, truth.friction);

@@ -60,22 +60,22 @@ double StepOfKept(const std::vector<Index>& kept, const Eigen::VectorXd& time) {
   return MedianInPlace(steps);
 }
 
-Eigen::VectorXd VelocityOf(const std::vector<Index>& kept, const Measurements& m) {
+Eigen::VectorXd VelocityOf(const std::vector<Index>& kept, const LogSamples& m) {
   Eigen::VectorXd velocity(static_cast<Index>(kept.size()));
   for (size_t i = 0; i < kept.size(); ++i) velocity[static_cast<Index>(i)] = m.velocity[kept[i]];
   return velocity;
 }
 
 /// Whether all samples of one recording are kept, less than half a step off an even clock: one place each.
-bool AreNeighbours(const Selection& selection, const Measurements& m) {
+bool AreNeighbours(const Selection& selection, const LogSamples& m) {
   const Index n = m.time.size();
-  if (n < 2 || !m.starts.empty() || selection.count() != n) return false;
+  if (n < 2 || !m.further_starts.empty() || selection.count() != n) return false;
   const auto steps = m.time.tail(n - 1) - m.time.head(n - 1);
   return steps.maxCoeff() < 1.5 * steps.minCoeff();
 }
 
 /// Where kept samples stand on an even grid of their median step, from 0 on. [n]
-std::vector<Index> PlacesOf(const std::vector<Index>& kept, const Measurements& m) {
+std::vector<Index> PlacesOf(const std::vector<Index>& kept, const LogSamples& m) {
   std::vector<Index> places(kept.size(), 0);
   if (kept.size() < 2) return places;
   const double step = StepOfKept(kept, m.time);
@@ -91,8 +91,8 @@ std::vector<Index> PlacesOf(const std::vector<Index>& kept, const Measurements& 
     }
 
     // nothing reaches from one recording into the next
-    while (next < m.starts.size() && m.starts[next] <= kept[i - 1]) ++next;
-    if (next < m.starts.size() && m.starts[next] <= kept[i]) further = kLongestGap;
+    while (next < m.further_starts.size() && m.further_starts[next] <= kept[i - 1]) ++next;
+    if (next < m.further_starts.size() && m.further_starts[next] <= kept[i]) further = kLongestGap;
     places[i] = places[i - 1] + further;
   }
   return places;
@@ -100,7 +100,7 @@ std::vector<Index> PlacesOf(const std::vector<Index>& kept, const Measurements& 
 
 }  // namespace
 
-std::vector<Index> PlacesInTime(const Measurements& m, const Selection& selection) {
+std::vector<Index> PlacesInTime(const LogSamples& m, const Selection& selection) {
   return PlacesOf(KeptSamples(selection), m);
 }
 
@@ -167,7 +167,7 @@ void Whitening::Apply(Rows& rows) const {
 }
 
 std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
-                                              const Measurements& measurements,
+                                              const LogSamples& measurements,
                                               const Selection& selection) {
   // white noise of neighbours is the common case: their places are asked for beyond it alone
   const bool neighbours = AreNeighbours(selection, measurements);

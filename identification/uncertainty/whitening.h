@@ -1,7 +1,7 @@
 // Rows of a least-squares problem whose noise is coloured, made white.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <memory>
@@ -26,8 +26,7 @@ inline constexpr const char* kWhitened = ", whitened";
 /// Where the kept samples stand in time, in sampling intervals (the median step between neighbours
 /// that are kept): ascending from 0. Samples that preparation put in between take no place. A gap,
 /// or the start of another recording, counts a thousand intervals at most, or exactly. [n]
-std::vector<Eigen::Index> PlacesInTime(const Measurements& measurements,
-                                       const Selection& selection);
+std::vector<Eigen::Index> PlacesInTime(const LogSamples& measurements, const Selection& selection);
 
 /// The kept samples on an even grid of time: keep[i] where one has the place i.
 Selection OnEvenGrid(const std::vector<Eigen::Index>& places);
@@ -62,7 +61,7 @@ class Whitening final : public RowTransform {
 /// The whitening of a fit whose residual is coloured beyond doubt (IsSurelyColoured); nothing where
 /// it may be white. residual: [n] over the kept samples, N.m or N.
 std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
-                                              const Measurements& measurements,
+                                              const LogSamples& measurements,
                                               const Selection& selection);
 
 }  // namespace warmjoint

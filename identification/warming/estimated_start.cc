@@ -5,7 +5,7 @@
 
 namespace warmjoint {
 
-CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) {
+CourseStart StartOf(const Estimate& estimate, const LogSamples& measurements) {
   CourseStart start;
   if (const EstimatedParameter* found = Find(Role::start, estimate)) {
     start.energy = found->value;

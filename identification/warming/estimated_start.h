@@ -3,13 +3,13 @@
 
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction_model.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 namespace warmjoint {
 
 /// E(0) of each recording and the jumps of E at gaps (gaps.h), as far as the estimate has them. What is
 /// not estimated is 0.
 /// measurements: those that the estimate was fitted to.
-CourseStart StartOf(const Estimate& estimate, const Measurements& measurements);
+CourseStart StartOf(const Estimate& estimate, const LogSamples& measurements);
 
 }  // namespace warmjoint

@@ -43,7 +43,7 @@ struct LawFit {
   std::optional<Disagreement> unwhitened{};  // why coloured rows were not whitened
 
   const IdentifierInput& input() const { return problem.input(); }
-  const Measurements& measurements() const { return problem.input().measurements; }
+  const LogSamples& measurements() const { return problem.input().measurements; }
   /// Takes a pass, and what the law leaves on its rows without heat.
   void Take(RowTreatment treatment, ThermalFit next) {
     rows = std::move(treatment);
@@ -312,7 +312,7 @@ std::string Summary(const LawFit& law) {
 
 /// The table of parameters in the order of x: law, heat, E(0), jumps, gravity and inertia.
 void FillTable(const LawFit& law, Fit& fit) {
-  const Measurements& m = law.measurements();
+  const LogSamples& m = law.measurements();
   fit.parameters = LawParameters(law.problem.task().law, law.fit.law(), m);
   if (law.fit.has_heat()) Append(HeatTable(law.fit, law.problem.gaps(), m), fit);
   AddRigid(law.problem.task().gravity, law.fit.rigid(), m, fit);
@@ -320,7 +320,7 @@ void FillTable(const LawFit& law, Fit& fit) {
 
 /// The fit as a value, or why there is none to trust.
 Fit Conclude(LawFit law) {
-  const Measurements& m = law.measurements();
+  const LogSamples& m = law.measurements();
   const ThermalFit& found = law.fit;
   const ThermalResponse response = law.problem.Respond(found);
   Fit fit;
@@ -403,7 +403,7 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
 }
 
 std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                                    const Measurements& measurements) {
+                                    const LogSamples& measurements) {
   std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
   if (warm.estimates_initial_energy()) {
     rows.push_back(StartParameter(warm.initial_energy(), measurements));
@@ -418,11 +418,11 @@ std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<Lo
 }
 
 void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                  const Measurements& measurements, Fit& fit) {
+                  const LogSamples& measurements, Fit& fit) {
   std::vector<LogGap> within = gaps;
   std::erase_if(within, IsStart);
   if (!within.empty()) fit.causes.push_back(Remark(LossesInGaps(within, measurements)));
-  if (warm.initial.is_expected() && !measurements.starts.empty()) {
+  if (warm.initial.is_expected() && !measurements.further_starts.empty()) {
     fit.causes.push_back(Remark(
         "what is expected of E(0) is taken for the first recording, and the others are taken "
         "to begin cold; use --start estimated if they did not"));

@@ -25,11 +25,11 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat);
 /// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
 /// further starts among them
 std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                                    const Measurements& measurements);
+                                    const LogSamples& measurements);
 
 /// Notes with a fit what its heat leaves open: losses within gaps of the log, and how warm the joint was as further
 /// recordings began where that of the first alone was expected.
 void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                  const Measurements& measurements, Fit& fit);
+                  const LogSamples& measurements, Fit& fit);
 
 }  // namespace warmjoint

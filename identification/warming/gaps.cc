@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kMostGaps = 50;
 
-bool RestsOver(const Measurements& m, Eigen::Index behind) {
+bool RestsOver(const LogSamples& m, Eigen::Index behind) {
   return m.velocity[behind - 1] == 0 && m.velocity[behind] == 0 &&
          m.position[behind - 1] == m.position[behind];
 }
@@ -25,12 +25,12 @@ bool IsLonger(const LogGap& a, const LogGap& b) { return a.length > b.length; }
 
 }  // namespace
 
-std::vector<LogGap> FindGaps(const Measurements& measurements) {
-  const Measurements& m = measurements;
+std::vector<LogGap> FindGaps(const LogSamples& measurements) {
+  const LogSamples& m = measurements;
   std::vector<LogGap> gaps = m.gaps ? *m.gaps : GapsOf(m.time);
   // a joint at rest loses nothing, and a new recording is no gap
   std::erase_if(gaps, [&](const LogGap& gap) {
-    return RestsOver(m, gap.behind) || std::ranges::binary_search(m.starts, gap.behind);
+    return RestsOver(m, gap.behind) || std::ranges::binary_search(m.further_starts, gap.behind);
   });
   if (gaps.size() <= kMostGaps) return gaps;
   // the longest of them, in order of time
@@ -40,23 +40,21 @@ std::vector<LogGap> FindGaps(const Measurements& measurements) {
   return gaps;
 }
 
-std::vector<LogGap> FurtherStarts(const Measurements& measurements) {
+std::vector<LogGap> FurtherStarts(const LogSamples& measurements) {
   std::vector<LogGap> starts;
-  for (const Eigen::Index start : measurements.starts) {
+  for (const Eigen::Index start : measurements.further_starts) {
     starts.push_back({start, std::numeric_limits<double>::infinity()});
   }
   return starts;
 }
 
-std::vector<LogGap> FreeStarts(const InitialEnergy& initial, const Measurements& measurements,
+std::vector<LogGap> FreeStarts(const InitialEnergy& initial, const LogSamples& measurements,
                                const Selection& kept) {
-  std::vector<LogGap> free;
-  if (!initial.is_open()) return free;
-  const std::vector<LogGap> all = FurtherStarts(measurements);
-  for (size_t i = 0; i < all.size(); ++i) {
-    const Eigen::Index begin = all[i].behind;
-    const Eigen::Index end = i + 1 < all.size() ? all[i + 1].behind : measurements.size();
-    if (kept.keep.segment(begin, end - begin).any()) free.push_back(all[i]);
+  if (!initial.is_open()) return {};
+  std::vector<LogGap> free = FurtherStarts(measurements);
+  for (const SampleRange& one : measurements.Recordings()) {
+    if (kept.keep.segment(one.first, one.count).any()) continue;
+    std::erase_if(free, [&](const LogGap& start) { return start.behind == one.first; });
   }
   return free;
 }
@@ -78,12 +76,12 @@ Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, doub
 }
 
 std::vector<std::string> JumpNames(const std::vector<LogGap>& gaps,
-                                   const Measurements& measurements) {
+                                   const LogSamples& measurements) {
   std::vector<std::string> names;
   int gap = 0;
   for (const LogGap& at : gaps) {
-    const auto recording =
-        std::ranges::upper_bound(measurements.starts, at.behind) - measurements.starts.begin();
+    const auto recording = std::ranges::upper_bound(measurements.further_starts, at.behind) -
+                           measurements.further_starts.begin();
     names.push_back(IsStart(at) ? NameOf(Role::start, static_cast<int>(recording))
                                 : NameOf(Role::jump, gap++));
   }
@@ -96,7 +94,7 @@ std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps) {
   return behind;
 }
 
-std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& measurements) {
+std::string DescribeGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements) {
   const double first = measurements.time[gaps[0].behind - 1];
   const double longest = std::ranges::min_element(gaps, IsLonger)->length;
   return gaps.size() == 1 ? fmt::format("a gap of {:.4g} s at {:.6g} s", longest, first)
@@ -104,7 +102,7 @@ std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& me
                                         gaps.size(), longest, first);
 }
 
-std::string LossesInGaps(const std::vector<LogGap>& gaps, const Measurements& measurements) {
+std::string LossesInGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements) {
   return fmt::format("{}: the losses during that time are unknown and are estimated, too",
                      DescribeGaps(gaps, measurements));
 }

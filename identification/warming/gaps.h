@@ -1,7 +1,7 @@
 // Where a log does not say what becomes of the heat: gaps while the joint moves, and recordings that may begin warm.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -14,15 +14,15 @@ namespace warmjoint {
 
 /// Gaps (GapsOf of models/recording/measurements.h) in order of time; of more than 50 the longest. A joint that
 /// is at rest at one place on both sides of a gap rested in it, and a further recording is none.
-std::vector<LogGap> FindGaps(const Measurements& measurements);
+std::vector<LogGap> FindGaps(const LogSamples& measurements);
 
 /// Starts of all recordings but the first, as gaps of infinite length: after them E is what it then is, and no longer
 /// depends on what was before.
-std::vector<LogGap> FurtherStarts(const Measurements& measurements);
+std::vector<LogGap> FurtherStarts(const LogSamples& measurements);
 
 /// Those that a fit has to find: none where E(0) is not open; else of the recordings that keep samples, since the others
 /// tell nothing of theirs.
-std::vector<LogGap> FreeStarts(const InitialEnergy& initial, const Measurements& measurements,
+std::vector<LogGap> FreeStarts(const InitialEnergy& initial, const LogSamples& measurements,
                                const Selection& kept);
 inline bool IsStart(const LogGap& gap) { return std::isinf(gap.length); }
 
@@ -35,16 +35,15 @@ std::vector<LogGap> Merged(const std::vector<LogGap>& one, const std::vector<Log
 Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, double time_constant);
 
 /// Names of the jumps in a table of parameters: energy_jump_1, ... at gaps, initial_energy_2, ... of further recordings. [J]
-std::vector<std::string> JumpNames(const std::vector<LogGap>& gaps,
-                                   const Measurements& measurements);
+std::vector<std::string> JumpNames(const std::vector<LogGap>& gaps, const LogSamples& measurements);
 
 /// LogGap::behind of each. [J]
 std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps);
 
 /// "a gap of 100 s at 300 s", "5 gaps of up to 60 s, the first at 300 s". gaps: without starts
-std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
+std::string DescribeGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements);
 
 /// The warning that jumps of E are estimated at them.
-std::string LossesInGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
+std::string LossesInGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements);
 
 }  // namespace warmjoint

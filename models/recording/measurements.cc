@@ -1,15 +1,6 @@
 #include "models/recording/measurements.h"
 
-#include <algorithm>
-
 namespace warmjoint {
-
-Measurements FirstSamples(Measurements log, Eigen::Index n) {
-  ForEachColumn(
-      log, [n](Eigen::VectorXd& column) { column.conservativeResize(std::min(n, column.size())); });
-  if (log.gaps) std::erase_if(*log.gaps, [n](const LogGap& gap) { return gap.behind >= n; });
-  return log;
-}
 
 std::vector<LogGap> GapsOf(const Eigen::VectorXd& time) {
   std::vector<LogGap> gaps;
@@ -23,27 +14,6 @@ std::vector<LogGap> GapsOf(const Eigen::VectorXd& time) {
     if (length > longest) gaps.push_back({n, length});
   }
   return gaps;
-}
-
-JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
-  const Measurements& m = measurements;
-  JointCourse course{m.time, m.velocity, m.position};
-  // the motor's own sensor, or the gear
-  course.motor_position = MotorPosition(m);
-  // what the log has beside its motion
-  if (m.load) course.load = *m.load;
-  if (m.mean_speed && m.loss_velocity) {
-    course.mean_speed = *m.mean_speed;
-    course.loss_velocity = *m.loss_velocity;
-  }
-  if (bristle == BristleStart::torque) course.torque = m.torque;
-  course.starts = m.starts;
-  return course;
-}
-
-Prediction PredictFriction(const Friction& friction, const Measurements& measurements,
-                           const CourseStart& start, BristleStart bristle) {
-  return AlongMotion(friction).Predict(CourseOf(measurements, bristle), start);
 }
 
 }  // namespace warmjoint

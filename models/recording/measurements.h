@@ -1,4 +1,4 @@
-// What code does to the columns of a recording: as a whole, in time, and as the forward model reads them.
+// What code does to the columns of a recording: as a whole, and in time.
 #pragma once
 
 #include <warmjoint/recording.h>
@@ -8,23 +8,20 @@
 #include <vector>
 
 #include "models/foundation/robust_noise.h"
-#include "models/friction/along_motion.h"
 
 namespace warmjoint {
 
 /// Calls use(column) for every column that the log has: the one list of them, for what is done to
-/// all alike.
+/// all alike. log: Measurements, or what preparation makes of them.
 template <typename Log, typename Use>
 void ForEachColumn(Log& log, Use&& use) {
   for (auto* column : {&log.time, &log.position, &log.velocity, &log.torque}) use(*column);
-  for (auto* column : {&log.motor_position, &log.load, &log.temperature, &log.acceleration,
-                       &log.mean_speed, &log.loss_velocity}) {
-    if (*column) use(**column);
+  const auto use_optional = [&](auto*... columns) { ((*columns ? use(**columns) : void()), ...); };
+  use_optional(&log.motor_position, &log.load, &log.temperature);
+  if constexpr (requires { log.loss_velocity; }) {
+    use_optional(&log.acceleration, &log.mean_speed, &log.loss_velocity);
   }
 }
-
-/// The first n samples.
-Measurements FirstSamples(Measurements log, Eigen::Index n);
 
 /// Whether the motor's angle is told apart from the joint's: logged, or turned by a gear. A gear of
 /// -1 turns the motor against the joint by the same angle, which tells nothing new.
@@ -43,11 +40,6 @@ inline constexpr const char* kNoPositions =
 inline Eigen::VectorXd MotorPosition(const Measurements& measurements) {
   return measurements.motor_position.value_or(measurements.gear * measurements.position);
 }
-
-/// Samples first, ..., first + count - 1 of a log.
-struct SampleRange {
-  Eigen::Index first = 0, count = 0;
-};
 
 /// The same selection without samples of velocity 0. Friction at v = 0 is whatever holds the joint,
 /// not what the law gives, so that such a sample tells a fit nothing; it still warms or cools the
@@ -68,19 +60,5 @@ inline double LongestStep(const Eigen::VectorXd& time) { return kGapSteps * Medi
 
 /// Every step that is longer than LongestStep, in order of time. time: [N] s
 std::vector<LogGap> GapsOf(const Eigen::VectorXd& time);
-
-/// How a law's own bristle is bent at the start of each recording: as in steady sliding, or as the
-/// measured torque tells.
-enum class BristleStart { sliding, torque };
-
-/// Time, velocity, positions, load and starts of a recording of N samples. The motor position is
-/// the logged one, else the recording's gear times the joint's.
-JointCourse CourseOf(const Measurements& measurements,
-                     BristleStart bristle = BristleStart::sliding);
-
-/// The friction that a recording's motion gives: AlongMotion over CourseOf.
-Prediction PredictFriction(const Friction& friction, const Measurements& measurements,
-                           const CourseStart& start = {},
-                           BristleStart bristle = BristleStart::sliding);
 
 }  // namespace warmjoint

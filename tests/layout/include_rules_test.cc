@@ -1,6 +1,7 @@
 // The house rules that the #include lines show: arrows go one way, and some rooms may not meet.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -112,6 +113,28 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
     }
   }
   EXPECT_GT(files, 20) << "the rooms were not found";
+}
+
+TEST(IncludeRules, FoldersOfIdentificationIncludeThoseBeforeThem) {
+  // the order of the table in identification/README.md
+  const std::vector<std::string> order{
+      "preparation", "forward", "uncertainty", "linear",      "lagged",      "inference",
+      "report",      "warming", "ridge",       "maps",        "alternating", "nonlinear",
+      "online",      "holdout", "identifiers", "lack_of_fit", "answer",      "score"};
+  const auto place = [&](const std::string& file) {
+    const std::string folder = fs::path(file).parent_path().filename();
+    return std::ranges::find(order, folder) - order.begin();
+  };
+  const fs::path root = warmjoint::test::SourceFolder();
+  for (const std::string& folder : order) {
+    for (const auto& entry : fs::directory_iterator(root / "identification" / folder)) {
+      const std::string file = fs::relative(entry.path(), root);
+      for (const std::string& header : IncludesOf(entry.path())) {
+        if (!StartsWith(header, "identification/") || place(header) == std::ssize(order)) continue;
+        EXPECT_LE(place(header), place(file)) << file << " includes " << header;
+      }
+    }
+  }
 }
 
 TEST(IncludeRules, KnowWhatIsForbidden) {

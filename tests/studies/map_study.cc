@@ -20,12 +20,12 @@
 
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
+#include "identification/forward/log_course.h"
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
-#include "models/recording/measurements.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
@@ -145,12 +145,11 @@ Eigen::VectorXd ForceAt(Friction friction, const MapBand& band, Measurements at)
   at.position.resize(size);
   at.velocity.resize(size);
   at.torque = Eigen::VectorXd::Zero(size);
-  at.starts = {0};
   for (Eigen::Index i = 0; i < size; ++i) {
     at.position[i] = band.points[static_cast<size_t>(i)][0];
     at.velocity[i] = band.points[static_cast<size_t>(i)][1];
   }
-  return PredictFriction(friction, at).force;
+  return PredictFriction(friction, LogSamples(at)).force;
 }
 
 void CountBands(const Fit& fit, const Simulation& recording, const LogView& view,

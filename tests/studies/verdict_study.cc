@@ -72,7 +72,7 @@ double ProbabilityOfEvenness(std::vector<double> numbers) {
 
 /// Squares that the model of a fit leaves at least: plain least squares from where the fit ended, since
 /// a whitened one leaves more. -1 where there is no fit.
-double LeastSquaresOf(Fit fit, const Measurements& m, const Selection& selection) {
+double LeastSquaresOf(Fit fit, const LogSamples& m, const Selection& selection) {
   constexpr int kSteps = 8;
   double least = -1;
   for (int step = 0; step < kSteps; ++step) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "identification/forward/log_course.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
@@ -55,7 +56,7 @@ inline Measurements RecordTravel(const Friction& friction, double step,
   Measurements m = Record(step, velocity, Eigen::VectorXd::Zero(velocity.size()));
   m.gear = friction.gear;
   m.position.array() += begin;
-  m.torque = PredictFriction(friction, m).force;
+  m.torque = PredictFriction(friction, LogSamples(m)).force;
   AddNoise(m, noise, coefficient, seed);
   return m;
 }

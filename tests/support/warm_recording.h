@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 #include "tests/support/vectors.h"
 
@@ -36,7 +37,8 @@ inline Measurements RecordFriction(const Friction& friction, double step,
                                    const Eigen::VectorXd& velocity, double noise,
                                    std::uint64_t seed) {
   Measurements m = Record(step, velocity, Eigen::VectorXd::Zero(velocity.size()));
-  m.torque = PredictFriction(friction, m).force;
+  m.torque =
+      AlongMotion(friction).Predict({m.time, m.velocity, m.position, MotorPosition(m)}).force;
   RandomStream random({seed, 0}, Stream::torque_noise);
   for (double& torque : m.torque) torque += noise * random.Normal();
   return m;

@@ -62,7 +62,7 @@ Plot LevelPanel(const FitView& view, const TorqueEnvelope& envelope) {
 
 }  // namespace
 
-std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& measurements,
+std::optional<Figure> MakeEnvelope(const std::string& what, const LogSamples& measurements,
                                    const Selection& selection,
                                    const std::optional<Thermal>& truth) {
   // without a guess there is nothing to show

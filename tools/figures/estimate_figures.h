@@ -40,7 +40,7 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
 /// Torque with its envelope, and the friction level c(t) with what GuessThermal (25) reads off it:
 /// levels cold and settled, 63 % time, gain and time constant, as in the paper's Fig. 4. truth: beside
 /// the guess, where known. Nothing where there is no guess.
-std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& measurements,
+std::optional<Figure> MakeEnvelope(const std::string& what, const LogSamples& measurements,
                                    const Selection& selection, const std::optional<Thermal>& truth);
 
 /// Torque over motor angle at the kept samples, by direction and speed, with medians in bins: ripple

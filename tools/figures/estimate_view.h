@@ -14,7 +14,7 @@ namespace warmjoint::figures {
 /// An estimate, and the recording that it came from where that is at hand.
 struct EstimateView {
   Estimate estimate;
-  std::optional<Measurements> measurements;
+  std::optional<LogSamples> measurements;
   std::optional<FitView> fit;  // with measurements
   /// The last part of the recording, predicted by a fit that has seen the rest alone.
   std::optional<FitView> held_out = std::nullopt;

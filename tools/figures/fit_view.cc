@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "identification/find_parameter.h"
+#include "identification/forward/log_course.h"
 #include "identification/identifier.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
@@ -30,7 +31,7 @@ TimeScale ScaleOf(const FitView& view) {
 }
 
 /// Leaves friction in the torque, where gravity and inertia are known.
-void TakeRigidOff(const Estimate& estimate, const Measurements& measurements, FitView& view) {
+void TakeRigidOff(const Estimate& estimate, const LogSamples& measurements, FitView& view) {
   view.rigid = Eigen::VectorXd::Zero(measurements.size());
 
   // the inertia's torque, and gravity's
@@ -48,7 +49,7 @@ void TakeRigidOff(const Estimate& estimate, const Measurements& measurements, Fi
   }
 }
 
-Eigen::VectorXd MotorAngle(const Measurements& measurements) {
+Eigen::VectorXd MotorAngle(const LogSamples& measurements) {
   const auto turn = [](double angle) {
     return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
   };
@@ -57,13 +58,13 @@ Eigen::VectorXd MotorAngle(const Measurements& measurements) {
 }
 
 /// The file with the folder that it is in: many are called recording.csv. Of several recordings all, as they were given.
-std::string SourceOf(const Measurements& measurements) {
-  if (!measurements.starts.empty()) return measurements.source;
+std::string SourceOf(const LogSamples& measurements) {
+  if (!measurements.further_starts.empty()) return measurements.source;
   const std::filesystem::path path = measurements.source;
   return path.parent_path().filename() / path.filename();
 }
 
-FitView WithoutFit(const Measurements& measurements, const Selection& selection,
+FitView WithoutFit(const LogSamples& measurements, const Selection& selection,
                    const Estimate& estimate) {
   FitView view;
   // the recording, its time counted from the first sample
@@ -94,7 +95,7 @@ FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
   return MakeFitView(measurements, selection, estimate);
 }
 
-FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
                     const Estimate& estimate) {
   if (!estimate.friction) return WithoutFit(measurements, selection, estimate);
   return MakeFitView(measurements, selection, estimate,
@@ -102,7 +103,7 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
                                      StartOf(estimate, measurements), BristleStart::torque));
 }
 
-FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
                     const Estimate& estimate, const Prediction& given) {
   FitView view = WithoutFit(measurements, selection, estimate);
 

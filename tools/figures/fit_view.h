@@ -50,11 +50,11 @@ struct FitView {
 FitView MakeFitView(const PreparedLog& log, const Estimate& estimate);
 
 /// The same over samples that are given.
-FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
                     const Estimate& estimate);
 
 /// The same with what the friction gave along the recording, where that is known.
-FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
                     const Estimate& estimate, const Prediction& given);
 
 /// Whether the fit was to motion of any kind.

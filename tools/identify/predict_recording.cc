@@ -102,7 +102,7 @@ WarmStart StartOf(const StoredModel& stored, const std::string& file, const std:
 Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
   // with an inertia any motion can be compared, else constant speeds only
   const LogView& view = ViewOf(stored, log);
-  const Measurements& m = view.measurements;
+  const LogSamples& m = view.measurements;
   const std::string& amperes = stored.model.friction.torque_unit;
   const std::string_view unit = amperes.empty() ? kTorqueUnit.For(m.joint) : amperes;
   if (m.torque_unit != unit) {

@@ -48,7 +48,7 @@ WarmStart StartOf(const StoredModel& stored, const std::string& file, const std:
 
 /// What the model predicts, and how well.
 struct Predicted {
-  Measurements measurements;  // of the log as the model sees it
+  LogSamples measurements;  // of the log as the model sees it
   TorquePrediction torque;
   std::vector<Eigen::Index>
       logged;       // samples that are rows of the log: preparation may put others in

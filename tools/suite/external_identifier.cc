@@ -13,6 +13,7 @@
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
+#include "identification/forward/log_course.h"
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/excerpt.h"
@@ -300,7 +301,7 @@ void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
   }
 }
 
-std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measurements& measurements,
+std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const LogSamples& measurements,
                                        const Selection& selection, const CourseStart& start) {
   if (!estimate.friction || selection.count() == 0) return std::nullopt;
   const Eigen::VectorXd force =

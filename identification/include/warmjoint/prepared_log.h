@@ -15,9 +15,41 @@
 
 namespace warmjoint {
 
+/// Samples first, ..., first + count - 1 of a log.
+struct SampleRange {
+  Eigen::Index first = 0, count = 0;
+
+  Eigen::Index end() const { return first + count; }
+};
+
+/// A log as fits see it: the samples of one recording, or of several of one joint one behind the other, with what preparation
+/// found beside that which was logged.
+struct LogSamples : Measurements {
+  LogSamples() = default;
+  /// Those of one recording, as it was logged.
+  explicit LogSamples(Measurements recording) : Measurements(std::move(recording)) {}
+
+  std::optional<Eigen::VectorXd> acceleration;  // [N] rad/s^2 or m/s^2, for fits to any motion
+  /// [N] rad/s or m/s, the same: mean of |v| until the next sample, and mean of v^2 over that, with
+  /// the sign of v, at which a straight line of force over speed has its mean loss.
+  std::optional<Eigen::VectorXd> mean_speed;
+  std::optional<Eigen::VectorXd> loss_velocity;
+
+  /// First samples of all recordings but the first. The joint is cold there again, or as warm as an
+  /// estimate has it.
+  std::vector<Eigen::Index> further_starts;
+
+  /// Of rows that are means of several samples, whose times no longer tell: the gaps between the
+  /// samples, where a row begins behind each. Otherwise nothing, and gaps are found by the time.
+  std::optional<std::vector<LogGap>> gaps;
+
+  /// The list of recordings: where the samples of each stand. [R >= 1]
+  std::vector<SampleRange> Recordings() const;
+};
+
 /// A log and the samples of it that take part in fits.
 struct LogView {
-  Measurements measurements;
+  LogSamples measurements;
   Selection selection;
 };
 
@@ -139,7 +171,7 @@ PreparedLog Prepare(std::vector<Measurements> recordings, const PrepareSettings&
 /// The same where a plant says which samples move at constant speed.
 PreparedLog Prepare(Measurements measurements, Selection known);
 
-/// Recordings of one joint as one log, each from a cold start (Measurements::starts). A column that
+/// Recordings of one joint as one log, one behind the other (LogSamples::Recordings). A column that
 /// one of them lacks is left out, and noted. One recording comes back as it is. Throws BadInput where
 /// none is given, or where units, kinds of joint or gears differ.
 PreparedLog Join(std::vector<PreparedLog> recordings);

@@ -80,7 +80,7 @@ double ParameterError(const std::vector<ParameterScore>& parameters);
 /// median sampling interval, for truth and estimate alike. The bounds count
 /// E(0) as known unless the estimate holds it; with an acceleration, inertia and the gravity that was
 /// fitted count as unknown.
-Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
+Score ScoreEstimate(const Estimate& estimate, const LogSamples& measurements,
                     const Selection& selection, const Truth& truth);
 
 /// The same on the samples that the estimate is scored on (ScoredView). Throws BadInput where log and truth have unlike

@@ -43,21 +43,6 @@ struct Measurements {
   std::optional<Eigen::VectorXd> motor_position;  // [N] rad
   std::optional<Eigen::VectorXd> load;            // [N] N.m or N
   std::optional<Eigen::VectorXd> temperature;     // [N] degC
-  /// [N] rad/s^2 or m/s^2: no log holds it; preparation finds it for fits to motion of any kind.
-  std::optional<Eigen::VectorXd> acceleration;
-  /// [N] rad/s or m/s, the same: mean of |v| until the next sample, and mean of v^2 over that, with
-  /// the sign of v, at which a straight line of force over speed has its mean loss.
-  std::optional<Eigen::VectorXd> mean_speed;
-  std::optional<Eigen::VectorXd> loss_velocity;
-
-  /// Of several recordings prepared together (prepared_log.h): the first sample of each but the
-  /// first. The joint is cold there again, or as warm as an estimate has it.
-  std::vector<Eigen::Index> starts;
-
-  /// Of rows that are means of several samples, whose times no longer tell: the gaps between the
-  /// samples, where a row begins behind each. Otherwise nothing, and gaps are found by the time.
-  std::optional<std::vector<LogGap>> gaps;
-
   /// Whether the positions are the integral of the velocity from 0, in a log that has none.
   bool position_integrated = false;
 

@@ -6,11 +6,11 @@
 
 #include "identification/answer/check_estimate.h"
 #include "identification/answer/identify.h"
+#include "identification/forward/log_course.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/warming/estimated_start.h"
-#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -61,6 +61,18 @@ TEST(CheckEstimate, FindsNumbersThatTheSameLawWouldBetter) {
   Estimate passes = From(close, 0.1);
   CheckEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, passes);
   EXPECT_EQ(passes.status, Status::ok) << passes.message;
+}
+
+TEST(CheckEstimate, GivesTheFrictionOfTheNumbersThatItMoves) {
+  // torque in steps of 2 N.m, which its noise of 0.5 N.m does not even out
+  Measurements m = test::RecordHour(test::Cold(), 1);
+  for (double& torque : m.torque) torque = 2 * std::round(torque / 2);
+  Estimate estimate = test::Fitted("nominal-ls", m);
+  const double before = estimate.Find("coulomb")->value;
+  CheckEstimate(Prepare(m), {}, estimate);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_NE(estimate.Find("coulomb")->value, before);
+  EXPECT_EQ(estimate.friction->parameters.at("coulomb"), estimate.Find("coulomb")->value);
 }
 
 TEST(CheckEstimate, SaysWhyNothingWasExamined) {
@@ -122,8 +134,8 @@ PreparedLog Beginning(const std::vector<double>& energies, double noise) {
     Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, noise, day);
     CourseStart start;
     start.energy = energy;
-    m.torque += PredictFriction(test::TableOne(), m, start).force -
-                PredictFriction(test::TableOne(), m).force;
+    m.torque += PredictFriction(test::TableOne(), LogSamples(m), start).force -
+                PredictFriction(test::TableOne(), LogSamples(m)).force;
     recordings.push_back(std::move(m));
   }
   return Prepare(recordings);
@@ -141,7 +153,7 @@ TEST(SeveralRecordings, EachHasAStartOfItsOwn) {
     EXPECT_NEAR(estimate.Find(kStarts[i])->value, energies[i], 1e-6) << kStarts[i];
   }
   // whoever predicts the log begins each recording there, too
-  const Measurements& m = log.constant_speed().measurements;
+  const LogSamples& m = log.constant_speed().measurements;
   const Prediction again = PredictFriction(*estimate.friction, m, StartOf(estimate, m));
   EXPECT_LT((again.force - m.torque).cwiseAbs().maxCoeff(), 1e-6);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "identification/fit_parameters.h"
+#include "identification/forward/log_course.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
@@ -72,7 +73,8 @@ TEST(HoldOut, ComesToTheTestPartWarm) {
 
 TEST(HoldOut, StartsAsWarmAsTheFitSays) {
   Trial fit{{"started", "", {}, &KnowThatItStartedWarm}, Recording(2, 0)};
-  fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, {-6}).force;
+  fit.measurements.torque =
+      PredictFriction(test::TableOne(), LogSamples(fit.measurements), {-6}).force;
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25).metrics->rmse, 1e-12);
 }
 
@@ -88,7 +90,7 @@ TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
   Measurements& m = fit.measurements;
   // ten minutes without samples while the joint moves
   m.time.tail(900).array() += 600;
-  m.torque = PredictFriction(test::TableOne(), m, {0, 0, {{100, -2}}}).force;
+  m.torque = PredictFriction(test::TableOne(), LogSamples(m), {0, 0, {{100, -2}}}).force;
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25).metrics->rmse, 1e-12);
 }
 
@@ -144,7 +146,7 @@ TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
 
 TEST(BlockedHoldOut, StartsAsWarmAsTheFitSays) {
   Measurements m = test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(600, 4), 0, 4);
-  m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
+  m.torque = PredictFriction(test::TableOne(), LogSamples(m), {-6}).force;
   const auto errors = ErrorsOfSixBlocks({"knowing", "", {}, &KnowThatItStartedWarm}, m);
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->maxCoeff(), 0);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "identification/forward/log_course.h"
 #include "identification/identifiers/condense.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
@@ -119,7 +120,7 @@ Estimate OfRippleBesideWeight(double weight) {
   joint.maps = {test::PositionLevel(3, 1.5)};
   Measurements m = test::RecordFriction(joint, 1, test::Travel(6000, 1, 3, {0.15, 0.3, 0.6}), 0, 1);
   m.position.array() -= 3;
-  m.torque = PredictFriction(joint, m).force;
+  m.torque = PredictFriction(joint, LogSamples(m)).force;
   m.torque.array() += weight * m.position.array().sin();
   test::AddNoise(m, 0.5, 0, 7);
   return AnswerTo(m);
@@ -165,7 +166,7 @@ TEST(Auto, BeginsAsWarmAsItIsTold) {
   // a joint that has moved for 10 min before the log begins
   const Friction truth = test::TableOne();
   const Measurements all = test::RecordFriction(truth, 1, test::AlternatingSpeeds(4200, 7), 0.5, 7);
-  const double energy = PredictFriction(truth, all).energy[600];
+  const double energy = PredictFriction(truth, LogSamples(all)).energy[600];
   const Measurements log = test::Without(all, {{-1, 599.5}});
   const Estimate estimate = test::Fitted("auto", log,
                                          {{"initial_energy", "expected"},

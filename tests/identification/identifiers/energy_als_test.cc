@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "identification/forward/log_course.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
@@ -180,7 +181,7 @@ TEST(EnergyAls, FitsAMapOverPositionBesideTheLaw) {
   EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 180, 0.04 * 180);
 
   // the friction that it gives is the one that it fitted
-  const Prediction prediction = PredictFriction(*estimate.friction, m);
+  const Prediction prediction = PredictFriction(*estimate.friction, LogSamples(m));
   const double rmse = std::sqrt((m.torque - prediction.force).squaredNorm() / 6000);
   EXPECT_NEAR(rmse, 0.01, 0.01 * 0.1);
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
+#include "identification/forward/log_course.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/select.h"
@@ -50,7 +51,7 @@ TEST(Lugre, FindsTheLawExactlyWhereTheTorqueIsItsOwn) {
   // the forward model's torque along the samples as they are
   for (const Friction& joint : {test::LuGreJoint(), test::TwoLevelLuGreJoint()}) {
     Measurements m = Minute(1);
-    m.torque = PredictFriction(joint, m).force;
+    m.torque = PredictFriction(joint, LogSamples(m)).force;
     const Estimate estimate =
         test::Fitted("lugre", Moving(m), {{"law", joint.law}, {"inertia", "none"}});
     // iterative optimisers (golden/README)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "identification/forward/log_course.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -117,7 +118,7 @@ TEST(Kalman, GivesNoIntervalsAfterOnePass) {
 TEST(Kalman, KnowsTheEnergyOnTheWay) {
   const Measurements m = TableOneRecording(7);
   const Estimate estimate = test::Fitted("kalman", m);
-  const Prediction truth = PredictFriction(test::TableOne(), m);
+  const Prediction truth = PredictFriction(test::TableOne(), LogSamples(m));
   ASSERT_EQ(estimate.trace.size(), 50u);
   for (const TraceEntry& entry : estimate.trace) {
     if (entry.iteration < 720 || entry.iteration == m.size()) continue;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "identification/forward/log_course.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"
@@ -121,7 +122,7 @@ class StribeckFitOf : public testing::TestWithParam<Friction> {};
 
 TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
   const Friction warm = Warm(GetParam());
-  const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3);
+  const LogSamples m(test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3));
   const Selection selection = SelectMoving(m);
   const FallingLaw& law = FindFallingLaw(warm.law);
   const StribeckProblem problem{m,  selection, FindIntervals(m.time), 2, FittedWarming::estimated,

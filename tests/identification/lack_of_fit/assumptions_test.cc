@@ -160,7 +160,7 @@ TEST(HeldLoss, IsWhatContinuousHeatAddsAtOneSpeed) {
   friction.thermal = Thermal{-3, 30};
   const Measurements m =
       test::RecordFriction(friction, 1, Eigen::VectorXd::Constant(60, 0.5), 0, 1);
-  const Eigen::VectorXd force = m.torque + ForceOfHeldLoss(friction, m);
+  const Eigen::VectorXd force = m.torque + ForceOfHeldLoss(friction, LogSamples(m));
   const double level = 15 + 5 * 0.5, r = 1 + 3 * 0.5;
   for (Index n = 0; n < m.size(); ++n) {
     const double settled = level - level * (1 - 1 / r) * (1 - std::exp(-r * m.time[n] / 30));
@@ -232,10 +232,10 @@ Measurements BackAndForth(double forwards, double backwards) {
 }
 
 TEST(OneSpeed, IsKnownWhereBothDirectionsShareIt) {
-  EXPECT_EQ(OneSpeed(BackAndForth(0.5, 0.5)), 0.5);
-  EXPECT_TRUE(OneSpeed(BackAndForth(0.5, 0.505))) << "by 1 %";
-  EXPECT_FALSE(OneSpeed(BackAndForth(0.5, 0.6)));
-  EXPECT_FALSE(OneSpeed(BackAndForth(0, 0))) << "at rest";
+  EXPECT_EQ(OneSpeed(LogSamples(BackAndForth(0.5, 0.5))), 0.5);
+  EXPECT_TRUE(OneSpeed(LogSamples(BackAndForth(0.5, 0.505)))) << "by 1 %";
+  EXPECT_FALSE(OneSpeed(LogSamples(BackAndForth(0.5, 0.6))));
+  EXPECT_FALSE(OneSpeed(LogSamples(BackAndForth(0, 0)))) << "at rest";
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "identification/forward/log_course.h"
 #include "identification/forward/thermal_filter.h"
-#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
@@ -23,7 +23,7 @@ using ::testing::Not;
 /// Table I with E(0), N.m.
 Measurements Started(double energy, std::uint64_t seed, double noise = 0.5) {
   Measurements m = RecordHour(test::TableOne(), seed, 0);
-  m.torque = PredictFriction(test::TableOne(), m, {energy}).force;
+  m.torque = PredictFriction(test::TableOne(), LogSamples(m), {energy}).force;
   test::AddNoise(m, noise, 0, seed);
   return m;
 }
@@ -32,7 +32,7 @@ TEST(JudgeHeat, FindsASecondStageOfHeat) {
   // a film of grease, 60 s, beside the housing, 600 s
   const auto two = [](std::uint64_t seed) {
     Measurements m = RecordHour(test::TableOne(), seed);
-    const ThermalFilter filter(m.time, m.starts);
+    const ThermalFilter filter(m.time);
     const Eigen::VectorXd loss = m.torque.cwiseProduct(m.velocity).cwiseAbs();
     m.torque += m.velocity.array().sign().matrix().asDiagonal() * filter.Energy({-0.5, 60}, loss);
     return m;
@@ -92,7 +92,8 @@ TEST(JudgeHeat, FindsAMapThatFadesWithTheHeat) {
 
 TEST(JudgeHeat, FindsASlopeThatWarms) {
   Measurements m = RecordHour(test::TableOne(), 1);
-  m.torque += 0.1 * m.velocity.cwiseProduct(PredictFriction(test::TableOne(), m).energy);
+  m.torque +=
+      0.1 * m.velocity.cwiseProduct(PredictFriction(test::TableOne(), LogSamples(m)).energy);
   const Estimate estimate = Answer("energy-ml", m);
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("speed x energy"));
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("try --identifier lpv-energy"));

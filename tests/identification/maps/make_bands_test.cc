@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/forward/log_course.h"
 #include "identification/maps/holes.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
@@ -55,7 +56,7 @@ struct Cover {
       at.position[i] = band.points[static_cast<size_t>(i)][0];
       at.velocity[i] = band.points[static_cast<size_t>(i)][1];
     }
-    const Eigen::VectorXd force = PredictFriction(truth, at).force;
+    const Eigen::VectorXd force = PredictFriction(truth, LogSamples(at)).force;
     for (size_t i = 0; i < band.points.size(); ++i) {
       const double f = force[static_cast<Eigen::Index>(i)];
       held += band.interval95[i][0] <= f && f <= band.interval95[i][1];

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "identification/answer/identify.h"
+#include "identification/forward/log_course.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/friction_at_speeds.h"
@@ -32,7 +33,7 @@ struct Rippled {
     log = test::Record(0.1, test::Travel(6000, 0.1, 1, {0.31, 0.57, 0.57, 0.83}),
                        Eigen::VectorXd::Zero(6000));
     log.position.array() -= 1;
-    log.torque = PredictFriction(truth, log).force;
+    log.torque = PredictFriction(truth, LogSamples(log)).force;
     test::AddNoise(log, 0.1, 0, seed);
     estimate = Identified(Prepare(log));
   }

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "identification/forward/log_course.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"
@@ -104,7 +105,7 @@ struct WarmLog {
 WarmLog WithoutItsBeginning(std::uint64_t seed) {
   const Friction truth = YumiLike();
   const Measurements m = Recorded(truth, 0.001, seed);
-  return {test::Without(m, {{-1, 299.9}}), PredictFriction(truth, m).energy[1500]};
+  return {test::Without(m, {{-1, 299.9}}), PredictFriction(truth, LogSamples(m)).energy[1500]};
 }
 
 TEST(WarmMaps, EstimateHowWarmTheJointWas) {
@@ -152,8 +153,9 @@ TEST(WarmMaps, EstimateWhatAGapHides) {
   ExpectNear(estimate, "thermal_time_constant", 180);
 
   // beside a filter that holds the last loss through the gap
-  const double held = PredictFriction(truth, m).energy[2001];
-  ExpectNear(estimate, "energy_jump_1", PredictFriction(truth, all).energy[2500] - held);
+  const double held = PredictFriction(truth, LogSamples(m)).energy[2001];
+  ExpectNear(estimate, "energy_jump_1",
+             PredictFriction(truth, LogSamples(all)).energy[2500] - held);
 }
 
 TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {
@@ -189,7 +191,7 @@ TEST(LoadMap, FindsALevelThatGrowsWithTheLoad) {
   Measurements m = Recorded(truth, 0, 5);
   m.load = Eigen::VectorXd(m.size());
   for (Eigen::Index i = 0; i < m.size(); ++i) (*m.load)[i] = 5 + 5 * std::sin(0.013 * m.time[i]);
-  m.torque = PredictFriction(truth, m).force;
+  m.torque = PredictFriction(truth, LogSamples(m)).force;
   test::AddNoise(m, 0.01, 0, 5);
   const Estimate estimate = Identify(m, "load-map", {{"width", "1"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;

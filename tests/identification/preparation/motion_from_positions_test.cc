@@ -91,8 +91,8 @@ TEST(MotionFromPositions, TakesJoinedRecordingsOneByOne) {
   const LogView alone = Prepare(other).constant_speed();
   const LogView joined = Prepare(std::vector{one, other}).constant_speed();
   const Index n = alone.measurements.size();
-  ASSERT_EQ(joined.measurements.starts.size(), 1U);
-  ASSERT_EQ(joined.measurements.size() - joined.measurements.starts[0], n);
+  ASSERT_EQ(joined.measurements.further_starts.size(), 1U);
+  ASSERT_EQ(joined.measurements.size() - joined.measurements.further_starts[0], n);
   EXPECT_TRUE((joined.selection.keep.tail(n) == alone.selection.keep).all());
   EXPECT_LT(
       (joined.measurements.velocity.tail(n) - alone.measurements.velocity).cwiseAbs().maxCoeff(),

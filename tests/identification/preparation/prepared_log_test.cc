@@ -43,7 +43,7 @@ TEST(Join, EachRecordingIsPreparedByItself) {
   without.velocity.resize(0);
   const PreparedLog joined = Prepare(std::vector{slow, late, without});
   const PreparedLog parts[] = {Prepare(slow), Prepare(late), Prepare(without)};
-  EXPECT_THAT(joined.raw().measurements.starts, ElementsAre(900, 1500));
+  EXPECT_THAT(joined.raw().measurements.further_starts, ElementsAre(900, 1500));
   EXPECT_EQ(joined.raw().measurements.source, "a + b + c");
   Index taken = 0, steady = 0, moving = 0;
   for (const PreparedLog& part : parts) {
@@ -67,8 +67,8 @@ TEST(Join, EachRecordingIsPreparedByItself) {
 
 TEST(Join, LeavesOneRecordingAsItIs) {
   const Measurements m = Recording("a", 300, 1, 7, 1);
-  const Measurements one = Prepare(std::vector{m}).raw().measurements;
-  EXPECT_TRUE(one.starts.empty());
+  const LogSamples one = Prepare(std::vector{m}).raw().measurements;
+  EXPECT_TRUE(one.further_starts.empty());
   EXPECT_EQ(one.time, m.time);
   EXPECT_EQ(one.source, "a");
 }
@@ -113,7 +113,7 @@ TEST(PreparedLog, BeforeCutsTheRecordingsAtATime) {
     const PreparedLog before = joined.Before(n < 1500 ? time[n] : time[1499] + 1);
     ASSERT_EQ(before.raw().measurements.size(), n);
     EXPECT_EQ(before.raw().measurements.time, time.head(n));
-    EXPECT_EQ(before.raw().measurements.starts.size(), n > 900 ? 1 : 0);
+    EXPECT_EQ(before.raw().measurements.further_starts.size(), n > 900 ? 1 : 0);
     EXPECT_EQ(MovingView(before).measurements.size(), MovingView(before).selection.keep.size());
   }
   // a sample or two of the next recording show no motion

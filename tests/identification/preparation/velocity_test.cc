@@ -60,7 +60,7 @@ Measurements Sine(Eigen::Index n, double h, double w, double noise = 0) {
 
 /// Of the acceleration, over all but the first and last samples, rad/s^2.
 double RmsError(const LogView& view, double w, Eigen::Index ends) {
-  const Measurements& m = view.measurements;
+  const LogSamples& m = view.measurements;
   const Eigen::ArrayXd truth = w * (w * m.time.array()).cos();
   const Eigen::Index n = m.size() - 2 * ends;
   const Eigen::ArrayXd error = m.acceleration->array() - truth;

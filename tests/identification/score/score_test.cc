@@ -46,8 +46,8 @@ void ExpectNear(const Eigen::MatrixXd& actual, const nlohmann::json& golden, dou
 TEST(CramerRao, ReproducesTheGoldenBound) {
   const nlohmann::json& golden = test::Golden().at("dataset");
   const Measurements recording = test::GoldenRecording();
-  const CramerRao bound = CramerRaoBound(recording, SelectMoving(recording), GoldenTruth(),
-                                         KnownInitialEnergy::yes, 15);
+  const CramerRao bound = CramerRaoBound(LogSamples(recording), SelectMoving(recording),
+                                         GoldenTruth(), KnownInitialEnergy::yes, 15);
   ExpectNear(bound.continuous, golden.at("crlb_std_kv_kc_kbar_tbar"), 1e-9);
   ExpectNear(bound.discrete, golden.at("crlb_std_kv_kc_ke_te"), 1e-9);
   ExpectNear(bound.information, golden.at("crlb_FIM"), 1e-9);
@@ -56,8 +56,8 @@ TEST(CramerRao, ReproducesTheGoldenBound) {
 TEST(CramerRao, ReproducesTheGoldenBoundWithUnknownInitialEnergy) {
   const nlohmann::json& golden = test::Golden().at("dataset").at("crlb_std_with_E0");
   const Measurements recording = test::GoldenRecording();
-  const CramerRao bound =
-      CramerRaoBound(recording, SelectMoving(recording), GoldenTruth(), KnownInitialEnergy::no, 15);
+  const CramerRao bound = CramerRaoBound(LogSamples(recording), SelectMoving(recording),
+                                         GoldenTruth(), KnownInitialEnergy::no, 15);
   ExpectNear(bound.continuous, {golden[0], golden[1], golden[2], golden[3]}, 1e-9);
 }
 
@@ -68,7 +68,8 @@ TEST(CramerRao, OfColouredNoiseIsThatOfItsCovariance) {
   truth.friction.thermal.reset();
   truth.coloured_noise = 0.4;
   truth.correlation_time = 40;
-  const CramerRao bound = CramerRaoBound(recording, selection, truth, KnownInitialEnergy::yes, 15);
+  const CramerRao bound =
+      CramerRaoBound(LogSamples(recording), selection, truth, KnownInitialEnergy::yes, 15);
 
   // A^T R^-1 A written out
   const Eigen::VectorXd time = Kept(recording.time, selection);
@@ -88,15 +89,15 @@ TEST(CramerRao, DoesNotExistWithoutNoise) {
   const Measurements recording = test::GoldenRecording();
   Truth truth = GoldenTruth();
   truth.torque_noise = 0;
-  const CramerRao bound =
-      CramerRaoBound(recording, SelectMoving(recording), truth, KnownInitialEnergy::yes, 15);
+  const CramerRao bound = CramerRaoBound(LogSamples(recording), SelectMoving(recording), truth,
+                                         KnownInitialEnergy::yes, 15);
   EXPECT_TRUE(bound.continuous.array().isNaN().all());
 }
 
 TEST(Score, SumsTheBoundAsNpe) {
   const Measurements recording = test::GoldenRecording();
   const Score score =
-      ScoreEstimate(Estimated({}), recording, SelectMoving(recording), GoldenTruth());
+      ScoreEstimate(Estimated({}), LogSamples(recording), SelectMoving(recording), GoldenTruth());
   const double golden = test::Golden().at("dataset").at("crlb_rmsNPE_cont");
   EXPECT_NEAR(score.bound_npe_continuous, golden, 1e-9 * golden);
 }
@@ -105,7 +106,7 @@ TEST(Score, CountsWhatIsNotEstimatedAsZero) {
   const Measurements recording = test::GoldenRecording();
   const Score score =
       ScoreEstimate(Estimated({{"viscous", 5, "", 0.1, {{4.8, 5.2}}}, {"coulomb", 12, "", {}, {}}}),
-                    recording, SelectMoving(recording), GoldenTruth());
+                    LogSamples(recording), SelectMoving(recording), GoldenTruth());
 
   // sqrt(0 + 0.2^2 + 1 + 1)
   EXPECT_NEAR(score.npe_continuous, std::sqrt(2.04), 1e-14);
@@ -127,8 +128,8 @@ TEST(Score, LeavesParametersThatAreTrulyZeroOutOfTheNpe) {
   truth.friction.parameters["viscous"] = 0;
   truth.friction.thermal.reset();
   const Score score =
-      ScoreEstimate(Estimated({{"viscous", 1, "", {}, {}}, {"coulomb", 15, "", {}, {}}}), recording,
-                    SelectMoving(recording), truth);
+      ScoreEstimate(Estimated({{"viscous", 1, "", {}, {}}, {"coulomb", 15, "", {}, {}}}),
+                    LogSamples(recording), SelectMoving(recording), truth);
   EXPECT_EQ(score.npe_continuous, 0);
   EXPECT_EQ(score.continuous.size(), 2u);
 }

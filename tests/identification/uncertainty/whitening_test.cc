@@ -85,21 +85,21 @@ TEST(Whitening, LeavesLittleColourBehindGapsForNoiseOfSecondOrder) {
 
 TEST(Whitening, PlacesSamplesByTheirTime) {
   // samples that were put in between, gaps, the start of a recording
-  Measurements m = Log(8);
+  LogSamples m(Log(8));
   m.time << 0, 0.1, 0.15, 0.2, 0.7, 0.8, 0.9, 1.0;
   Selection selection = All(8);
   selection.keep[2] = false;
   EXPECT_THAT(PlacesInTime(m, selection), ElementsAre(0, 1, 2, 7, 8, 9, 10));
-  m.starts = {6};
+  m.further_starts = {6};
   EXPECT_THAT(PlacesInTime(m, selection), ElementsAre(0, 1, 2, 7, 8, 1008, 1009));
   // and each sample has a place of its own
   m.time << 0, 0.1, 0.15, 0.2, 0.21, 0.3, 1e9, 1e9 + 0.1;
-  m.starts.clear();
+  m.further_starts.clear();
   EXPECT_THAT(PlacesInTime(m, selection), ElementsAre(0, 1, 2, 3, 4, 1004, 1005));
 }
 
 TEST(Whitening, IsForNoiseThatIsColouredBeyondDoubt) {
-  const Measurements m = Log(1000);
+  const LogSamples m(Log(1000));
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     // by chance in one of two million
     EXPECT_FALSE(WhiteningFor(Coloured(1000, 0, seed), m, All(1000))) << seed;

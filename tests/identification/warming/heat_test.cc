@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "identification/forward/log_course.h"
 #include "identification/report/end_state.h"
 #include "identification/warming/expected_start.h"
 #include "identification/warming/gaps.h"
-#include "models/recording/measurements.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
@@ -23,7 +23,7 @@ constexpr double kBegins = -6;  // N.m
 Measurements WarmLog(std::uint64_t seed, double noise = 0.3) {
   Measurements m =
       test::Record(1, test::AlternatingSpeeds(1800, seed), Eigen::VectorXd::Zero(1800));
-  m.torque = PredictFriction(test::TableOne(), m, {kBegins}).force;
+  m.torque = PredictFriction(test::TableOne(), LogSamples(m), {kBegins}).force;
   test::AddNoise(m, noise, 0, seed);
   return m;
 }
@@ -176,7 +176,7 @@ TEST(EndState, OfAMapHasTheIntervalOfLawAndMapTogether) {
   const int logs = 20;
   for (std::uint64_t seed = 1; seed <= logs; ++seed) {
     const Measurements m = Log(Rippling(), seed);
-    const double truth = PredictFriction(Rippling(), m).energy[m.size() - 1];
+    const double truth = PredictFriction(Rippling(), LogSamples(m)).energy[m.size() - 1];
     const EstimatedParameter end =
         EndOf(m, {{"position", "map"}, {"kernels", "20"}, {"bands", "none"}});
     ASSERT_TRUE(end.std && end.interval95);
@@ -189,7 +189,7 @@ TEST(EndState, OfAMapHasTheIntervalOfLawAndMapTogether) {
 TEST(EndState, IsLessSureBehindAGap) {
   const Measurements all = Log(test::TableOne(), 1);
   const Measurements cut = test::Without(all, {{3000, 3580}});
-  const double truth = PredictFriction(test::TableOne(), all).energy[all.size() - 1];
+  const double truth = PredictFriction(test::TableOne(), LogSamples(all)).energy[all.size() - 1];
   const EstimatedParameter sure = EndOf(all, {}), unsure = EndOf(cut, {});
   ASSERT_TRUE(sure.std && unsure.std);
   EXPECT_GT(*unsure.std, 2 * *sure.std);

@@ -26,7 +26,7 @@ struct Joint {
 
   Joint(const Friction& friction, std::uint64_t seed, double noise)
       : log(Recorded(friction, seed, noise)),
-        loop(ClosedLoop::Along(log, LawColumns(*FindLaw(friction.law), log.velocity))),
+        loop(ClosedLoop::Along(LogSamples(log), LawColumns(*FindLaw(friction.law), log.velocity))),
         level(loop.direction().cwiseProduct(log.torque)),
         weight(VectorXd::Ones(log.size())),
         offsets(loop.direction().cwiseProduct(log.position.array().sin().matrix())) {}

@@ -175,7 +175,7 @@ TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
   EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
               estimate.metrics->rmse, 1e-9);
   // and what is taken off is gravity and inertia
-  const Measurements& m = MovingView(log).measurements;
+  const LogSamples& m = MovingView(log).measurements;
   const Eigen::VectorXd rigid =
       estimate.Find("inertia")->value * *m.acceleration + estimate.gravity->Torque(m.position);
   EXPECT_LT((view.rigid - rigid).cwiseAbs().maxCoeff(), 1e-12);
@@ -212,7 +212,7 @@ TEST(FitView, OfACurrentSaysAmperesEverywhere) {
   const FitView view = MakeFitView(log, estimate);
   int figures = 0;
   for (const EstimateFigure& one : EstimateFigures()) {
-    const auto figure = one.make({estimate, m, view, std::nullopt});
+    const auto figure = one.make({estimate, LogSamples(m), view, std::nullopt});
     if (!figure) continue;
     SCOPED_TRACE(one.name);
     ++figures;

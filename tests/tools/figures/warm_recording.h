@@ -4,8 +4,8 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/recording.h>
 
+#include "identification/forward/log_course.h"
 #include "models/foundation/random_stream.h"
-#include "models/recording/measurements.h"
 #include "tools/figures/fit_view.h"
 
 namespace warmjoint::figures {
@@ -13,7 +13,7 @@ namespace warmjoint::figures {
 /// Twenty minutes at 1 Hz: 20 s at each speed, the sign alternating; Table I's friction, 0.5 N.m of
 /// noise. The estimate is the truth.
 struct WarmRecording {
-  Measurements measurements;
+  LogSamples measurements;
   Selection selection;
   Estimate estimate;
   Prediction prediction;

@@ -257,7 +257,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   Eigen::MatrixXd covariance;
   try {
     const Simulation recording = MakePlant(suite.scenario)->Run(0);
-    const Measurements m = Prepare(recording.measurements).raw().measurements;
+    const LogSamples m = Prepare(recording.measurements).raw().measurements;
     const Selection selection =
         suite.scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
     const double step = 1 / suite.scenario.sampling.rate;

@@ -27,8 +27,8 @@ void KeepTrulyConstant(const Truth& truth, Selection& selection) {
 std::optional<Figure> EnvelopeOf(const SimulationView& view) {
   const Friction& friction = view.recording.truth.friction;
   if (!friction.thermal || !friction.maps.empty()) return std::nullopt;
-  return MakeEnvelope(view.scenario.name, view.recording.measurements, view.fit.selection,
-                      friction.thermal);
+  return MakeEnvelope(view.scenario.name, LogSamples(view.recording.measurements),
+                      view.fit.selection, friction.thermal);
 }
 
 /// The picture of a simulation that is one of its truth as a fit.
@@ -43,7 +43,7 @@ SimulationView MakeSimulationView(const Scenario& scenario, const Simulation& re
   Estimate truth;
   truth.friction = recording.truth.friction;
   // samples as an identifier takes them, less those that only seem to be at constant speed
-  const Measurements m = Prepare(recording.measurements).raw().measurements;
+  const LogSamples m = Prepare(recording.measurements).raw().measurements;
   Selection selection =
       scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
   KeepTrulyConstant(recording.truth, selection);
