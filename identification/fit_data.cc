@@ -109,10 +109,4 @@ std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
   return Indistinct(names, measurements, selection);
 }
 
-std::string WouldFeedItself(double time, std::string_view remedy) {
-  return fmt::format(
-      "at {:.6g} s the fitted friction pushes instead of braking and would feed itself; {}", time,
-      remedy);
-}
-
 }  // namespace warmjoint

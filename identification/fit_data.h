@@ -48,7 +48,4 @@ std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& 
 std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
                        const LogSamples& measurements, const Selection& selection);
 
-/// The sentence on a fitted friction that pushes at a time (s) and so would feed itself.
-std::string WouldFeedItself(double time, std::string_view remedy);
-
 }  // namespace warmjoint

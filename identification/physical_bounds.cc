@@ -12,15 +12,14 @@ bool LeavesBounds(const std::vector<FitParameter>& parameters) {
   });
 }
 
-std::optional<std::string> RisesFromRest(const Friction& friction) {
+bool RisesFromRest(const Friction& friction) {
   const auto at_rest = friction.parameters.find(std::string(kStaticRow.name));
   const auto coulomb = friction.parameters.find(std::string(kCoulombRow.name));
   const auto rise = friction.parameters.find(std::string(kStaticRiseRow.name));
   const auto none = friction.parameters.end();
   // a law holds its rise as a parameter of its own, or as two levels
-  if (rise != none && rise->second < 0) return "static_rise is below 0";
-  const bool below = at_rest != none && coulomb != none && at_rest->second < coulomb->second;
-  return below ? std::optional<std::string>("static is below coulomb") : std::nullopt;
+  if (rise != none && rise->second < 0) return true;
+  return at_rest != none && coulomb != none && at_rest->second < coulomb->second;
 }
 
 bool GivesFriction(const Fit& fit) {

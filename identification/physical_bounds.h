@@ -1,8 +1,6 @@
 // Whether the values of a fit make a friction.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "identification/fit.h"
@@ -12,9 +10,8 @@ namespace warmjoint {
 /// Whether the value of a law parameter lies outside of its bounds, by chance or not.
 bool LeavesBounds(const std::vector<FitParameter>& parameters);
 
-/// In words that the level at rest is below that of sliding, of a law that has both; nothing where it is
-/// not.
-std::optional<std::string> RisesFromRest(const Friction& friction);
+/// Whether the level at rest is below that of sliding, of a law that has both.
+bool RisesFromRest(const Friction& friction);
 
 /// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
 /// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.

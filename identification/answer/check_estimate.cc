@@ -4,11 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "identification/explain.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/apply.h"
-#include "identification/lack_of_fit/explain.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/significance.h"
@@ -135,7 +135,7 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
   return Cause{.source = Source::own_law,
                .action = Action::refuse,
                .status = Status::inadequate_model,
-               .sentence = ExplainOwnLaw(parameter, step.solution[most])};
+               .sentence = ExplainOwnLaw({parameter, step.solution[most]})};
 }
 
 }  // namespace

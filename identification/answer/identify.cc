@@ -1,8 +1,5 @@
 #include "identification/answer/identify.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "identification/explain.h"
 #include "identification/inference/apply.h"
-#include "identification/lack_of_fit/explain.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/report/report_fit.h"
@@ -140,7 +137,7 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
     found.causes.push_back({.source = Source::faults,
                             .action = Action::refuse,
                             .status = Status::bad_data,
-                            .sentence = fmt::format("{}", fmt::join(faults, "; and "))});
+                            .sentence = ExplainFaults(faults)});
   } else {
     found = FindLackOfFit(identifier, input, answer.fit, answer.inferred, judging);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
@@ -199,7 +196,7 @@ Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& in
   refused.parameters = std::move(before.parameters);
   refused.friction = std::move(before.friction);
   refused.bands = std::move(before.bands);
-  refused.message += "; forced: all numbers are void";
+  refused.message += std::string("; ") + kForced;
   return refused;
 }
 

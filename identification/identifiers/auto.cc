@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/holdout/structure_choice.h"
 #include "identification/identifiers/identifier_list.h"
@@ -125,10 +126,7 @@ Fit FitOnAll(const Structure& chosen, const std::optional<double>& lag,
   if (!lag || chosen.CanEstimateLag()) return chosen.Fitted(input);
   const Selection settled = Settled(input.measurements, input.selection, *lag);
   Fit fit = chosen.Fitted(input.With(settled));
-  fit.causes.push_back(Remark(
-      fmt::format("the torque lags by {:.3g} s: samples within five times that after a change "
-                  "of speed are left out",
-                  *lag)));
+  fit.causes.push_back(Remark(ExplainLeftOutByLag(*lag)));
   return fit;
 }
 

@@ -23,6 +23,7 @@
 #include "identification/alternating/block_descent.h"
 #include "identification/alternating/first_guess.h"
 #include "identification/alternating/nominal_part.h"
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
@@ -172,9 +173,8 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
                                last.thermal.time_constant)};
   }
   if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
-    return Refusal{
-        Status::inadequate_model,
-        WouldFeedItself(m.time[i], RemedyForNonDissipative("energy-ml", "", FittedGravity::none))};
+    return Refusal{Status::inadequate_model,
+                   ExplainFeedingItself(m.time[i], RemedyForNonDissipative("energy-ml", ""))};
   }
   return std::nullopt;
 }
@@ -189,12 +189,7 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
                               "are within {:.2g} % of where they go",
                               iterations, distance.rate, 100 * distance.remaining)};
   }
-  return {
-      false,
-      fmt::format("stopped after {} iterations while the parameters still move: at the "
-                  "observed rate of {:.4f} an iteration they end up to {:.2g} % from "
-                  "here (tolerance {:.2g} %); give more iterations, or try --identifier energy-ml",
-                  iterations, distance.rate, 100 * distance.remaining, 100 * tolerance)};
+  return {false, ExplainStopped(iterations, distance.rate, distance.remaining, tolerance)};
 }
 
 /// (J^T J + s P)^-1 of both blocks together; nothing where the motion cannot tell them apart.
@@ -286,7 +281,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   fit.summary = message;
 
   // W is formed of the noisy torque, so the residual understates the errors
-  fit.causes.push_back(DropsIntervals("gives no intervals, energy-ml does"));
+  fit.causes.push_back(DropsIntervals(kNoIntervalsInTurn));
   return fit;
 }
 

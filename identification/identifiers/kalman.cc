@@ -19,6 +19,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/explain.h"
 #include "identification/fit.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -223,7 +224,7 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
   const Uncertainty& known = *fit.errors.known;
   if (passes.size() == 1) {
     fit.summary += NoiseOf(known);
-    fit.causes.push_back(DropsIntervals("intervals need more than one pass"));
+    fit.causes.push_back(DropsIntervals(kNoIntervalsOfOnePass));
     return;
   }
 
@@ -232,10 +233,7 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
   const Eigen::VectorXd moved = passes.back().mean - passes[passes.size() - 2].mean;
   const Eigen::ArrayXd deviation = known.covariance.diagonal().cwiseSqrt();
   if ((moved.head(p).cwiseAbs().array() <= deviation).all()) return;
-  fit.causes.push_back(
-      Voids(Status::not_converged,
-            "the last pass still moved parameters by more than their standard deviation; give "
-            "more passes, or try --identifier energy-ml"));
+  fit.causes.push_back(Voids(Status::not_converged, kPassesStillMove));
 }
 
 /// Law and warming where the last pass ended.
@@ -273,8 +271,8 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
   }
   if (response.feeds_itself) {
     return Refusal{Status::inadequate_model,
-                   WouldFeedItself(m.time[*response.feeds_itself],
-                                   RemedyForNonDissipative("energy-ml", "", FittedGravity::none))};
+                   ExplainFeedingItself(m.time[*response.feeds_itself],
+                                        RemedyForNonDissipative("energy-ml", ""))};
   }
   return std::nullopt;
 }

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifier.h"
@@ -310,13 +311,8 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProbl
 void JudgeTurns(const LogSamples& m, const NoiseOfGroups& noise, Fit& fit) {
   const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
   if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
-  fit.causes.push_back(Voids(
-      Status::inadequate_model,
-      fmt::format(
-          "around reversals the residual is {:.3g} {} rms, at constant speeds {:.3g}: the law "
-          "misses what happens there; accelerate more slowly, log faster, or try --identifier "
-          "stribeck",
-          noise.others, m.torque_unit, noise.kept)));
+  fit.causes.push_back(
+      Voids(Status::inadequate_model, ExplainTurns(noise.others, noise.kept, m.torque_unit)));
 }
 
 /// Puts an answer into `fit`, or why it cannot be trusted.

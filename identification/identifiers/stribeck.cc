@@ -14,6 +14,7 @@
 
 #include <cmath>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_course.h"
@@ -130,10 +131,9 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
-  fit.causes.push_back(
-      Voids(Status::inadequate_model,
-            WouldFeedItself(m.time[predicted.feeds_itself],
-                            RemedyForNonDissipative("energy-ml", without, FittedGravity::none))));
+  fit.causes.push_back(Voids(Status::inadequate_model,
+                             ExplainFeedingItself(m.time[predicted.feeds_itself],
+                                                  RemedyForNonDissipative("energy-ml", without))));
 }
 
 std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {

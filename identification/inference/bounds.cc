@@ -1,28 +1,16 @@
 #include "identification/inference/bounds.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/forward/log_course.h"
-#include "identification/linear/command.h"
 #include "identification/physical_bounds.h"
-#include "models/friction/parameter_rows.h"
 
 namespace warmjoint {
 namespace {
-
-/// A parameter beside the bound that its value lies outside of.
-struct Excess {
-  const FitParameter& parameter;
-  const ParameterInterval& known;
-  double bound = 0;
-  bool below = false;   // the bound; else above
-  bool beyond = false;  // with its whole 95 % interval
-};
 
 std::optional<Excess> FindExcess(const FitParameter& parameter, const ParameterInterval& known) {
   // a value that is no number counts as below
@@ -32,7 +20,7 @@ std::optional<Excess> FindExcess(const FitParameter& parameter, const ParameterI
   const auto& interval = known.interval95;
   // beyond doubt where no part of the interval is within the bound
   const bool beyond = interval && (below ? (*interval)[1] < bound : (*interval)[0] > bound);
-  return Excess{parameter, known, bound, below, beyond};
+  return Excess{parameter, interval, bound, below, beyond};
 }
 
 std::vector<Excess> FindExcesses(const Fit& fit, const Inference& inference) {
@@ -44,89 +32,22 @@ std::vector<Excess> FindExcesses(const Fit& fit, const Inference& inference) {
   return excesses;
 }
 
-/// "viscous is -0.3 N.m.s/rad, below its bound 0, with its whole 95 % interval, -0.4 to -0.2".
-std::string Words(const Excess& excess) {
-  const auto& interval = excess.known.interval95;
-  const std::string reach =
-      !interval ? ", with no interval that could tell whether by chance"
-                : fmt::format(", {} 95 % interval, {:.3g} to {:.3g}",
-                              excess.beyond ? "with its whole" : "but for a part of its",
-                              (*interval)[0], (*interval)[1]);
-  return fmt::format("{} is {:.4g} {}, {} its bound {}{}", excess.parameter.name,
-                     excess.parameter.value, excess.parameter.unit,
-                     excess.below ? "below" : "above", excess.bound, reach);
-}
-
-bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
-
-/// The identifier of the linear laws that knows as much of warming as a fit does.
-std::string_view Linear(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nominal-ls"; }
-
-/// What to try against friction that falls with speed: what the fit has of curve and warming is not
-/// named again.
-std::string RemedyForFallingSlope(const Fit& fit) {
-  const std::string& law = fit.friction.law;
-  // whether the law has a Stribeck curve already
-  const bool curved = fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
-  if (curved && Warms(fit)) {
-    return "friction falls with speed beyond the law's curve and its warming: record higher speeds";
-  }
-  if (curved) {
-    return "friction that falls with speed beyond the law's curve is warming: try --identifier " +
-           CurveCommand(law, "estimated").Text();
-  }
-  if (Warms(fit)) {
-    return "friction that falls with speed is a Stribeck effect: try --identifier " +
-           CurveCommand(law, "estimated").Text();
-  }
-  return fmt::format(
-      "friction that falls with speed is warming, or a Stribeck effect: try --identifier {}, or "
-      "--identifier {} where the joint does not warm",
-      LinearCommand("energy-ml", law).Text(), CurveCommand(law, "none").Text());
-}
-
-/// What makes a fit leave its bounds, and what to try.
-std::string Remedy(const Fit& fit, const FitParameter& parameter) {
-  if (parameter.part == LawPart::slope) return RemedyForFallingSlope(fit);
-  // neither slope nor level: a linear law may do without it
-  if (parameter.part != LawPart::level) {
-    return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law).Text());
-  }
-  const char* push = "a negative level would push the joint: ";
-  // gravity is fitted already, which leaves the sign as a cause
-  if (fit.gravity)
-    return fmt::format("{}is the sign of the torque reversed (--scale torque=-1)?", push);
-  return fmt::format(
-      "{}does the torque hold gravity or another load (try --identifier {} --gravity paired), or "
-      "is "
-      "its sign reversed (--scale torque=-1)?",
-      push, Linear(fit));
-}
-
-bool IsRise(const FitParameter& parameter) { return parameter.part == LawPart::rest_rise; }
-
 }  // namespace
 
 std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
-  const std::string& law = fit.friction.law;
   const std::vector<Excess> excesses = FindExcesses(fit, by_noise);
   Cause cause{
       .source = Source::bound, .action = Action::refuse, .status = Status::inadequate_model};
 
   // what could not be held at its bound; that friction rises from rest has words of its own
   const auto sure = std::ranges::find_if(
-      excesses, [](const Excess& excess) { return !IsRise(excess.parameter); });
+      excesses, [](const Excess& excess) { return excess.parameter.part != LawPart::rest_rise; });
   if (sure != excesses.end()) {
-    cause.sentence = fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
-                                 Remedy(fit, sure->parameter));
+    cause.sentence = ExplainExcess(*sure, fit);
     return cause;
   }
-  const auto rises = RisesFromRest(fit.friction);
-  if (!rises) return std::nullopt;
-  cause.sentence = fmt::format(
-      "{}: friction rises from rest with speed, where law {} lets it fall; try "
-      "--identifier {} --set law={}",
-      *rises, law, Linear(fit), HasLevelForEachDirection(law) ? "asymmetric" : "viscous_coulomb");
+  if (!RisesFromRest(fit.friction)) return std::nullopt;
+  cause.sentence = ExplainRiseFromRest(fit);
   return cause;
 }
 
@@ -173,11 +94,10 @@ void HoldAtBounds(const Inference& told, const LogSamples& measurements, Fit& fi
     column += row.estimated;
     const auto excess = row.role == Role::law ? FindExcess(row, told.parameters[i]) : std::nullopt;
     if (!excess) continue;
-    if (excess->beyond || !excess->known.interval95) return;
+    if (excess->beyond || !excess->interval95) return;
     held.push_back(column);
     gaps.push_back(excess->bound - row.value);
-    fit.causes.push_back(Remark(
-        fmt::format("{}: noise may do that, so it is set to {}", Words(*excess), excess->bound)));
+    fit.causes.push_back(Remark(ExplainHeld(*excess)));
   }
 
   // the others as the covariance has them with these held

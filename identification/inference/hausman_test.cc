@@ -1,12 +1,12 @@
 #include "identification/inference/hausman_test.h"
 
-#include <fmt/format.h>
 #include <warmjoint/estimate.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/uncertainty/tails.h"
 
@@ -16,14 +16,6 @@ namespace {
 
 constexpr double kBeyondDoubt = 5;   // deviations of a normal variable
 constexpr double kLeastShare = 0.1;  // of the plain fit's variance
-
-/// Why no number has an interval: a clause.
-std::string DescribeDisagreement(const Disagreement& found, const std::string& name) {
-  return fmt::format(
-      "no intervals are given, since the residual holds structure and not only noise: treating its "
-      "slow part as noise would change {} by {:.2g} standard errors",
-      name, found.deviations);
-}
 
 double Rms(const Eigen::VectorXd& values) {
   return values.norm() / std::sqrt(static_cast<double>(values.size()));
@@ -58,15 +50,10 @@ void AddStructure(const Disagreement& structure, const Eigen::VectorXd& friction
 
   // how far the structure moves the fitted torque, beside the size of the friction
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
-  if (!(moved < kDefaultRelevance * Rms(friction))) {
-    fit.causes.push_back(DropsIntervals(DescribeDisagreement(structure, name)));
-    return;
-  }
-  fit.errors.structure = structure.differences;
-  fit.causes.push_back(Remark(
-      fmt::format("the residual is not only noise: treating its slow part as noise would "
-                  "change {} by {:.2g} standard errors; intervals were widened to cover this",
-                  name, structure.deviations)));
+  const bool relevant = !(moved < kDefaultRelevance * Rms(friction));
+  if (!relevant) fit.errors.structure = structure.differences;
+  const std::string sentence = ExplainStructure(name, structure.deviations, !relevant);
+  fit.causes.push_back(relevant ? DropsIntervals(sentence) : Remark(sentence));
 }
 
 }  // namespace warmjoint

@@ -6,10 +6,14 @@
 #include <cmath>
 #include <optional>
 
+#include "identification/explain.h"
 #include "identification/lack_of_fit/examine.h"
-#include "identification/lack_of_fit/explain.h"
+#include "identification/lack_of_fit/remedies.h"
+#include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/uncertainty/tails.h"
+#include "identification/warming/gaps.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 namespace {
@@ -54,6 +58,35 @@ Cause* Row(Source source, Examination& examination) {
   return found == examination.causes.end() ? nullptr : &*found;
 }
 
+/// What all rows are about.
+struct Examined {
+  const Identifier& identifier;
+  const IdentifierInput& input;
+  const Fit& fit;
+  const Inference& by_noise;
+};
+
+/// The parameter that a row moves farthest, in half widths of its interval by noise, where that is
+/// beyond one; nothing where there is none.
+std::optional<MovedParameter> FarthestBeyond(const Cause& cause, const Examined& of) {
+  std::optional<MovedParameter> farthest;
+  double most = 1;
+  for (std::size_t i = 0; i < cause.rows.size(); ++i) {
+    const double bias = cause.bias[static_cast<Eigen::Index>(i)];
+    const double beyond = std::abs(bias) / of.by_noise.parameters[cause.rows[i]].HalfWidth();
+    // without an interval there is nothing to lie beyond
+    if (!std::isfinite(beyond) || beyond <= most) continue;
+    most = beyond;
+    farthest.emplace(MovedParameter{of.fit.parameters[cause.rows[i]], bias});
+  }
+  return farthest;
+}
+
+/// What a finding is about.
+std::string QuantityOf(const Finding& finding, const Examined& of) {
+  return finding.test->quantity(finding, of.input.measurements);
+}
+
 /// How far a finding changes the friction, beside --relevance: half of that is allowed of what moves understate.
 double Counted(const Finding& finding) {
   return (finding.test->harm == Harm::of_either_twice ? 2 : 1) * finding.harm;
@@ -61,8 +94,10 @@ double Counted(const Finding& finding) {
 
 /// Why what was found is too much to live with; nothing where it is not.
 std::optional<std::string> TooMuch(const Examination& examination, const Finding& worst,
-                                   const LackOfFitSettings& judging, const LogSamples& m) {
-  if (Counted(worst) > judging.relevance) return ExplainTooMuch(worst, judging.relevance, m);
+                                   const LackOfFitSettings& judging, const Examined& of) {
+  if (Counted(worst) > judging.relevance) {
+    return ExplainTooMuch(QuantityOf(worst, of), worst.harm, judging.relevance);
+  }
   double explained = 0;
   for (const Finding* finding : examination.Found()) explained += finding->explained;
   explained = std::min(explained, examination.squares);
@@ -82,8 +117,7 @@ std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
 }
 
 /// The row of all findings: refuses the answer that they make wrong, else widens its intervals.
-void ActOnFindings(const Explained& of, const LackOfFitSettings& judging,
-                   Examination& examination) {
+void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examination& examination) {
   Cause* const row = Row(Source::findings, examination);
   if (!row) return;
 
@@ -92,12 +126,19 @@ void ActOnFindings(const Explained& of, const LackOfFitSettings& judging,
   const std::string remedy = found[0]->test->remedy({*found[0], of.identifier, of.input, of.fit});
   const Finding& worst =
       **std::ranges::max_element(found, {}, [](const Finding* one) { return Counted(*one); });
-  const LogSamples& m = of.input.measurements;
-  const std::string depends = ExplainFindings(examination, m);
-  if (const auto why = TooMuch(examination, worst, judging, m)) {
+  const auto explain = [&](const std::string& effect) {
+    std::vector<FoundPart> parts;
+    for (const Finding* one : found) {
+      const double rms = examination.Rms(*one);
+      parts.push_back({QuantityOf(*one, of), rms, 100 * rms / examination.friction,
+                       100 * std::min(one->explained / examination.squares, 1.0)});
+    }
+    return ExplainFindings(parts, of.input.measurements.torque_unit, effect, remedy);
+  };
+  if (const auto why = TooMuch(examination, worst, judging, of)) {
     row->action = Action::refuse;
     row->status = Status::inadequate_model;
-    row->sentence = fmt::format("{}; {}; {}", depends, *why, remedy);
+    row->sentence = explain(*why);
     return;
   }
 
@@ -111,39 +152,50 @@ void ActOnFindings(const Explained& of, const LackOfFitSettings& judging,
     widen(Source::open_drift);
   }
   if (Finds(examination, HeatRelation::starts)) widen(Source::open_start);
-  row->sentence = fmt::format(
-      "{}: {}; {}", depends,
-      ExplainWidened(worst.harm, drifts && of.fit.RowOf(Role::heat).has_value()), remedy);
+  row->sentence =
+      explain(ExplainWidened(worst.harm, drifts && of.fit.RowOf(Role::heat).has_value()));
 }
 
 /// What the start does to the numbers: of one that is not known, intervals cover a warm one; of one that is taken to be
 /// cold, a warning where a warm one would leave an interval.
-void ActOnStart(const Explained& of, StartBelief start, Examination& examination) {
+void ActOnStart(const Examined& of, StartBelief start, Examination& examination) {
   Cause* const row = Row(Source::cold_start, examination);
   if (!row) return;
   if (start == StartBelief::unknown) {
     row->action = Action::widen;
     row->sentence = kCoversWarmStart;
     row->sentence_in = SentenceIn::message;
-  } else {
-    row->sentence = ExplainColdStart(*row, of);
+  } else if (const auto moved = FarthestBeyond(*row, of)) {
+    row->sentence =
+        ExplainColdStart(*moved, of.input.measurements.time[0], RemedyForWarmStart(of.identifier));
   }
 }
 
-/// Sentences of what the log leaves open, in the order in which they are read.
-void ExplainLog(const Explained& of, Examination& examination) {
+/// Sentences of what the log leaves open, in the order in which they are read; of steps and hints only where they leave an
+/// interval.
+void ExplainLog(const Examined& of, Examination& examination) {
+  const LogSamples& m = of.input.measurements;
   if (Cause* const row = Row(Source::held_losses, examination)) {
-    row->sentence = ExplainHeldLosses(*row, of);
+    const auto tau = std::ranges::find(row->rows, *of.fit.RowOf(Role::heat, 1));
+    row->sentence = ExplainHeldLosses(MedianStep(m.time), row->bias[tau - row->rows.begin()],
+                                      row->action == Action::shift);
   }
   if (Cause* const row = Row(Source::gaps, examination)) {
-    row->sentence = ExplainGaps(of.input.measurements);
+    row->sentence = ExplainGaps(FindGaps(m), m.time, false);
   }
   for (const Source source : {Source::rounding, Source::hidden_steps}) {
-    if (Cause* const row = Row(source, examination)) row->sentence = ExplainRounding(*row, of);
+    Cause* const row = Row(source, examination);
+    const auto moved = row ? FarthestBeyond(*row, of) : std::nullopt;
+    if (!moved) continue;
+    row->sentence =
+        ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, source == Source::hidden_steps);
   }
-  if (Cause* const row = Row(Source::hints, examination)) {
-    row->sentence = ExplainHints(*row, examination, of);
-  }
+  Cause* const hints = Row(Source::hints, examination);
+  const auto moved = hints ? FarthestBeyond(*hints, of) : std::nullopt;
+  if (!moved) return;
+  std::vector<std::string> quantities;
+  for (const Finding* hint : examination.Hints()) quantities.push_back(QuantityOf(*hint, of));
+  hints->sentence = ExplainHints(quantities, *moved);
 }
 
 }  // namespace
@@ -158,7 +210,7 @@ LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& inp
     return {DiagnosticsOf(none, fit, unit), {}};
   }
   Examination examination = ExamineResidual(fit, by_noise, input.measurements, input.selection);
-  const Explained of{identifier, input, fit, by_noise};
+  const Examined of{identifier, input, fit, by_noise};
   ActOnStart(of, judging.start, examination);
   ExplainLog(of, examination);
   ActOnFindings(of, judging, examination);

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "identification/command.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
-#include "identification/linear/command.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/expected_start.h"

@@ -66,9 +66,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
 void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd& model,
             const LogSamples& measurements, Fit& fit);
 
-/// What the message of a fit adds that was asked for a lag and sees none.
-inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none is fitted";
-/// What its summary says where it has one.
+/// What the summary of a fit says that has one.
 inline constexpr const char* kWithLag = " behind a lag of the torque";
 
 }  // namespace warmjoint

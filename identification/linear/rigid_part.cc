@@ -183,24 +183,6 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
   Append({InertiaParameter(values[q], measurements)}, fit);
 }
 
-std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
-                                    FittedGravity gravity) {
-  // levels of their own for both directions
-  const std::string asymmetric =
-      fmt::format("try --identifier {} --set law=asymmetric", identifier);
-  if (law != "asymmetric") {
-    return gravity == FittedGravity::none
-               ? asymmetric
-               : fmt::format("{} --gravity {}", asymmetric, NameOf(gravity));
-  }
-  if (gravity == FittedGravity::none) {
-    return "does the torque hold gravity or another load? " + asymmetric + " --gravity paired";
-  }
-
-  // both are fitted already: what is left is the sign
-  return "is the sign of the torque reversed (--scale torque=-1)?";
-}
-
 Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
   both << a, b;

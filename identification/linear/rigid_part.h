@@ -65,11 +65,6 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
               Fit& fit);
 
-/// A remedy where a fitted friction pushes the joint, which the fit does not hold already: another law, else gravity, else the
-/// torque's sign. identifier: one that can do both; law: of the fit; gravity: its option.
-std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
-                                    FittedGravity gravity);
-
 /// [A B].
 Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

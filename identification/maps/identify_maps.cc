@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/gravity.h"
@@ -85,16 +86,10 @@ void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, 
     imitated.push_back(parameter.name);
   }
   for (const FitParameter& row : fit.parameters) {
-    if (!row.has_interval || row.value != row.lower) continue;
-    fit.causes.push_back(Remark(fmt::format(
-        "noise puts {} beyond its bound {}, so it is set to that", row.name, row.lower)));
+    const bool held = row.has_interval && row.value == row.lower;
+    if (held) fit.causes.push_back(Remark(ExplainHeldBesideMaps(row)));
   }
-  if (imitated.empty()) return;
-  fit.causes.push_back(Remark(fmt::format(
-      "the data cannot separate {} from the map; use total friction (at the speeds given, and "
-      "bands), "
-      "not {}",
-      fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers")));
+  if (!imitated.empty()) fit.causes.push_back(Remark(ExplainImitated(imitated)));
 }
 
 /// The samples that law and maps are fitted to; without maps.
@@ -131,13 +126,8 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   const auto drives = std::ranges::find_if(
       friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
   if (drives != friction_at_speeds.end()) {
-    fit.causes.push_back(Voids(
-        Status::inadequate_model,
-        fmt::format(
-            "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; does the torque hold "
-            "gravity (--gravity sincos), or is its sign reversed (--scale torque=-1)?",
-            drives->speed, kVelocityUnit.For(input.measurements.joint), drives->value,
-            input.measurements.torque_unit)));
+    fit.causes.push_back(
+        Voids(Status::inadequate_model, ExplainDrivingFriction(*drives, input.measurements)));
   }
   if (shares) fit.friction_at_speeds = std::move(friction_at_speeds);
 }
@@ -290,20 +280,11 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
       "effective parameters",
       law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
   if (HoldsGravity(input, task, maps)) {
-    fit.causes.push_back(
-        Voids(Status::inadequate_model,
-              "the map holds what acts alike in both directions, as gravity does, which is no "
-              "friction; add "
-              "--gravity sincos"));
+    fit.causes.push_back(Voids(Status::inadequate_model, kMapHoldsGravity));
   }
   // places without data
   const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
-  if (!holes.empty()) {
-    fit.causes.push_back(
-        Remark(fmt::format("the map has no data at {}: it follows its neighbours there, and its "
-                           "bands are wide",
-                           fmt::join(holes, ", "))));
-  }
+  if (!holes.empty()) fit.causes.push_back(Remark(ExplainHoles(holes)));
   return fit;
 }
 

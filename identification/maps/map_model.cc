@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "identification/explain.h"
 #include "identification/inference/inference.h"
 #include "identification/maps/warm_maps.h"
 #include "identification/physical_bounds.h"
@@ -78,7 +79,7 @@ Fit FitMapModel(const std::string& name, const IdentifierInput& given, const Map
   // then maps over that E too
   Fit fit = IdentifyOverEnergy(input, begin.task, warms ? &warm : nullptr, model.over_energy);
   if (!warms && GivesFriction(fit)) {
-    fit.causes.push_back(Remark("without warming: " + Infer(warm).message, SentenceIn::message));
+    fit.causes.push_back(Remark(kWithoutWarming + Infer(warm).message, SentenceIn::message));
   }
   return fit;
 }

@@ -1,6 +1,5 @@
 #include "identification/maps/motor_maps.h"
 
-#include <fmt/format.h>
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
@@ -8,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "identification/explain.h"
 #include "identification/ridge/local_rows.h"
 #include "models/recording/measurements.h"
 
@@ -120,22 +121,15 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
                          const LogSamples& measurements, Fit& fit) {
   for (const int direction : {1, 0}) {
     // harmonics of one direction that stand out of the noise
-    std::vector<std::string> found;
+    std::vector<std::pair<int, double>> found;
     for (const MotorHarmonic& harmonic :
          DominantHarmonics(MotorHarmonics(motor, covariance, direction))) {
-      found.push_back(fmt::format("{:.3g} {} at {} a turn", harmonic.amplitude,
-                                  measurements.torque_unit, harmonic.multiple));
+      found.emplace_back(harmonic.multiple, harmonic.amplitude);
     }
-    fit.causes.push_back(
-        Remark(fmt::format("motor ripple for v {} 0: {}", direction ? ">" : "<",
-                           found.empty() ? "none above the noise"
-                                         : fmt::format("{}", fmt::join(found, ", "))),
-               SentenceIn::message));
+    fit.causes.push_back(Remark(ExplainMotorRipple(direction == 1, found, measurements.torque_unit),
+                                SentenceIn::message));
   }
-  if (!KnowsMotorAngle(measurements)) {
-    fit.causes.push_back(
-        Remark("the motor is taken to turn with the joint: give --gear, or log motor_position"));
-  }
+  if (!KnowsMotorAngle(measurements)) fit.causes.push_back(Remark(kMotorTurnsWithJoint));
 }
 
 }  // namespace warmjoint

@@ -1,10 +1,9 @@
 #include "identification/maps/over_energy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_course.h"
@@ -51,20 +50,14 @@ Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   if (prediction.feeds_itself < m.size()) {
     return Refused(
         fit.identifier, Status::inadequate_model,
-        WouldFeedItself(m.time[prediction.feeds_itself], "use fewer kernels, or another law"));
+        ExplainFeedingItself(m.time[prediction.feeds_itself], "use fewer kernels, or another law"));
   }
 
   // what the torque is compared with follows from that heat
   fit.fitted = Kept(prediction.force, fit.used);
   fit.count += static_cast<int>(heat.size());
   fit.effective_parameters += static_cast<double>(heat.size());
-  fit.causes.push_back(Remark(
-      fmt::format(
-          "the energy state is consistent with the losses of the fit after {} rounds; thermal_gain "
-          "and thermal_time_constant have no interval, since maps over the energy absorb part of "
-          "their effect",
-          rounds),
-      SentenceIn::message));
+  fit.causes.push_back(Remark(ExplainMapsOverEnergy(rounds), SentenceIn::message));
   return fit;
 }
 

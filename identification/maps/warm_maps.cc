@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_course.h"
@@ -228,9 +229,8 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const LogSamples& m
   fit.errors.known = WithoutWeights(known, warm.fit);
   fit.count += static_cast<int>(rows.size());
   fit.effective_parameters += static_cast<double>(rows.size());
-  fit.causes.insert(
-      fit.causes.begin(),
-      Remark(fmt::format("warming beside them in {} rounds", warm.rounds), SentenceIn::message));
+  fit.causes.insert(fit.causes.begin(),
+                    Remark(ExplainWarmingBesideMaps(warm.rounds), SentenceIn::message));
   RemarkOnHeat(warming, warm.gaps, measurements, fit);
 }
 
@@ -309,10 +309,11 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // a friction that drives itself by its own heat is no model
   const auto* asked = input.options.Find<GravityOption>();
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
-    return Refused(name, Status::inadequate_model,
-                   WouldFeedItself(m.time[at], RemedyForNonDissipative(
-                                                   "energy-ml", fit.friction.law,
-                                                   asked ? asked->gravity : FittedGravity::none)));
+    return Refused(
+        name, Status::inadequate_model,
+        ExplainFeedingItself(
+            m.time[at], RemedyForNonDissipative("energy-ml", fit.friction.law,
+                                                asked ? asked->gravity : FittedGravity::none)));
   }
   return fit;
 }

@@ -1,4 +1,4 @@
-// The last step: a fit and what is inferred from it, with names, units and sentences.
+// The last step: a fit and what is inferred from it, with names and units.
 #pragma once
 
 #include <warmjoint/estimate.h>

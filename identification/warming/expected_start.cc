@@ -1,8 +1,8 @@
 #include "identification/warming/expected_start.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include "identification/explain.h"
 
 namespace warmjoint {
 namespace {
@@ -26,11 +26,7 @@ InitialEnergy InitialEnergyOf(const Options& options) {
 std::string ContradictsExpected(const InitialEnergy& expected, double found, double deviation) {
   const double off = found - expected.mean;
   if (std::abs(off) <= kBeyondDoubt * std::hypot(deviation, expected.spread)) return "";
-  return fmt::format(
-      "the log begins at a heat of {:.3g}, not at the {:.3g} +- {:.2g} that the recording before "
-      "it left: E(0) is taken from this log alone; check the pause, and that the joint rested in "
-      "it",
-      found, expected.mean, expected.spread);
+  return ExplainUnexpectedStart(found, expected.mean, expected.spread);
 }
 
 }  // namespace warmjoint

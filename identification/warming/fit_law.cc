@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/hausman_test.h"
@@ -262,11 +263,11 @@ std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& resp
         FrictionKind::warm_up};
   }
   if (!response.feeds_itself) return std::nullopt;
-  return Refusal{
-      Status::inadequate_model,
-      WouldFeedItself(law.measurements().time[*response.feeds_itself],
-                      RemedyForNonDissipative(law.name, law.problem.task().law.name,
-                                              law.input().options.Get<GravityOption>().gravity))};
+  return Refusal{Status::inadequate_model,
+                 ExplainFeedingItself(
+                     law.measurements().time[*response.feeds_itself],
+                     RemedyForNonDissipative(law.name, law.problem.task().law.name,
+                                             law.input().options.Get<GravityOption>().gravity))};
 }
 
 std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
@@ -421,11 +422,9 @@ void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                   const LogSamples& measurements, Fit& fit) {
   std::vector<LogGap> within = gaps;
   std::erase_if(within, IsStart);
-  if (!within.empty()) fit.causes.push_back(Remark(LossesInGaps(within, measurements)));
+  if (!within.empty()) fit.causes.push_back(Remark(ExplainGaps(within, measurements.time, true)));
   if (warm.initial.is_expected() && !measurements.further_starts.empty()) {
-    fit.causes.push_back(Remark(
-        "what is expected of E(0) is taken for the first recording, and the others are taken "
-        "to begin cold; use --start estimated if they did not"));
+    fit.causes.push_back(Remark(kOthersBeginCold));
   }
 }
 

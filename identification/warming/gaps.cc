@@ -1,7 +1,5 @@
 #include "identification/warming/gaps.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -92,19 +90,6 @@ std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps) {
   std::vector<Eigen::Index> behind;
   for (const LogGap& gap : gaps) behind.push_back(gap.behind);
   return behind;
-}
-
-std::string DescribeGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements) {
-  const double first = measurements.time[gaps[0].behind - 1];
-  const double longest = std::ranges::min_element(gaps, IsLonger)->length;
-  return gaps.size() == 1 ? fmt::format("a gap of {:.4g} s at {:.6g} s", longest, first)
-                          : fmt::format("{} gaps of up to {:.4g} s, the first at {:.6g} s",
-                                        gaps.size(), longest, first);
-}
-
-std::string LossesInGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements) {
-  return fmt::format("{}: the losses during that time are unknown and are estimated, too",
-                     DescribeGaps(gaps, measurements));
 }
 
 }  // namespace warmjoint

@@ -40,10 +40,4 @@ std::vector<std::string> JumpNames(const std::vector<LogGap>& gaps, const LogSam
 /// LogGap::behind of each. [J]
 std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps);
 
-/// "a gap of 100 s at 300 s", "5 gaps of up to 60 s, the first at 300 s". gaps: without starts
-std::string DescribeGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements);
-
-/// The warning that jumps of E are estimated at them.
-std::string LossesInGaps(const std::vector<LogGap>& gaps, const LogSamples& measurements);
-
 }  // namespace warmjoint

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "identification/answer/identify.h"
+#include "identification/explain.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/rigid_part.h"

@@ -1,4 +1,4 @@
-#include "identification/linear/command.h"
+#include "identification/command.h"
 
 #include <fmt/format.h>
 #include <warmjoint/friction.h>

@@ -1,0 +1,389 @@
+#include "identification/explain.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/command.h"
+#include "models/friction/parameter_rows.h"
+
+namespace warmjoint {
+namespace {
+
+/// "viscous is -0.3 N.m.s/rad, below its bound 0, with its whole 95 % interval, -0.4 to -0.2".
+std::string Describe(const Excess& excess) {
+  const auto& interval = excess.interval95;
+  const std::string reach =
+      !interval ? ", with no interval that could tell whether by chance"
+                : fmt::format(", {} 95 % interval, {:.3g} to {:.3g}",
+                              excess.beyond ? "with its whole" : "but for a part of its",
+                              (*interval)[0], (*interval)[1]);
+  return fmt::format("{} is {:.4g} {}, {} its bound {}{}", excess.parameter.name,
+                     excess.parameter.value, excess.parameter.unit,
+                     excess.below ? "below" : "above", excess.bound, reach);
+}
+
+bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
+
+/// The identifier of the linear laws that knows as much of warming as a fit does.
+std::string_view LinearLike(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nominal-ls"; }
+
+/// What to try against friction that falls with speed: what the fit has of curve and warming is not
+/// named again.
+std::string RemedyForFallingSlope(const Fit& fit) {
+  const std::string& law = fit.friction.law;
+  // whether the law has a Stribeck curve already
+  const bool curved = fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
+  const bool warms = Warms(fit);
+  if (curved && warms) {
+    return "friction falls with speed beyond the law's curve and its warming: record higher speeds";
+  }
+  if (curved || warms) {
+    return fmt::format("friction that falls with speed {}: try --identifier {}",
+                       curved ? "beyond the law's curve is warming" : "is a Stribeck effect",
+                       CurveCommand(law, "estimated").Text());
+  }
+  return fmt::format(
+      "friction that falls with speed is warming, or a Stribeck effect: try --identifier {}, or "
+      "--identifier {} where the joint does not warm",
+      LinearCommand("energy-ml", law).Text(), CurveCommand(law, "none").Text());
+}
+
+/// What makes a fit leave its bounds, and what to try.
+std::string RemedyForBound(const FitParameter& parameter, const Fit& fit) {
+  if (parameter.part == LawPart::slope) return RemedyForFallingSlope(fit);
+  // neither slope nor level: a linear law may do without it
+  if (parameter.part != LawPart::level) {
+    return fmt::format("try --identifier {}",
+                       LinearCommand(LinearLike(fit), fit.friction.law).Text());
+  }
+  // gravity is fitted already, which leaves the sign as a cause
+  const std::string torque =
+      fit.gravity ? "is the sign of the torque"
+                  : fmt::format(
+                        "does the torque hold gravity or another load (try --identifier {} "
+                        "--gravity paired), or is its sign",
+                        LinearLike(fit));
+  return fmt::format("a negative level would push the joint: {} reversed (--scale torque=-1)?",
+                     torque);
+}
+
+/// An assumption as estimate.json has it. meaning: with a place for its size and the torque's unit
+struct AssumptionWords {
+  Source source;
+  const char* meaning;
+};
+
+constexpr AssumptionWords kAssumptions[] = {
+    {Source::cold_start,
+     "the joint was cold at the start, not at a tenth of the warmth that it reaches"},
+    {Source::open_start,
+     "the joint was cold at the start, though for all that this log tells E(0) may be {:.2g} {}"},
+    {Source::slow_drift, "nothing outside of the model changed the friction by 1 % over the log"},
+    {Source::open_drift,
+     "nothing outside of the model changed the friction slowly, though this log cannot rule it "
+     "out"},
+    {Source::open_curve,
+     "friction depends on the speed as the law has it, though this log cannot rule out that it "
+     "bends"},
+    {Source::open_memory,
+     "friction follows the speed at once, though this log cannot rule out that a part of it is "
+     "late"},
+    {Source::dead_band,
+     "the torque's sensor has no dead band, though one of {:.2g} {} would stay unseen"},
+    {Source::degrees, "positions and speeds are in radians, not both in degrees"},
+    {Source::clock, "the clock of the log is right, not off by 1 %"},
+};
+
+}  // namespace
+
+std::string ExplainHeld(const Excess& excess) {
+  return fmt::format("{}: noise may do that, so it is set to {}", Describe(excess), excess.bound);
+}
+
+std::string ExplainHeldBesideMaps(const FitParameter& parameter) {
+  return fmt::format("noise puts {} beyond its bound {}, so it is set to that", parameter.name,
+                     parameter.lower);
+}
+
+std::string ExplainExcess(const Excess& excess, const Fit& fit) {
+  return fmt::format("{}: law {} does not describe these data; {}", Describe(excess),
+                     fit.friction.law, RemedyForBound(excess.parameter, fit));
+}
+
+std::string ExplainRiseFromRest(const Fit& fit) {
+  const std::string& law = fit.friction.law;
+  return fmt::format(
+      "{}: friction rises from rest with speed, where law {} lets it fall; try --identifier {} "
+      "--set law={}",
+      fit.friction.parameters.contains(std::string(kStaticRiseRow.name))
+          ? "static_rise is below 0"
+          : "static is below coulomb",
+      law, LinearLike(fit), HasLevelForEachDirection(law) ? "asymmetric" : "viscous_coulomb");
+}
+
+std::string ExplainFeedingItself(double time, std::string_view remedy) {
+  return fmt::format(
+      "at {:.6g} s the fitted friction pushes instead of braking and would feed itself; {}", time,
+      remedy);
+}
+
+std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
+                                    FittedGravity gravity) {
+  const bool none = gravity == FittedGravity::none;
+  // levels of their own for both directions
+  const std::string levels = fmt::format("try --identifier {} --set law=asymmetric", identifier);
+  if (law != "asymmetric") {
+    return none ? levels : fmt::format("{} --gravity {}", levels, NameOf(gravity));
+  }
+  if (none) return "does the torque hold gravity or another load? " + levels + " --gravity paired";
+
+  // both are fitted already: what is left is the sign
+  return "is the sign of the torque reversed (--scale torque=-1)?";
+}
+
+std::string ExplainStructure(std::string_view name, double deviations, bool widens) {
+  return fmt::format(
+      "{}: treating its slow part as noise would change {} by {:.2g} standard errors{}",
+      widens ? "the residual is not only noise"
+             : "no intervals are given, since the residual holds structure and not only noise",
+      name, deviations, widens ? "; intervals were widened to cover this" : "");
+}
+
+std::string ExplainTurns(double at_turns, double at_constant_speeds, const std::string& unit) {
+  return fmt::format(
+      "around reversals the residual is {:.3g} {} rms, at constant speeds {:.3g}: the law misses "
+      "what happens there; accelerate more slowly, log faster, or try --identifier stribeck",
+      at_turns, unit, at_constant_speeds);
+}
+
+std::string ExplainStopped(std::size_t iterations, double rate, double remaining,
+                           double tolerance) {
+  return fmt::format(
+      "stopped after {} iterations while the parameters still move: at the observed rate of {:.4f} "
+      "an iteration they end up to {:.2g} % from here (tolerance {:.2g} %); give more iterations, "
+      "or try --identifier energy-ml",
+      iterations, rate, 100 * remaining, 100 * tolerance);
+}
+
+std::string ExplainLeftOutByLag(double lag) {
+  return fmt::format(
+      "the torque lags by {:.3g} s: samples within five times that after a change of speed are "
+      "left out",
+      lag);
+}
+
+std::string ExplainColdStart(const MovedParameter& moved, double begins, std::string_view remedy) {
+  const std::string clock =
+      begins == 0
+          ? ""
+          : fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", begins);
+  return fmt::format(
+      "this assumes a cold start{}: had the joint been 10 % warmed up, {} would be {:.2g} {} {}; "
+      "{}",
+      clock, moved.parameter.name, std::abs(moved.change), moved.parameter.unit,
+      moved.change < 0 ? "lower" : "higher", remedy);
+}
+
+std::string ExplainUnexpectedStart(double found, double expected, double deviation) {
+  return fmt::format(
+      "the log begins at a heat of {:.3g}, not at the {:.3g} +- {:.2g} that the recording before "
+      "it left: E(0) is taken from this log alone; check the pause, and that the joint rested in "
+      "it",
+      found, expected, deviation);
+}
+
+std::string ExplainHeldLosses(double step, double change, bool shifted) {
+  return fmt::format(
+      "Eq. (22) takes the losses as constant within each step of {:.3g} s; losses that change with "
+      "the heat within a step change thermal_time_constant by {:.2g} s{}",
+      step, change,
+      shifted ? ", and describe the log better: the numbers given are theirs"
+              : ": the intervals cover both; log faster");
+}
+
+std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
+                        bool estimated) {
+  const double first = time[gaps[0].behind - 1];
+  const double longest = std::ranges::max_element(gaps, {}, &LogGap::length)->length;
+  const std::string where =
+      gaps.size() == 1 ? fmt::format("a gap of {:.4g} s", longest)
+                       : fmt::format("{} gaps of up to {:.4g} s, the first", gaps.size(), longest);
+  return fmt::format("{} at {:.6g} s: the losses during that time are unknown{}", where, first,
+                     estimated ? " and are estimated, too"
+                               : ", and intervals were widened to cover this; record without gaps");
+}
+
+std::string ExplainImitated(const std::vector<std::string>& names) {
+  return fmt::format(
+      "the data cannot separate {} from the map; use total friction (at the speeds given, and "
+      "bands), not {}",
+      fmt::join(names, ", "), names.size() == 1 ? "this number" : "these numbers");
+}
+
+std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements) {
+  return fmt::format(
+      "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; does the torque hold gravity "
+      "(--gravity sincos), or is its sign reversed (--scale torque=-1)?",
+      at.speed, kVelocityUnit.For(measurements.joint), at.value, measurements.torque_unit);
+}
+
+std::string ExplainHoles(const std::vector<std::string>& holes) {
+  return fmt::format(
+      "the map has no data at {}: it follows its neighbours there, and its bands are wide",
+      fmt::join(holes, ", "));
+}
+
+std::string ExplainMotorRipple(bool forwards, const std::vector<std::pair<int, double>>& harmonics,
+                               const std::string& unit) {
+  std::string found;
+  for (const auto& [multiple, amplitude] : harmonics) {
+    found += fmt::format("{}{:.3g} {} at {} a turn", found.empty() ? "" : ", ", amplitude, unit,
+                         multiple);
+  }
+  return fmt::format("motor ripple for v {} 0: {}", forwards ? ">" : "<",
+                     found.empty() ? "none above the noise" : found);
+}
+
+std::string ExplainWarmingBesideMaps(int rounds) {
+  return fmt::format("warming beside them in {} rounds", rounds);
+}
+
+std::string ExplainMapsOverEnergy(int rounds) {
+  return fmt::format(
+      "the energy state is consistent with the losses of the fit after {} rounds; thermal_gain and "
+      "thermal_time_constant have no interval, since maps over the energy absorb part of their "
+      "effect",
+      rounds);
+}
+
+std::string ExplainFindings(const std::vector<FoundPart>& found, const std::string& unit,
+                            std::string_view effect, std::string_view remedy) {
+  std::vector<std::string> words;
+  for (const FoundPart& part : found) {
+    words.push_back(fmt::format(
+        "{}: {:.3g} {} rms, {:.2g} % of the friction, {:.{}f} % of the residual's variance",
+        part.quantity, part.rms, unit, part.of_friction, part.of_residual,
+        part.of_residual < 0.95 ? 1 : 0));
+  }
+  return fmt::format("the residual depends on {}{}; {}", fmt::join(words, "; and on "), effect,
+                     remedy);
+}
+
+std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance) {
+  return fmt::format("; modelling {} would change the friction by {:.2g} % (--relevance {:.3g})",
+                     quantity, 100 * harm, relevance);
+}
+
+std::string ExplainTooMuchTogether(double share, double most) {
+  return fmt::format("; all of that is {:.2g} % of the friction, more than {:.2g} %", 100 * share,
+                     100 * most);
+}
+
+std::string ExplainWidened(double largest, bool without_warming) {
+  return fmt::format(
+      ": it changes the friction by {:.2g} % at most; intervals were widened to cover this{}",
+      100 * largest,
+      without_warming
+          ? ", and the parameters of warming have none, since they may have absorbed part of it"
+          : "");
+}
+
+std::string ExplainHints(const std::vector<std::string>& quantities, const MovedParameter& moved) {
+  return fmt::format(
+      "the residual may depend on {}: one test alone would call that found, among many it may be "
+      "chance; intervals were widened to cover it, that of {} by {:.2g} {}; a longer recording "
+      "tells",
+      fmt::join(quantities, ", or on "), moved.parameter.name, moved.change, moved.parameter.unit);
+}
+
+std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
+                            bool hides) {
+  return fmt::format(
+      "the torque comes in steps of {:.3g} {}, which its noise does not even out: {} {} by {:.2g} "
+      "{}; log the torque in finer steps",
+      step, unit,
+      hides ? "intervals were widened to cover what they hide, that of"
+            : "the numbers given are free of what they do,",
+      moved.parameter.name + (hides ? "" : " changed"), moved.change, moved.parameter.unit);
+}
+
+std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
+                              bool any_motion) {
+  return fmt::format(
+      "the fit rests on {} of {} samples that move, and takes {} and {:.0f} % of them: record "
+      "longer, or use the others (--motion {})",
+      used, moving, fewest, 100 * least_share, any_motion ? "constant" : "any");
+}
+
+std::string ExplainWorseThanMean(double fit_share) {
+  return fmt::format(
+      "the torque's mean follows it better than the friction does (Fit {:.3g} %): is there gravity "
+      "(--gravity sincos), or a wrong sign or unit?",
+      fit_share);
+}
+
+std::string ExplainOwnLaw(const MovedParameter& moved) {
+  return fmt::format(
+      "the estimate does not fit its log: the same law fits it better with {} changed by {:.3g} "
+      "{}; fit again, and check units, signs and the samples that were used",
+      moved.parameter.name, moved.change, moved.parameter.unit);
+}
+
+std::string ExplainFaults(const std::vector<std::string>& faults) {
+  return fmt::format("{}", fmt::join(faults, "; and "));
+}
+
+std::string ExplainAveraging(const VelocityNoise& taken, JointKind joint, std::string_view slope) {
+  const std::string_view unit = kVelocityUnit.For(joint);
+  if (slope.empty()) {
+    return fmt::format("velocity averaged over each segment, for its noise of {:.2g} {}",
+                       taken.noise, unit);
+  }
+  return fmt::format(
+      "velocity averaged over each segment, since its noise of {:.2g} {} would change {} by {:.2g} "
+      "%",
+      taken.noise, unit, slope, -100 * taken.attenuation);
+}
+
+std::string ExplainVelocityNoise(const VelocityNoise& taken, std::string_view slope) {
+  return fmt::format(
+      "the noise of the velocity may still change {} by {:.2g} %, and intervals were widened to "
+      "cover this; hold each speed for longer, or log a finer position",
+      slope, -100 * taken.left);
+}
+
+std::string ExplainReversals(double unseen) {
+  return fmt::format(
+      "reversals happen between two samples: if the drive reverses slowly, the joint travelled up "
+      "to {:.1f} % less than assumed, and thermal_gain is too small by as much; log faster to see "
+      "the reversals",
+      100 * unseen);
+}
+
+std::vector<Assumption> AssumptionsOf(const std::vector<Cause>& causes, const Fit& fit,
+                                      const std::string& unit) {
+  std::vector<Assumption> assumptions;
+  for (const AssumptionWords& words : kAssumptions) {
+    const auto cause = std::ranges::find(causes, words.source, &Cause::source);
+    if (cause == causes.end() || cause->bias.size() == 0) continue;
+    assumptions.push_back({std::string(NameOf(words.source)),
+                           fmt::format(fmt::runtime(words.meaning), cause->size, unit),
+                           NamedMoves(cause->rows, cause->bias, fit)});
+  }
+  return assumptions;
+}
+
+ParameterMoves NamedMoves(const std::vector<size_t>& rows, const Eigen::VectorXd& moves,
+                          const Fit& fit) {
+  ParameterMoves named;
+  if (moves.size() == 0) return named;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    named.emplace_back(fit.parameters[rows[i]].name, moves[static_cast<Eigen::Index>(i)]);
+  }
+  return named;
+}
+
+}  // namespace warmjoint
