@@ -42,14 +42,17 @@ void AddMap(const IdentifierInput& input, const std::string& identifier, Nominal
 
 }  // namespace
 
-Eigen::Index NominalPart::kernels() const {
-  Eigen::Index count = 0;
-  for (const FrictionMap& map : maps) count += static_cast<Eigen::Index>(map.size());
-  return count;
+Layout NominalPart::layout() const {
+  Eigen::Index kernels = 0;
+  for (const FrictionMap& map : maps) kernels += static_cast<Eigen::Index>(map.size());
+  return Layout::InOrder({{&Layout::law, columns.cols() - gravity.count() - kernels},
+                          {&Layout::rigid, gravity.count()},
+                          {&Layout::weights, kernels},
+                          {&Layout::heat, 2}});
 }
 
 std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) const {
-  return WithWeights(maps, nominal.tail(kernels()));
+  return WithWeights(maps, layout().weights.Of(nominal));
 }
 
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "identification/layout.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/identify_maps.h"
@@ -41,7 +42,8 @@ struct NominalPart {
   double effective = 0;            // of the p parameters
   std::optional<Refusal> refusal;  // why there is no such part
 
-  Eigen::Index kernels() const;
+  /// Of the p columns, law, gravity and kernels, and the heat that the fit has behind them.
+  Layout layout() const;
 
   /// Maps with their weights. nominal: [p]
   std::vector<FrictionMap> MapsOf(const Eigen::VectorXd& nominal) const;

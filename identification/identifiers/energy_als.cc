@@ -206,22 +206,20 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
 
   // with kernels the strength of their prior joins the normal equations
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-  const Eigen::Index q = part.kernels();
-  normal.diagonal().segment(jacobian.cols() - 2 - q, q).array() += part.strength;
+  const Slice weights = part.layout().weights;
+  normal.diagonal().segment(weights.begin, weights.size).array() += part.strength;
   const Eigen::MatrixXd cofactor = Cofactor(normal);
   if (!cofactor.allFinite()) return std::nullopt;
   return cofactor;
 }
 
-/// What is known of the rows of the table, law, warming and gravity. known: of (nominal, gain,
-/// ln tau); d: parameters of the law.
-Uncertainty OfTable(const NominalPart& part, Eigen::Index d, Uncertainty known) {
-  const Eigen::Index p = known.covariance.rows();
+/// What is known of the rows of the table, law, warming and gravity. known: of (nominal, gain, ln tau).
+Uncertainty OfTable(const NominalPart& part, Uncertainty known) {
   // the fit has gravity before the warming, the table behind it
-  std::vector<Eigen::Index> order;
-  for (Eigen::Index i = 0; i < d; ++i) order.push_back(i);
-  order.insert(order.end(), {p - 2, p - 1});
-  for (Eigen::Index i = 0; i < part.gravity.count(); ++i) order.push_back(d + i);
+  const Layout at = part.layout();
+  const Layout table = at.Reordered(&Layout::law, &Layout::heat, &Layout::rigid, &Layout::weights);
+  std::vector<Eigen::Index> order = at.PlacesOf(table);
+  order.resize(table.weights.begin);
   known.covariance = known.covariance(order, order).eval();
   return known;
 }
@@ -230,8 +228,8 @@ Uncertainty OfTable(const NominalPart& part, Eigen::Index d, Uncertainty known) 
 Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const DescentState& last) {
   const LogSamples& m = input.measurements;
   const Law& law = *input.options.Get<LawOption>().law;
-  const Eigen::VectorXd values =
-      last.nominal.head(static_cast<Eigen::Index>(law.parameters.size()));
+  const Layout at = part.layout();
+  const Eigen::VectorXd values = at.law.Of(last.nominal);
   Fit fit;
   fit.identifier = kName;
   fit.friction = FrictionOf(law, values, m);
@@ -239,7 +237,7 @@ Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const Descent
   fit.friction.maps = part.MapsOf(last.nominal);
   fit.parameters = LawParameters(law, values, m);
   Append(HeatParameters(last.thermal, m), fit);
-  AddRigid(part.gravity, last.nominal.tail(part.gravity.count()), m, fit);
+  AddRigid(part.gravity, at.rigid.Of(last.nominal), m, fit);
   return fit;
 }
 
@@ -251,7 +249,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   // gravity may push, friction itself must brake
   const Eigen::VectorXd fitted = descent.Fitted(last);
   const Eigen::VectorXd gravity_torque = part.moving.keep.cast<double>().matrix().cwiseProduct(
-      part.gravity.columns * last.nominal.tail(part.gravity.count()));
+      part.gravity.columns * part.layout().rigid.Of(last.nominal));
   fit.refusal = WhyRefused(input.measurements, last, fitted - gravity_torque);
   if (fit.refusal) return fit;
 
@@ -267,14 +265,13 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
     return fit;
   }
   fit.fitted = Kept(fitted, part.moving);
-  fit.count = static_cast<int>(last.nominal.size()) + 2;
+  fit.count = static_cast<int>(part.layout().size());
   fit.effective_parameters = part.effective + 2;
 
   // what is known now, and how far from the end it is
   const Uncertainty known =
       EstimateCovariance(jacobian, *cofactor, fit.residual(), fit.used, fit.fitted);
-  const auto d = static_cast<Eigen::Index>(fit.friction.parameters.size());
-  fit.errors.known = OfTable(part, d, known);
+  fit.errors.known = OfTable(part, known);
   const auto [arrived, message] =
       Arrival(states, known, input.options.Get<EnergyAlsOptions>().tolerance);
   if (!arrived) fit.causes.push_back(Voids(Status::not_converged, message));
@@ -307,7 +304,7 @@ Fit FitInTurn(const IdentifierInput& input) {
 
   // all iterations, on losses without gravity, which the fit without warming tells
   const BlockDescent descent(input.measurements, part.moving, part.columns, part.cofactor,
-                             gravity.columns * part.solution.tail(gravity.count()));
+                             gravity.columns * part.layout().rigid.Of(part.solution));
   const double shortest = descent.output_error().shortest();
   start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
   const std::vector<DescentState> states =

@@ -47,10 +47,14 @@ struct KalmanTrack {
 
 /// Where the filters stand after a pass.
 struct KalmanPass {
+  Layout at;                   // of the mean
   Eigen::VectorXd mean;        // [d + 3] p, k, ln tau, E
   Eigen::MatrixXd covariance;  // [d + 3 x d + 3]
   double spacing = 0;          // of the bank, in ln tau
   double noise = 0;            // variance, (N.m)^2 or N^2
+
+  Eigen::VectorXd law() const { return at.law.Of(mean); }  // [d]
+  Thermal thermal() const { return at.ThermalAt(mean); }
 };
 
 constexpr Eigen::Index kMoments = 50;  // of the trace
@@ -94,15 +98,13 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track) {
 /// thirty times that of a loop at the brink, k |v| = 1.
 template <int D>
 KalmanPrior<D> Ignorance(const KalmanTrack& track) {
-  const Eigen::Index d = track.column_rms.size();
+  const Layout at = StateLayout(track.column_rms.size());
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(at.size());
+  at.law.In(variance) = (10 * track.torque_rms / track.column_rms.array()).square();
+  variance[at.gain()] = std::pow(30 / track.loop.speed().maxCoeff(), 2);
   KalmanPrior<D> prior;
-  prior.state.mean.setZero(d + 3);
-  prior.state.covariance.setZero(d + 3, d + 3);
-  // the law's parameters, then the gain
-  for (Eigen::Index i = 0; i < d; ++i) {
-    prior.state.covariance(i, i) = std::pow(10 * track.torque_rms / track.column_rms[i], 2);
-  }
-  prior.state.covariance(d, d) = std::pow(30 / track.loop.speed().maxCoeff(), 2);
+  prior.state.mean.setZero(at.size());
+  prior.state.covariance = variance.asDiagonal();
 
   // where the time constant may lie, and how large the noise is at first
   const auto [shortest, longest] = TimeConstantRange(track);
@@ -112,14 +114,13 @@ KalmanPrior<D> Ignorance(const KalmanTrack& track) {
   return prior;
 }
 
-Iterate Note(const Eigen::VectorXd& mean, Eigen::Index sample, double rmse) {
-  const Eigen::Index d = mean.size() - 3;
+Iterate Note(const Layout& at, const Eigen::VectorXd& mean, Eigen::Index sample, double rmse) {
   Iterate iterate;
   iterate.iteration = static_cast<int>(sample);
-  iterate.values.assign(mean.begin(), mean.begin() + d + 2);
-  iterate.values.back() = std::exp(iterate.values.back());
+  iterate.values.assign(mean.begin(), mean.begin() + at.heat.end());
+  iterate.values[at.log_time_constant()] = at.ThermalAt(mean).time_constant;
   iterate.rmse = rmse;
-  iterate.energy = mean[d + 2];
+  iterate.energy = mean[at.energy()];
   return iterate;
 }
 
@@ -129,21 +130,22 @@ KalmanPass Pass(const KalmanTrack& track, const KalmanPrior<D>& prior,
                 std::vector<Iterate>& trace) {
   trace.clear();
   KalmanBank<D> bank = MakeBank(prior);
+  const Layout at = prior.state.layout();
   const Eigen::Index n = track.loop.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     bank = BankStep(bank, At<D>(track, i));
     // some moments on the way
     if ((i + 1) % std::max<Eigen::Index>(n / kMoments, 1) != 0) continue;
     const Eigen::VectorXd mean = Merge(bank).mean;
-    if (mean.allFinite()) trace.push_back(Note(mean, i + 1, std::sqrt(bank.noise)));
+    if (mean.allFinite()) trace.push_back(Note(at, mean, i + 1, std::sqrt(bank.noise)));
   }
   const KalmanState<D> all = Merge(bank);
-  return {all.mean, all.covariance, Spacing(prior), bank.noise};
+  return {at, all.mean, all.covariance, Spacing(prior), bank.noise};
 }
 
 /// Whether the later pass changed next to nothing.
 bool Settled(const KalmanPass& earlier, const KalmanPass& later) {
-  const Eigen::Index p = later.mean.size() - 1;  // all but E
+  const Eigen::Index p = later.at.energy();  // all but E
   const Eigen::ArrayXd moved = (later.mean - earlier.mean).head(p).cwiseAbs();
   return (moved <= 0.1 * later.covariance.diagonal().head(p).array().sqrt()).all();
 }
@@ -152,17 +154,20 @@ bool Settled(const KalmanPass& earlier, const KalmanPass& later) {
 /// deviations ten times as great (what is counted twice narrows them by half a percent in the end).
 template <int D>
 KalmanPrior<D> Again(const KalmanPass& last) {
-  const Eigen::Index p = last.mean.size() - 2;
+  const Layout& at = last.at;
+  const Eigen::Index log_tau = at.log_time_constant();
   KalmanPrior<D> prior;
   prior.state.mean = last.mean;
-  prior.state.mean[p + 1] = 0;
-  prior.state.covariance.setZero(p + 2, p + 2);
-  prior.state.covariance.topLeftCorner(p, p) = 100 * last.covariance.topLeftCorner(p, p);
+  prior.state.mean[at.energy()] = 0;
+  prior.state.covariance.setZero(at.size(), at.size());
+  // law and gain
+  prior.state.covariance.topLeftCorner(log_tau, log_tau) =
+      100 * last.covariance.topLeftCorner(log_tau, log_tau);
 
   // members around the time constant
-  const double reach = std::max(4 * std::sqrt(last.covariance(p, p)), last.spacing);
-  prior.shortest = std::exp(last.mean[p] - reach);
-  prior.longest = std::exp(last.mean[p] + reach);
+  const double reach = std::max(4 * std::sqrt(last.covariance(log_tau, log_tau)), last.spacing);
+  prior.shortest = std::exp(last.mean[log_tau] - reach);
+  prior.longest = std::exp(last.mean[log_tau] + reach);
   prior.noise = last.noise;
   return prior;
 }
@@ -236,36 +241,25 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
   fit.causes.push_back(Voids(Status::not_converged, kPassesStillMove));
 }
 
-/// Law and warming where the last pass ended.
-struct Ending {
-  Eigen::VectorXd x;  // [d] of the law
-  Thermal thermal;
-};
-
-Ending EndingOf(const KalmanPass& last) {
-  const Eigen::Index d = last.mean.size() - 3;
-  return {last.mean.head(d), {last.mean[d], std::exp(last.mean[d + 1])}};
-}
-
 Refusal RanAway() { return {Status::not_converged, "the filters ran away", FrictionKind::warm_up}; }
 
 /// Why the recording does not tell these parameters; nothing where it does. joint: the Jacobian's.
-std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const Ending& ending,
+std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const KalmanPass& last,
                                   const LeastSquares& joint, const LoopResponse& response,
                                   double nominal_squares) {
   const LogSamples& m = track.measurements;
-  const Eigen::Index p = ending.x.size() + 2;
+  const Eigen::Index p = last.at.heat.end(), log_tau = last.at.log_time_constant();
 
   // how clearly the warming is seen, and how well its time constant is known
   const double squares = fit.residual().squaredNorm();
   const double variance = squares / static_cast<double>(fit.torque.size() - p);
   const auto [shortest, longest] = TimeConstantRange(track);
   const double vague =
-      joint.rank == p ? std::sqrt(variance * joint.cofactor(p - 1, p - 1)) : kInfinity;
+      joint.rank == p ? std::sqrt(variance * joint.cofactor(log_tau, log_tau)) : kInfinity;
   if (auto why = UnidentifiableWarming(
           {ExplainedVariances(nominal_squares, squares, static_cast<double>(fit.torque.size() - p),
                               fit.torque),
-           vague, ending.thermal.time_constant, shortest, longest,
+           vague, last.thermal().time_constant, shortest, longest,
            m.time[m.size() - 1] - m.time[0]})) {
     return Refusal{Status::not_identifiable, *why};
   }
@@ -282,8 +276,8 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
              double nominal_squares) {
   const LogSamples& m = track.measurements;
   const KalmanPass& last = passes.back();
-  const Ending ending = EndingOf(last);
-  const auto& [x, thermal] = ending;
+  const Eigen::VectorXd x = last.law();
+  const Thermal thermal = last.thermal();
   Fit fit;
   fit.identifier = kName;
   fit.parameters = LawParameters(track.law, x, m);
@@ -301,23 +295,24 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   fit.used = track.selection;
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(response.force, fit.used);
-  fit.count = static_cast<int>(x.size()) + 2;
+  fit.count = static_cast<int>(last.at.heat.end());
   fit.effective_parameters = fit.count;
 
   // what the whole recording knows of these parameters
   Eigen::MatrixXd jacobian = Kept(track.loop.Jacobian(x, thermal), fit.used).leftCols(fit.count);
-  jacobian.col(fit.count - 1) *= thermal.time_constant;  // by ln tau
+  jacobian.col(last.at.log_time_constant()) *= thermal.time_constant;  // from tau to ln tau
   if (!fit.fitted.allFinite() || !jacobian.allFinite()) {
     fit.refusal = RanAway();
     return fit;
   }
   const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);
-  fit.refusal = WhyRefused(track, fit, ending, joint, response, nominal_squares);
+  fit.refusal = WhyRefused(track, fit, last, joint, response, nominal_squares);
   if (fit.refusal) return fit;
   fit.errors.known =
       EstimateCovariance(jacobian, joint.cofactor, fit.residual(), fit.used, fit.fitted);
-  fit.summary = fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}",
-                            passes.size(), fit.torque.size(), last.mean.tail(1)[0], m.torque_unit);
+  fit.summary =
+      fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}", passes.size(),
+                  fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);
 
   // a law that the data rule out needs no verdict on its passes
   if (Infer(fit).status == Status::ok) JudgePasses(passes, fit);

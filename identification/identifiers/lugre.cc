@@ -42,7 +42,7 @@ namespace {
 struct LugreAnswer {
   LugreFit fit;
   Uncertainty known;               // of the parameters that are not constant
-  std::vector<Eigen::Index> rows;  // [l + 4] of each parameter in `known`, or -1
+  std::vector<Eigen::Index> rows;  // [p] of each parameter in `known`, or -1
 
   double Deviation(Eigen::Index i) const {
     const Eigen::Index row = rows[static_cast<size_t>(i)];
@@ -78,10 +78,9 @@ double RobustRms(std::vector<double> residuals) {
 
 /// The columns of the Jacobian that belong to parameters which are not constant.
 Eigen::MatrixXd FreeColumns(const LugreProblem& problem, const Eigen::MatrixXd& jacobian) {
-  Eigen::MatrixXd free(jacobian.rows(),
-                       problem.size() - static_cast<Eigen::Index>(problem.constant.size()));
+  Eigen::MatrixXd free(jacobian.rows(), jacobian.cols() - std::ssize(problem.constant));
   Eigen::Index column = 0;
-  for (Eigen::Index i = 0; i < problem.size(); ++i) {
+  for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
     if (!problem.IsConstant(i)) free.col(column++) = jacobian.col(i);
   }
   return free;
@@ -130,7 +129,7 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
   NoiseOfGroups noise;
   noise.kept = RobustRms(kept);
   // a handful of samples tells no noise
-  const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.size();
+  const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.layout().size();
   noise.others = few ? noise.kept : RobustRms(others);
   // each sample has the noise of its group, an outlier a larger one
   const double least = 1e-12 * problem.torque.cwiseAbs().maxCoeff();
@@ -150,7 +149,7 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
 LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem, LugreFit fit) {
   LugreAnswer answer;
   // a parameter that is held has no row among the errors
-  for (Eigen::Index i = 0, row = 0; i < problem.size(); ++i) {
+  for (Eigen::Index i = 0, row = 0; i < problem.layout().size(); ++i) {
     answer.rows.push_back(problem.IsConstant(i) ? -1 : row++);
   }
   const Eigen::MatrixXd jacobian = FreeColumns(problem, fit.jacobian);
@@ -165,15 +164,15 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
 }
 
 constexpr const char* kName = "lugre";
-constexpr size_t kRefined = 3;             // starts
+constexpr double kExponent = 2;            // of the fall
 constexpr int kPasses = 3;                 // of weighing the samples
 constexpr double kNotable = 0.02;          // of the torque's rms
 constexpr double kMissed = 2;              // rms around turns over that at constant speeds
 constexpr double kImpreciseBristle = 0.5;  // standard deviation of a logarithm: a factor of e
 constexpr double kNothingKnown = 2.35;     // the same: a factor of 100
 
-/// x up to ln vs of the Stribeck curve, were presliding over after `distance`, rad or m; nothing where
-/// the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
+/// x with law and ln vs of the Stribeck curve and 0 else, were presliding over after `distance`, rad or m;
+/// nothing where the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
 std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const FallingLaw& law,
                                            double distance) {
   const LogSamples& m = input.measurements;
@@ -181,48 +180,44 @@ std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const F
   if (steady.count() < 8) return std::nullopt;
 
   // the curve over the speed without warming, at the best vs of a scan
-  const Intervals intervals{{1}, std::vector<int>(static_cast<size_t>(m.size()), 0), 1};
-  const StribeckProblem problem{
-      m, steady, intervals, 2, FittedWarming::none, 1, FindFallingLaw(law.steady)};
-  const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
+  const StribeckProblem problem{m,
+                                steady,
+                                EvenIntervals(m.size(), 1),
+                                kExponent,
+                                FittedWarming::none,
+                                1,
+                                FindFallingLaw(law.steady)};
+  const std::vector<FitPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty()) return std::nullopt;
-  Eigen::VectorXd start = scan[0].x;
 
   // a start needs a level that brakes, and a likely one at rest
-  if (!(law.coulomb(start.data()) > 0)) return std::nullopt;
-  law.keep(start.data(), 1, 3);
+  const Layout from = problem.layout(), at = law.layout(false);
+  Eigen::VectorXd levels = from.law.Of(scan[0].x);
+  if (!(law.coulomb(levels.data()) > 0)) return std::nullopt;
+  law.keep(levels.data(), 1, 3);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(at.size());
+  at.law.In(start) = levels;
+  start[at.log_vs()] = scan[0].x[from.log_vs()];
   return start;
-}
-
-/// Refines the first points and keeps the best of them and `best`.
-void RefineBest(const LugreProblem& problem, const std::vector<LugrePoint>& points,
-                std::optional<LugreFit>& best) {
-  for (size_t i = 0; i < std::min(kRefined, points.size()); ++i) {
-    LugreFit fit = RefineLugre(problem, points[i]);
-    // one that has converged comes before one that has not
-    const bool better =
-        !best ||
-        (fit.converged && (!best->converged || fit.solution.squares < best->solution.squares));
-    if (better) best = std::move(fit);
-  }
 }
 
 /// The best of the refined starts. The first may have missed the fall of the Stribeck curve, which
 /// few samples show: it is looked for again once the bristle is known.
-LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& scan, double fastest) {
-  std::optional<LugreFit> best;
-  RefineBest(problem, scan, best);
+LugreFit FitFrom(const LugreProblem& problem, const std::vector<FitPoint>& scan, double fastest) {
+  const auto refine = [&](const FitPoint& start) { return RefineLugre(problem, start); };
+  const LugreFit first = BestRefined(scan, refine);
   // its levels may have run away around a fall that is not there: those of the scan have not
-  LugrePoint bristle = best->solution;
-  bristle.x.head(problem.log_vs()) = scan[0].x.head(problem.log_vs());
-  RefineBest(problem, ScanFall(problem, bristle, fastest), best);
-  return *best;
+  const Slice law = problem.layout().law;
+  FitPoint bristle = first.solution;
+  law.In(bristle.x) = law.Of(scan[0].x);
+  return BestRefined(ScanFall(problem, bristle, fastest), refine, std::optional(first));
 }
 
 /// Why bristle_stiffness cannot be told, or bristle_damping; nothing where they can.
 std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const LugreProblem& problem,
                                                  const LugreAnswer& answer) {
-  const double stiffness = answer.Deviation(problem.log_stiffness());
+  const Layout at = problem.layout();
+  const double stiffness = answer.Deviation(at.log_stiffness());
   if (!(stiffness < kImpreciseBristle)) {
     return fmt::format(
         "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
@@ -234,27 +229,25 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   }
 
   // the damping, where it is estimated
-  if (problem.IsConstant(problem.damping())) return std::nullopt;
+  if (problem.IsConstant(at.damping())) return std::nullopt;
   const Eigen::VectorXd& x = answer.fit.solution.x;
-  const double damping = x[problem.damping()], deviation = answer.Deviation(problem.damping());
+  const double damping = x[at.damping()], deviation = answer.Deviation(at.damping());
   if (deviation < kImpreciseBristle * std::abs(damping)) return std::nullopt;
   return fmt::format(
       "bristle_damping cannot be estimated: it is {:.3g} with a standard error of {:.3g} {}; "
       "reverse faster within the {:.2g} {} that the bristle bends, sampled in steps well below "
       "bristle_damping / bristle_stiffness, or give --set damping=none where it can be neglected",
       damping, deviation, kViscousUnit.For(m.joint),
-      problem.law->at_rest(x.data()) / std::exp(x[problem.log_stiffness()]),
+      problem.law->at_rest(at.law.Of(x).data()) / std::exp(x[at.log_stiffness()]),
       kPositionUnit.For(m.joint));
 }
 
 /// Why the level at rest and stribeck_velocity cannot be told; nothing where they can.
 std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
                                            const LugreProblem& problem, const LugreAnswer& answer) {
-  // none of the linear parameters is constant, so that they come first in the covariance
-  const Eigen::Index levels = problem.law->levels();
-  const StribeckEvidence evidence = EvidenceOf(
-      *problem.law, answer.fit.solution.x, answer.known.covariance.topLeftCorner(levels, levels),
-      answer.Deviation(problem.log_vs()));
+  // neither law nor vs is constant, so that they come first in the covariance, too
+  const StribeckEvidence evidence =
+      EvidenceOf(*problem.law, problem.layout(), answer.fit.solution.x, answer.known);
 
   // the fall must stand out of its own standard error
   const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
@@ -269,31 +262,17 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
 }
 
 /// Law and, where it is estimated, inertia at a point: the model and its table.
-void SetModel(const LogSamples& m, const LugreProblem& problem, const LugrePoint& point, Fit& fit) {
-  const Law& law = problem.law->law;
-  const std::vector<double> p = LugreValuesAt(problem, point);
-  const Eigen::Map<const Eigen::VectorXd> values(p.data(), static_cast<Eigen::Index>(p.size()));
-  fit.friction = FrictionOf(law, values, m);
-  fit.parameters = LawParameters(law, values, m);
-
-  // vs and the stiffness are fitted by their logarithms, the damping by its value
-  const auto vs = static_cast<size_t>(problem.log_vs());
-  fit.parameters[vs].coordinate = Coordinate::logarithm;
-  fit.parameters[vs + 1].coordinate = Coordinate::logarithm;
-  fit.parameters[vs + 2].coordinate = Coordinate::positive;
-  fit.parameters[vs + 2].estimated = !problem.IsConstant(problem.damping());
-  if (problem.IsConstant(problem.inertia())) return;
-  Append({InertiaParameter(point.x[problem.inertia()], m)}, fit);
-}
-
-std::vector<Iterate> Trace(const LugreProblem& problem, const std::vector<LugrePoint>& scan) {
-  std::vector<Iterate> trace;
-  const auto n = static_cast<double>(problem.deviation.size());
-  for (const LugrePoint& point : scan) {
-    const double rmse = problem.deviation[0] * std::sqrt(point.squares / n);
-    trace.push_back({static_cast<int>(trace.size()), LugreValuesAt(problem, point), rmse});
-  }
-  return trace;
+void SetModel(const LogSamples& m, const LugreProblem& problem, const Eigen::VectorXd& x,
+              Fit& fit) {
+  const Layout at = problem.layout();
+  SetFallingModel(*problem.law, kExponent, at, x, m, fit);
+  // the stiffness is fitted by its logarithm, the damping by its value
+  fit.parameters[at.log_stiffness()].coordinate = Coordinate::logarithm;
+  FitParameter& damping = fit.parameters[at.damping()];
+  damping.coordinate = Coordinate::positive;
+  damping.estimated = !problem.IsConstant(at.damping());
+  if (problem.IsConstant(at.inertia())) return;
+  Append({InertiaParameter(x[at.inertia()], m)}, fit);
 }
 
 /// Why there is no fit to trust; nothing where there is.
@@ -303,8 +282,7 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProbl
   if (!why) why = UnknownStribeck(input, problem, answer);
   if (why) return Refusal{Status::not_identifiable, *why};
   if (answer.fit.converged) return std::nullopt;
-  return Refusal{Status::not_converged, "the fit has not converged after 100 iterations",
-                 FrictionKind::stribeck};
+  return NotConverged();
 }
 
 /// Voids a fit that misses what happens around turns.
@@ -323,11 +301,13 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
 
   // the model, and how well it fits
   const LogSamples& m = input.measurements;
-  SetModel(m, problem, answer.fit.solution, fit);
+  const Layout at = problem.layout();
+  const Eigen::VectorXd& x = answer.fit.solution.x;
+  SetModel(m, problem, x, fit);
   fit.used = problem.used;
-  fit.inertia_torque = answer.fit.solution.x[problem.inertia()] * problem.acceleration;
+  fit.inertia_torque = x[at.inertia()] * problem.acceleration;
   // friction with which each recording begins: the load of the bristle and the viscous part
-  const double viscous = answer.fit.solution.x[0];
+  const double viscous = x[at.law.begin];
   const std::vector<SampleRange> recordings = m.Recordings();
   for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
     const double velocity = problem.motion.velocity(recordings[r].first);
@@ -390,16 +370,16 @@ Fit FitLugre(const IdentifierInput& given) {
   LugreProblem problem = MakeLugreProblem(input, law, scale);
   // what the options hold at 0 is not estimated
   if (options.damping == Estimation::none)
-    problem.constant.push_back(static_cast<int>(problem.damping()));
+    problem.constant.push_back(static_cast<int>(problem.layout().damping()));
   if (options.inertia == Estimation::none)
-    problem.constant.push_back(static_cast<int>(problem.inertia()));
-  const std::vector<LugrePoint> scan =
+    problem.constant.push_back(static_cast<int>(problem.layout().inertia()));
+  const std::vector<FitPoint> scan =
       ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, law, distance); });
   if (scan.empty()) return Refused(kName, NoFall(law, m, SteadySamples(input, 0)));
   Fit fit;
   fit.identifier = kName;
-  fit.trace = Trace(problem, scan);
-  SetModel(m, problem, scan[0], fit);
+  fit.trace = ScanTrace(law, kExponent, scan, problem.deviation[0], problem.deviation.size());
+  SetModel(m, problem, scan[0].x, fit);
 
   // refine the best, and weigh the samples by what it leaves of them
   LugreFit best = FitFrom(problem, scan, m.velocity.cwiseAbs().maxCoeff());

@@ -16,7 +16,6 @@
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
 #include "identification/forward/log_course.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
@@ -34,11 +33,6 @@ namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "stribeck";
-constexpr size_t kRefined = 3;  // starts
-
-/// Where ln vs and k stand in x; in the law's table vs stands where ln vs does, then its exponent.
-Eigen::Index LogVs(const StribeckProblem& problem) { return problem.law.levels(); }
-Eigen::Index Gain(const StribeckProblem& problem) { return LogVs(problem) + 1; }
 
 /// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
@@ -64,11 +58,11 @@ double SquaresWithout(const StribeckProblem& problem) {
   return std::min(squares, fit.squares);
 }
 
-/// The drop of |e|^2 / s^2 that the level at rest and stribeck_velocity bring.
-double Explained(const IdentifierInput& input, double without, const StribeckPoint& point) {
-  const auto freedom = static_cast<double>(input.selection.count() - point.x.size());
+/// The drop of |e|^2 / s^2 that a point brings to a law that leaves the squares `without`.
+double Explained(const StribeckProblem& problem, double without, const FitPoint& point) {
+  const auto freedom = static_cast<double>(problem.selection.count() - point.x.size());
   return ExplainedVariances(without, point.squares, freedom,
-                            Kept(input.measurements.torque, input.selection));
+                            Kept(problem.measurements.torque, problem.selection));
 }
 
 /// Why they cannot be seen: one sentence.
@@ -85,44 +79,12 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
                                               const StribeckFit& fit, const Uncertainty& known,
                                               double cold_squares) {
   if (problem.warming == FittedWarming::none) return std::nullopt;
+  const Layout at = problem.layout();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
-  // what the warming explains, in variances of the noise
-  const auto freedom = static_cast<double>(fit.fitted.size() - fit.solution.x.size());
   return UnidentifiableWarming(
-      {ExplainedVariances(cold_squares, fit.solution.squares, freedom,
-                          Kept(problem.measurements.torque, problem.selection)),
-       known.Deviation(Gain(problem) + 1), std::exp(fit.solution.x[Gain(problem) + 1]),
-       2 * problem.intervals.typical, 5 * total});
-}
-
-/// The law's values at x. [l + 2]
-Eigen::VectorXd LawAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
-  const Eigen::Index log_vs = LogVs(problem);
-  Eigen::VectorXd values(log_vs + 2);
-  values << x.head(log_vs), std::exp(x[log_vs]), problem.exponent;
-  return values;
-}
-
-/// The warming at x, where it is asked for.
-std::optional<Thermal> ThermalAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
-  if (problem.warming == FittedWarming::none) return std::nullopt;
-  return Thermal{x[Gain(problem)], std::exp(x[Gain(problem) + 1])};
-}
-
-/// Law, whose exponent was given, and warming at x: the model and its table.
-void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit) {
-  const LogSamples& m = problem.measurements;
-  const Law& law = problem.law.law;
-  const auto vs = static_cast<size_t>(LogVs(problem));
-  const Eigen::VectorXd values = LawAt(problem, x);
-  fit.friction = FrictionOf(law, values, m);
-  fit.friction.thermal = ThermalAt(problem, x);
-  fit.parameters = LawParameters(law, values, m);
-  // vs is fitted by its logarithm; the exponent behind it was given
-  fit.parameters[vs].coordinate = Coordinate::logarithm;
-  fit.parameters[vs + 1].estimated = false;
-  if (fit.friction.thermal) Append(HeatParameters(*fit.friction.thermal, m), fit);
+      {Explained(problem, cold_squares, fit.solution), known.Deviation(at.log_time_constant()),
+       at.ThermalAt(fit.solution.x).time_constant, 2 * problem.intervals.typical, 5 * total});
 }
 
 /// Voids a fit whose friction feeds itself on this motion. Where the data rule the law out, or
@@ -136,37 +98,12 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
                                                   RemedyForNonDissipative("energy-ml", without))));
 }
 
-std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {
-  std::vector<Iterate> trace;
-  const auto n = static_cast<double>(problem.selection.count());
-  for (const StribeckPoint& point : scan) {
-    const Eigen::VectorXd values = LawAt(problem, point.x).head(LogVs(problem) + 1);
-    trace.push_back({static_cast<int>(trace.size()),
-                     {values.begin(), values.end()},
-                     std::sqrt(point.squares / n)});
-  }
-  return trace;
-}
-
-/// The best of the refined starts.
-StribeckFit FitFrom(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {
-  StribeckFit best = RefineStribeck(problem, scan[0]);
-  for (size_t i = 1; i < std::min(kRefined, scan.size()); ++i) {
-    StribeckFit fit = RefineStribeck(problem, scan[i]);
-    // one that has converged comes before one that has not
-    if (fit.converged && (!best.converged || fit.solution.squares < best.solution.squares)) {
-      best = std::move(fit);
-    }
-  }
-  return best;
-}
-
 /// What the law leaves without warming; 0 where no warming is asked for. (N.m)^2 or N^2
 double ColdSquares(const StribeckProblem& problem) {
   if (problem.warming == FittedWarming::none) return 0;
   StribeckProblem cold = problem;
   cold.warming = FittedWarming::none;
-  const std::vector<StribeckPoint> scan = ScanStribeckVelocity(cold);
+  const std::vector<FitPoint> scan = ScanStribeckVelocity(cold);
   return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
 }
 
@@ -180,20 +117,20 @@ struct Rivals {
 void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& best,
               const Rivals& rivals, Fit& fit) {
   if (!best.converged) {
-    fit.refusal = {Status::not_converged, "the fit has not converged after 100 iterations",
-                   FrictionKind::stribeck};
+    fit.refusal = NotConverged();
     return;
   }
 
   // the level at rest and vs must explain more than chance does
-  const double explained = Explained(input, rivals.without, best.solution);
+  const double explained = Explained(problem, rivals.without, best.solution);
   if (!(explained > kVisibleWarming)) {
     fit.refusal = {Status::not_identifiable, Unseen(input, problem.law, explained)};
     return;
   }
 
   // the model, and how well it fits
-  SetModel(problem, best.solution.x, fit);
+  const Layout at = problem.layout();
+  SetFallingModel(problem.law, problem.exponent, at, best.solution.x, input.measurements, fit);
   fit.used = input.selection;
   fit.torque = Kept(input.measurements.torque, fit.used);
   fit.fitted = best.fitted;
@@ -207,9 +144,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
       EstimateCovariance(best.jacobian, Cofactor(best.jacobian.transpose() * best.jacobian),
                          fit.residual(), fit.used, fit.fitted);
   const Uncertainty& known = *fit.errors.known;
-  const StribeckEvidence evidence = EvidenceOf(
-      problem.law, best.solution.x, known.covariance.topLeftCorner(LogVs(problem), LogVs(problem)),
-      known.Deviation(LogVs(problem)));
+  const StribeckEvidence evidence = EvidenceOf(problem.law, at, best.solution.x, known);
   auto why = UnidentifiableStribeck(problem.law, evidence, input.measurements, input.selection);
   if (!why) why = UnidentifiableHeat(problem, best, known, rivals.cold);
   if (why) {
@@ -242,20 +177,22 @@ Fit FitStribeck(const IdentifierInput& input) {
                           torque.norm() / std::sqrt(static_cast<double>(torque.size())),
                           law};
   const double without = SquaresWithout(problem);
-  const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
+  const std::vector<FitPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty() || !std::isfinite(without))
     return Refused(kName, NoFall(law, m, input.selection));
 
   // where the scan, within a few per cent of the best, sees next to nothing, so will the fit
   Fit fit;
   fit.identifier = kName;
-  fit.trace = Trace(problem, scan);
-  SetModel(problem, scan[0].x, fit);
-  const double seen = Explained(input, without, scan[0]);
+  fit.trace = ScanTrace(law, options.exponent, scan, 1, input.selection.count());
+  SetFallingModel(law, options.exponent, problem.layout(), scan[0].x, m, fit);
+  const double seen = Explained(problem, without, scan[0]);
   if (problem.warming == FittedWarming::none && seen < 0.5 * kVisibleWarming) {
     fit.refusal = {Status::not_identifiable, Unseen(input, law, seen)};
   } else {
-    Conclude(input, problem, FitFrom(problem, scan), {without, ColdSquares(problem)}, fit);
+    const StribeckFit best =
+        BestRefined(scan, [&](const FitPoint& start) { return RefineStribeck(problem, start); });
+    Conclude(input, problem, best, {without, ColdSquares(problem)}, fit);
   }
   return fit;
 }

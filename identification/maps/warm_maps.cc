@@ -192,8 +192,8 @@ JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& w
   const ThermalFit joined = Joined(warm);
   JointUncertainty result;
   const Layout parts = JoinedParts(warm.fit.layout, joined.layout);
-  result.layout = parts.Reordered({&Layout::law, &Layout::rigid, &Layout::weights, &Layout::heat,
-                                   &Layout::start, &Layout::jumps});
+  result.layout = parts.Reordered(&Layout::law, &Layout::rigid, &Layout::weights, &Layout::heat,
+                                  &Layout::start, &Layout::jumps);
   const std::vector<Eigen::Index> order = parts.PlacesOf(result.layout);
   const Eigen::MatrixXd jacobian =
       Kept(WarmJacobian(loop, warm.task.rigid.columns, joined), input.selection)(Eigen::all, order);

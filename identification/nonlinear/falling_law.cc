@@ -1,49 +1,96 @@
 #include "identification/nonlinear/falling_law.h"
 
-#include <algorithm>
 #include <cassert>
+
+#include "identification/fit_parameters.h"
 
 namespace warmjoint {
 namespace {
 
-/// {kv, kc, ks}: both directions alike.
-FallingLaw Alike(std::string_view name) {
-  return {*FindLaw(name),
+template <typename L>
+Eigen::VectorXd TableOf(const Eigen::VectorXd& x, double exponent) {
+  const auto values = ValuesOf<L>(x.data(), exponent);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+}
+
+/// p: {kv, kc, ks}, both directions alike.
+template <typename L>
+FallingLaw Alike() {
+  return {*FindLaw(L::name),
           *FindLaw(ViscousCoulomb::name),
           Stribeck::name,
+          &LayoutOf<L>,
+          &TableOf<L>,
           Eigen::Vector3d(0, -1, 1),
           "static less coulomb",
-          [](const double* x) { return x[1]; },
-          [](const double* x) { return x[2]; },
-          [](double* x, double least, double most) {
-            x[2] = std::clamp(x[2], least * x[1], most * x[1]);
+          [](const double* p) { return p[1]; },
+          [](const double* p) { return p[2]; },
+          [](double* p, double least, double most) {
+            p[2] = std::clamp(p[2], least * p[1], most * p[1]);
           }};
 }
 
-/// {kv, kc+, kc-, kr}
-FallingLaw Apart(std::string_view name) {
-  return {*FindLaw(name),
+/// p: {kv, kc+, kc-, kr}
+template <typename L>
+FallingLaw Apart() {
+  return {*FindLaw(L::name),
           *FindLaw(Asymmetric::name),
           AsymmetricStribeck::name,
+          &LayoutOf<L>,
+          &TableOf<L>,
           Eigen::Vector4d(0, 0, 0, 1),
           kStaticRiseRow.name,
-          [](const double* x) { return std::min(x[1], x[2]); },
-          [](const double* x) { return 0.5 * (x[1] + x[2]) + x[3]; },
-          [](double* x, double least, double most) {
-            const double coulomb = std::min(x[1], x[2]);
-            x[3] = std::clamp(x[3], (least - 1) * coulomb, (most - 1) * coulomb);
+          [](const double* p) { return std::min(p[1], p[2]); },
+          [](const double* p) { return 0.5 * (p[1] + p[2]) + p[3]; },
+          [](double* p, double least, double most) {
+            const double coulomb = std::min(p[1], p[2]);
+            p[3] = std::clamp(p[3], (least - 1) * coulomb, (most - 1) * coulomb);
           }};
 }
 
 }  // namespace
 
 const FallingLaw& FindFallingLaw(std::string_view name) {
-  static const FallingLaw laws[] = {Alike(Stribeck::name), Apart(AsymmetricStribeck::name),
-                                    Alike(LuGre::name), Apart(AsymmetricLuGre::name)};
+  static const FallingLaw laws[] = {Alike<Stribeck>(), Apart<AsymmetricStribeck>(), Alike<LuGre>(),
+                                    Apart<AsymmetricLuGre>()};
   const auto* found =
       std::ranges::find_if(laws, [&](const FallingLaw& one) { return one.law.name == name; });
   assert(found != std::end(laws));
   return *found;
+}
+
+std::vector<FitPoint> BestFirst(std::vector<FitPoint> points) {
+  std::ranges::stable_sort(points, {}, &FitPoint::squares);
+  return points;
+}
+
+std::vector<Iterate> ScanTrace(const FallingLaw& law, double exponent,
+                               const std::vector<FitPoint>& points, double deviation,
+                               Eigen::Index count) {
+  std::vector<Iterate> trace;
+  for (const FitPoint& point : points) {
+    const Eigen::VectorXd values = law.values(point.x, exponent);
+    const double rmse = deviation * std::sqrt(point.squares / static_cast<double>(count));
+    trace.push_back({static_cast<int>(trace.size()),
+                     {values.begin(), values.begin() + law.layout(false).shape.end()},
+                     rmse});
+  }
+  return trace;
+}
+
+void SetFallingModel(const FallingLaw& law, double exponent, const Layout& at,
+                     const Eigen::VectorXd& x, const LogSamples& measurements, Fit& fit) {
+  const Eigen::VectorXd values = law.values(x, exponent);
+  fit.friction = FrictionOf(law.law, values, measurements);
+  fit.parameters = LawParameters(law.law, values, measurements);
+  // vs is fitted by its logarithm; an exponent behind what stands in x was given
+  fit.parameters[at.log_vs()].coordinate = Coordinate::logarithm;
+  for (FitParameter& given : std::span(fit.parameters).subspan(at.shape.end())) {
+    given.estimated = false;
+  }
+  if (at.heat.size == 0) return;
+  fit.friction.thermal = at.ThermalAt(x);
+  Append(HeatParameters(*fit.friction.thermal, measurements), fit);
 }
 
 }  // namespace warmjoint

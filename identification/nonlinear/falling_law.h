@@ -4,51 +4,108 @@
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
+#include "identification/fit.h"
+#include "identification/layout.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/laws.h"
 
 namespace warmjoint {
 
-/// What the fit of a law with the Stribeck effect knows of it beside its table. x begins with the l
-/// parameters before stribeck_velocity, of which the force of steady sliding is linear; then comes
-/// ln vs.
+/// What the fit of a law with the Stribeck effect knows of it beside its table. Its levels, p, are the l
+/// parameters before stribeck_velocity, of which the force of steady sliding is linear.
 struct FallingLaw {
   const Law& law;
   const Law& without;           // the law that is left where nothing falls, its table a part of x
   std::string_view steady;      // the law of the same friction in steady sliding, exponent 2
-  Eigen::VectorXd fall;         // [l] ks - kc = fall . x
-  std::string_view fall_words;  // the same in words
-  double (*coulomb)(const double* x);  // the smaller of its Coulomb levels, N.m or N
-  double (*at_rest)(const double* x);  // level at rest, of both directions the mean, N.m or N
+  Layout (*layout)(bool heat);  // LayoutOf it
+  /// The values of its table at x of such a layout. exponent: of a law that has one
+  Eigen::VectorXd (*values)(const Eigen::VectorXd& x, double exponent);
+  Eigen::VectorXd fall;                // [l] ks - kc = fall . p, N.m or N
+  std::string_view fall_words;         // the same in words
+  double (*coulomb)(const double* p);  // the smaller of its Coulomb levels, N.m or N
+  double (*at_rest)(const double* p);  // level at rest, of both directions the mean, N.m or N
   /// Keeps the level at rest within so many times the smaller Coulomb level.
-  void (*keep)(double* x, double least, double most);
+  void (*keep)(double* p, double least, double most);
 
-  /// l, and where ln vs stands.
-  Eigen::Index levels() const { return fall.size(); }
-  /// The name of the parameter of x that tells the level at rest.
+  Eigen::Index levels() const { return fall.size(); }  // l
+  /// The name of the last of them, which tells the level at rest.
   std::string_view rest() const { return law.parameters[static_cast<size_t>(levels() - 1)].name; }
-  /// ks - kc at x, N.m or N.
-  double FallAt(const Eigen::VectorXd& x) const { return fall.dot(x.head(levels())); }
 };
 
 /// Laws that slide steadily at once, and those with a bristle; the first one is an option's default.
 using SteadyFallingLaws = LawList<Stribeck, AsymmetricStribeck>;
 using BristleFallingLaws = LawList<LuGre, AsymmetricLuGre>;
 
-/// How many parameters stand before stribeck_velocity in the table of L.
+/// Where the unknowns of a fit of L stand: law and shape as in its table, of which an exponent is given;
+/// the heat where it is fitted; the inertia where a bristle asks for samples that accelerate.
 template <typename L>
-constexpr int LevelsOf() {
-  int levels = 0;
-  while (L::parameters[static_cast<size_t>(levels)].name != kStribeckVelocityRow.name) ++levels;
-  return levels;
+constexpr Layout LayoutOf(bool heat = false) {
+  constexpr bool bristle = LawWithBristle<L>;
+  Eigen::Index levels = 0;
+  while (L::parameters[levels].name != kStribeckVelocityRow.name) ++levels;
+  return Layout::InOrder({{&Layout::law, levels},
+                          {&Layout::shape, bristle ? 3 : 1},
+                          {&Layout::heat, heat ? 2 : 0},
+                          {&Layout::rigid, bristle ? 1 : 0}});
+}
+
+/// The values of L's table at x. exponent: of a law that has one
+template <typename L, typename T>
+std::array<T, L::parameters.size()> ValuesOf(const T* x, double exponent = 2) {
+  using std::exp;
+  constexpr Layout at = LayoutOf<L>();
+  std::array<T, L::parameters.size()> values;
+  std::copy_n(x, at.shape.end(), values.begin());
+  // some stand in x by their logarithms
+  values[at.log_vs()] = exp(x[at.log_vs()]);
+  if constexpr (LawWithBristle<L>) {
+    values[at.log_stiffness()] = exp(x[at.log_stiffness()]);
+  } else {
+    values[at.shape.end()] = T(exponent);
+  }
+  return values;
 }
 
 /// name: of one of the laws above.
 const FallingLaw& FindFallingLaw(std::string_view name);
+
+/// The best first.
+std::vector<FitPoint> BestFirst(std::vector<FitPoint> points);
+
+/// The best of `best` and the fits that `refine` makes of the first three points: one that has converged
+/// comes before one that has not.
+template <typename Refine, typename F = std::invoke_result_t<Refine, const FitPoint&>>
+F BestRefined(const std::vector<FitPoint>& points, const Refine& refine,
+              std::optional<F> best = {}) {
+  constexpr size_t kRefined = 3;
+  for (size_t i = 0; i < std::min(kRefined, points.size()); ++i) {
+    F fit = refine(points[i]);
+    const bool better =
+        !best ||
+        (fit.converged && (!best->converged || fit.solution.squares < best->solution.squares));
+    if (better) best = std::move(fit);
+  }
+  return *std::move(best);
+}
+
+/// The points of a scan, by those rows of the table that stand in x. deviation: of the residuals of which the
+/// squares are, N.m or N; exponent: of a law that has one; count: of samples.
+std::vector<Iterate> ScanTrace(const FallingLaw& law, double exponent,
+                               const std::vector<FitPoint>& points, double deviation,
+                               Eigen::Index count);
+
+/// Law and, where it is fitted, heat at x: the model and its table. at: of x; exponent: of a law that has one.
+void SetFallingModel(const FallingLaw& law, double exponent, const Layout& at,
+                     const Eigen::VectorXd& x, const LogSamples& measurements, Fit& fit);
 
 /// One law of a list, as an option names it.
 template <typename List>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "identification/fit_data.h"
@@ -68,12 +69,12 @@ std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first,
 ///     s0 = sum b (tau - F(s0 = 0) - M a) / d^2 / (sum b^2 / d^2 + 1 / q^2)
 /// over the used samples with their deviations d. q, the rms of the torque, keeps s0 near 0 where
 /// none of them tells. Derivatives by x go through s0, so that a covariance from them knows that it
-/// was estimated, too. x: as LugrePoint has it.
+/// was estimated, too.
 template <typename L, typename T>
 LugreCourse<T> FollowLugre(const LugreProblem& problem, const T* x) {
   const Eigen::Index n = problem.motion.size();
-  const auto p = LugreValues<L>(x);
-  const T& inertia = x[problem.inertia()];
+  const auto p = ValuesOf<L>(x);
+  const T& inertia = x[LayoutOf<L>().inertia()];
   LugreCourse<T> course;
   course.torque.reserve(static_cast<size_t>(n));
   Eigen::Index row = 0;  // of the used samples
@@ -138,7 +139,7 @@ class Residuals {
 
 /// How many parameters x has of law L.
 template <typename L>
-constexpr int kSize = LevelsOf<L>() + 4;
+constexpr int kSize = static_cast<int>(LayoutOf<L>().size());
 
 template <typename L>
 using Cost = ceres::AutoDiffCostFunction<Residuals<L>, ceres::DYNAMIC, kSize<L>>;
@@ -153,7 +154,7 @@ bool ResidualsAt(const LugreProblem& problem, const Eigen::VectorXd& x, double* 
   return ForLaw(problem, [&]<typename L>() { return Residuals<L>(problem)(x.data(), residuals); });
 }
 
-/// The same with the Jacobian, which is finite then. jacobian: [n x (l + 4)]
+/// The same with the Jacobian, which is finite then. jacobian: [n x p]
 bool DerivativesAt(const LugreProblem& problem, const Eigen::VectorXd& x,
                    Eigen::VectorXd& residuals, RowMajor& jacobian) {
   return ForLaw(problem, [&]<typename L>() {
@@ -189,16 +190,17 @@ std::pair<double, double> Distances(const LogSamples& m) {
 }
 
 /// Fits the inertia to a point, and sums the squares.
-void Complete(const LugreProblem& problem, LugrePoint& point) {
+void Complete(const LugreProblem& problem, FitPoint& point) {
   const Eigen::Index n = problem.used.count();
-  double& inertia = point.x[problem.inertia()];
+  const Layout at = problem.layout();
+  double& inertia = point.x[at.inertia()];
   inertia = 0;
   // what is left without inertia
   Eigen::VectorXd r(n);
   point.squares = kInfinity;
   if (!ResidualsAt(problem, point.x, r.data())) return;
   point.squares = r.squaredNorm();
-  if (problem.IsConstant(problem.inertia())) return;
+  if (problem.IsConstant(at.inertia())) return;
   // the torque is linear in the inertia: its best value, but not below 0
   const Eigen::VectorXd a =
       Kept(problem.acceleration, problem.used).cwiseQuotient(problem.deviation);
@@ -210,54 +212,41 @@ void Complete(const LugreProblem& problem, LugrePoint& point) {
 
 /// Moves the linear parameters and M, of which the torque is nearly linear, to what suits the rest of a point
 /// best: steps of Gauss and Newton, with ks within 1 and 3 kc as starts are.
-void CompleteLevels(const LugreProblem& problem, LugrePoint& point) {
+void CompleteLevels(const LugreProblem& problem, FitPoint& point) {
   constexpr int kSteps = 2;
+  const Layout at = problem.layout();
   // levels of the law, and the inertia where it is free
-  std::vector<Eigen::Index> linear;
-  for (Eigen::Index i = 0; i < problem.law->levels(); ++i) linear.push_back(i);
-  if (!problem.IsConstant(problem.inertia())) linear.push_back(problem.inertia());
+  std::vector<Eigen::Index> linear(static_cast<size_t>(at.law.size));
+  std::iota(linear.begin(), linear.end(), at.law.begin);
+  if (!problem.IsConstant(at.inertia())) linear.push_back(at.inertia());
   Eigen::VectorXd r(problem.used.count());
-  RowMajor jacobian(r.size(), problem.size());
+  RowMajor jacobian(r.size(), at.size());
   for (int step = 0; step < kSteps; ++step) {
     // one step of least squares at fixed stiffness, damping and vs
     if (!DerivativesAt(problem, point.x, r, jacobian)) break;
     const Eigen::MatrixXd J = jacobian(Eigen::all, linear);
     const Eigen::VectorXd change = SolveLeastSquares(J, -r).solution;
     if (change.size() == 0) break;  // the samples do not tell them apart
-    LugrePoint next = point;
-    for (size_t i = 0; i < linear.size(); ++i) {
-      next.x[linear[i]] += change[static_cast<Eigen::Index>(i)];
-    }
+    FitPoint next = point;
+    next.x(linear) += change;
     // outside of the law's bounds no step goes on
-    if (!next.x.allFinite() || !(problem.law->coulomb(next.x.data()) > 0)) break;
-    problem.law->keep(next.x.data(), 1, 3);
-    next.x[problem.inertia()] = std::max(0.0, next.x[problem.inertia()]);
+    if (!next.x.allFinite() || !(problem.law->coulomb(at.law.In(next.x).data()) > 0)) break;
+    problem.law->keep(at.law.In(next.x).data(), 1, 3);
+    next.x[at.inertia()] = std::max(0.0, next.x[at.inertia()]);
     point = next;
   }
   point.squares = ResidualsAt(problem, point.x, r.data()) ? r.squaredNorm() : kInfinity;
 }
 
-std::vector<LugrePoint> Sorted(std::vector<LugrePoint> points) {
-  std::stable_sort(points.begin(), points.end(),
-                   [](const auto& a, const auto& b) { return a.squares < b.squares; });
-  return points;
-}
-
 }  // namespace
 
-std::vector<double> LugreValuesAt(const LugreProblem& problem, const LugrePoint& point) {
-  return ForLaw(problem, [&]<typename L>() {
-    const auto values = LugreValues<L>(point.x.data());
-    return std::vector<double>(values.begin(), values.end());
-  });
-}
-
-std::vector<LugrePoint> ScanBristle(
+std::vector<FitPoint> ScanBristle(
     const LugreProblem& problem, const LogSamples& measurements,
     const std::function<std::optional<Eigen::VectorXd>(double distance)>& steady) {
   const LogSamples& m = measurements;
+  const Layout at = problem.layout();
   const auto [shortest, longest] = Distances(m);
-  std::vector<LugrePoint> points;
+  std::vector<FitPoint> points;
   if (!(shortest > 0) || !(longest > shortest)) return points;
   const double step = MedianStep(m.time);
   for (int i = 0; i < kDistances; ++i) {
@@ -266,34 +255,35 @@ std::vector<LugrePoint> ScanBristle(
     const std::optional<Eigen::VectorXd> curve = steady(distance);
     if (!curve) continue;
     // static torque bends the bristles by the distance
-    const double stiffness = problem.law->at_rest(curve->data()) / distance;
+    const double stiffness = problem.law->at_rest(at.law.Of(*curve).data()) / distance;
     // without damping, and with some by which bristles relax within one step or ten
     for (const double times : {0.0, 1.0, 10.0}) {
-      if (times > 0 && problem.IsConstant(problem.damping())) continue;
-      LugrePoint point{Eigen::VectorXd(problem.size())};
-      point.x << *curve, std::log(stiffness), times * step * stiffness, 0;
+      if (times > 0 && problem.IsConstant(at.damping())) continue;
+      FitPoint point{*curve};
+      point.x[at.log_stiffness()] = std::log(stiffness);
+      point.x[at.damping()] = times * step * stiffness;
       Complete(problem, point);
       if (std::isfinite(point.squares)) points.push_back(point);
     }
   }
-  return Sorted(std::move(points));
+  return BestFirst(std::move(points));
 }
 
-std::vector<LugrePoint> ScanFall(const LugreProblem& problem, const LugrePoint& point,
-                                 double fastest) {
-  std::vector<LugrePoint> points;
+std::vector<FitPoint> ScanFall(const LugreProblem& problem, const FitPoint& point, double fastest) {
+  const Layout at = problem.layout();
+  std::vector<FitPoint> points;
   for (int i = 0; i < kVelocities; ++i) {
-    LugrePoint other = point;
+    FitPoint other = point;
     // vs from the fastest speed to a thousandth of it
-    other.x[problem.log_vs()] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
-    problem.law->keep(other.x.data(), kFall, kFall);
+    other.x[at.log_vs()] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
+    problem.law->keep(at.law.In(other.x).data(), kFall, kFall);
     CompleteLevels(problem, other);
     if (std::isfinite(other.squares)) points.push_back(other);
   }
-  return Sorted(std::move(points));
+  return BestFirst(std::move(points));
 }
 
-LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
+LugreFit RefineLugre(const LugreProblem& problem, const FitPoint& start) {
   return ForLaw(problem, [&]<typename L>() {
     const auto n = static_cast<int>(problem.used.count());
     Eigen::VectorXd x = start.x;
@@ -310,12 +300,12 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
   });
 }
 
-Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point,
+Eigen::VectorXd LugreTorque(const LugreProblem& problem, const FitPoint& point,
                             const std::vector<double>& loads) {
   const Eigen::Index n = problem.motion.size();
   return ForLaw(problem, [&]<typename L>() {
-    const auto p = LugreValues<L>(point.x.data());
-    Eigen::VectorXd torque = point.x[problem.inertia()] * problem.acceleration;
+    const auto p = ValuesOf<L>(point.x.data());
+    Eigen::VectorXd torque = point.x[LayoutOf<L>().inertia()] * problem.acceleration;
     size_t recording = 0;
     // each recording from its own load
     for (Eigen::Index first = 0, end = 0; first < n; first = end) {

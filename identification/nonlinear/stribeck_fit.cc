@@ -3,7 +3,6 @@
 #include <ceres/autodiff_cost_function.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 
@@ -22,10 +21,6 @@ constexpr int kVelocities = 16;  // of the grid
 /// that a point at which Ceres finds the residuals also has a Jacobian. N.m or N
 constexpr double kRunaway = 1e100;
 
-/// How many parameters x has of law L.
-template <typename L, FittedWarming W>
-constexpr int kSize = LevelsOf<L>() + (W == FittedWarming::none ? 1 : 3);
-
 /// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them.
 template <typename L, FittedWarming W>
 class Residuals {
@@ -35,14 +30,9 @@ class Residuals {
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
     using std::abs;
-    using std::exp;
     using std::isfinite;
     const LogSamples& m = problem_.measurements;
-    // the law's parameters, vs by its logarithm
-    std::array<T, L::parameters.size()> law;
-    std::copy_n(x, kLogVs, law.begin());
-    law[kLogVs] = exp(x[kLogVs]);
-    law[kLogVs + 1] = T(problem_.exponent);
+    const auto law = ValuesOf<L>(x, problem_.exponent);
     const std::vector<ThermalHold<T>> holds = HoldsOf(x);
     T energy(0);
     // friction with the heat that all samples before have left
@@ -52,24 +42,24 @@ class Residuals {
       if constexpr (W == FittedWarming::estimated) {
         force = WarmForce(v, force, energy);
         const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
-        energy = ThermalStep(T(x[kLogVs + 1] * hold.cooling), hold.pole, energy, Loss(v, force));
+        energy = ThermalStep(T(x[kAt.gain()] * hold.cooling), hold.pole, energy, Loss(v, force));
       }
       if (!isfinite(force) || abs(force) > kRunaway) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
     }
-    return isfinite(energy) && isfinite(law[kLogVs]);
+    return isfinite(energy) && isfinite(law[kAt.log_vs()]);
   }
 
- private:
-  static constexpr int kLogVs = LevelsOf<L>();
+  static constexpr Layout kAt = LayoutOf<L>(W == FittedWarming::estimated);
 
+ private:
   /// Eq. (22) over each distinct interval; none without warming.
   template <typename T>
   std::vector<ThermalHold<T>> HoldsOf(const T* x) const {
     std::vector<ThermalHold<T>> holds;
     if constexpr (W == FittedWarming::estimated) {
       using std::exp;
-      const T rate = exp(-x[kLogVs + 2]);
+      const T rate = exp(-x[kAt.log_time_constant()]);
       for (const double h : problem_.intervals.length) {
         // nothing is left where another recording starts cold
         holds.push_back(std::isinf(h) ? ThermalHold<T>{T(0), T(0), T(0)}
@@ -83,8 +73,8 @@ class Residuals {
 };
 
 template <typename L, FittedWarming W>
-StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
-  constexpr int P = kSize<L, W>;
+StribeckFit Refine(const StribeckProblem& problem, const FitPoint& start) {
+  constexpr int P = static_cast<int>(Residuals<L, W>::kAt.size());
   using Cost = ceres::AutoDiffCostFunction<Residuals<L, W>, ceres::DYNAMIC, P>;
   const auto n = static_cast<int>(problem.selection.count());
   Eigen::VectorXd x = start.x;
@@ -107,7 +97,7 @@ Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
   Eigen::MatrixXd columns(v.size(), levels);
   // the force with one of them at 1 and the others at 0
   for (Eigen::Index j = 0; j < levels; ++j) {
-    Eigen::VectorXd p(levels + 2);
+    Eigen::VectorXd p(std::ssize(problem.law.law.parameters));
     p << Eigen::VectorXd::Unit(levels, j), velocity, problem.exponent;
     for (Eigen::Index i = 0; i < v.size(); ++i)
       columns(i, j) = problem.law.law.force(v[i], p.data());
@@ -116,7 +106,7 @@ Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
 }
 
 /// The start at one vs: everything else from it.
-std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velocity) {
+std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity) {
   const LogSamples& m = problem.measurements;
   const Eigen::MatrixXd columns = LinearColumns(problem, velocity);
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
@@ -125,10 +115,11 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
   const LeastSquares cold = SolveLeastSquares(kept, torque, 1e-3);
   if (cold.rank < columns.cols()) return std::nullopt;
 
-  StribeckPoint point;
+  const Layout at = problem.layout();
+  FitPoint point{Eigen::VectorXd(at.size())};
+  point.x[at.log_vs()] = std::log(velocity);
   if (problem.warming == FittedWarming::none) {
-    point.x.resize(columns.cols() + 1);
-    point.x << cold.solution, 0;
+    at.law.In(point.x) = cold.solution;
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
     const ClosedLoop loop = ClosedLoop::Along(m, columns);
@@ -136,37 +127,34 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
     const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
     const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
     const InitialGuess start = ScanTimeConstant(loop, level, weight);
-    point.x.resize(columns.cols() + 3);
-    point.x << start.parameters, 0, start.thermal.gain, std::log(start.thermal.time_constant);
+    at.law.In(point.x) = start.parameters;
+    point.x[at.gain()] = start.thermal.gain;
+    point.x[at.log_time_constant()] = std::log(start.thermal.time_constant);
     const Eigen::VectorXd force = loop.Simulate(start.parameters, start.thermal).force;
     point.squares = (torque - Kept(force, problem.selection)).squaredNorm();
   }
-  // vs stands by its logarithm
-  point.x[columns.cols()] = std::log(velocity);
   if (!point.x.allFinite() || !std::isfinite(point.squares)) return std::nullopt;
   return point;
 }
 
 }  // namespace
 
-std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem) {
+std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem) {
   const Eigen::ArrayXd speed =
       Kept(problem.measurements.velocity, problem.selection).col(0).array().abs();
   const double fastest = speed.maxCoeff();
   const double slowest = (speed > 0).select(speed, fastest).minCoeff();
   // vs from a third of the slowest speed up to the fastest
   const double from = std::max(slowest / 3, 1e-4 * fastest);
-  std::vector<StribeckPoint> points;
+  std::vector<FitPoint> points;
   for (int i = 0; i < kVelocities; ++i) {
     const double velocity = from * std::pow(fastest / from, i / (kVelocities - 1.0));
     if (auto point = StartAt(problem, velocity)) points.push_back(*point);
   }
-  std::stable_sort(points.begin(), points.end(),
-                   [](const auto& a, const auto& b) { return a.squares < b.squares; });
-  return points;
+  return BestFirst(std::move(points));
 }
 
-StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start) {
+StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start) {
   return ForLawNamed(SteadyFallingLaws{}, problem.law.law.name, [&]<typename L>() {
     return problem.warming == FittedWarming::none
                ? Refine<L, FittedWarming::none>(problem, start)

@@ -19,7 +19,6 @@ inline std::span<const Word<FittedWarming>> WordsOf(FittedWarming) {
   return words;
 }
 
-/// What is fitted to what.
 /// The options of a fit of such a law.
 struct StribeckOptions {
   FallingLawOf<SteadyFallingLaws> law{};
@@ -36,6 +35,7 @@ struct StribeckOptions {
   }
 };
 
+/// What is fitted to what.
 struct StribeckProblem {
   const LogSamples& measurements;
   const Selection& selection;  // E runs over all samples, the fit is to those kept
@@ -44,29 +44,24 @@ struct StribeckProblem {
   FittedWarming warming = FittedWarming::none;
   double scale = 1;                                        // about the torque's rms, N.m or N
   const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
-};
 
-/// Where a fit begins or ends. x: the law's l linear parameters, as kv, kc, ks; ln vs; and with warming
-/// k, ln tau.
-struct StribeckPoint {
-  Eigen::VectorXd x;   // [l + 1 or l + 3]
-  double squares = 0;  // sum of squared residuals over the kept samples, (N.m)^2 or N^2
+  Layout layout() const { return law.layout(warming == FittedWarming::estimated); }
 };
 
 /// The best x on a grid of 16 values of vs, even in ln vs from a third of the slowest kept speed to
 /// the fastest one. Given vs the law is linear in the rest (Golub and Pereyra 1973); with warming,
 /// tau is scanned as well (scan_time_constant.h). Best first; values of vs for which the law's
 /// columns are alike are left out.
-std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem);
+std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem);
 
 struct StribeckFit {
-  StribeckPoint solution;
+  FitPoint solution;         // squares: (N.m)^2 or N^2
   Eigen::VectorXd fitted;    // [n] N.m or N, over the kept samples
   Eigen::MatrixXd jacobian;  // [n x p] of `fitted` by x, exact (dual numbers)
   bool converged = false;
 };
 
 /// Minimises the sum of squares from a start by Levenberg-Marquardt.
-StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start);
+StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start);
 
 }  // namespace warmjoint

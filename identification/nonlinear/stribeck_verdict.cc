@@ -38,15 +38,22 @@ std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const Fallin
   return Refusal{Status::not_identifiable, Indistinct(names, m, input.selection)};
 }
 
+Refusal NotConverged() {
+  return {Status::not_converged, "the fit has not converged after 100 iterations",
+          FrictionKind::stribeck};
+}
+
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection) {
   return {Status::not_identifiable,
           fmt::format("{} and stribeck_velocity cannot be told from coulomb; {}", law.rest(),
                       SlowSpeeds(measurements, selection))};
 }
 
-StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
-                            const Eigen::MatrixXd& covariance, double log_deviation) {
-  return {law.FallAt(x), std::sqrt(law.fall.dot(covariance * law.fall)), log_deviation};
+StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
+                            const Uncertainty& known) {
+  const Eigen::MatrixXd covariance = at.law.Block(known.covariance);
+  return {law.fall.dot(at.law.Of(x)), std::sqrt(law.fall.dot(covariance * law.fall)),
+          known.Deviation(at.log_vs())};
 }
 
 std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,

@@ -7,6 +7,7 @@
 
 #include "identification/identifier.h"
 #include "identification/nonlinear/falling_law.h"
+#include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
 
@@ -26,13 +27,15 @@ std::string SlowSpeeds(const LogSamples& measurements, const Selection& selectio
 std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
                                       std::span<const ParameterInfo> unknown);
 
+/// A fit that does not come to rest.
+Refusal NotConverged();
+
 /// Why no scan finds a fall from the level at rest. selection: samples at constant speed.
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection);
 
-/// What a fit says of its effect. x: its linear parameters, at least; log_deviation: of ln(vs);
-/// covariance: of the linear parameters, [l x l].
-StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
-                            const Eigen::MatrixXd& covariance, double log_deviation);
+/// What a fit says of its effect. at: of x; known: of law and ln vs, at least, where x has them.
+StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
+                            const Uncertainty& known);
 
 /// Why ks and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.

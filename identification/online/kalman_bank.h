@@ -6,17 +6,25 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/layout.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
+
+/// Where p, k, ln tau and E stand in a state: d parameters of the law, heat, and the energy now.
+constexpr Layout StateLayout(Eigen::Index d) {
+  return Layout::InOrder({{&Layout::law, d}, {&Layout::heat, 2}, {&Layout::start, 1}});
+}
 
 /// What is known of (p, k, ln tau, E): the d = D parameters of a linear law, the thermal gain and
 /// time constant, and the energy now. D may be Eigen::Dynamic; only then a step allocates.
 template <int D>
 struct KalmanState {
-  static constexpr int kSize = D == Eigen::Dynamic ? D : D + 3;
+  static constexpr int kSize = D == Eigen::Dynamic ? D : static_cast<int>(StateLayout(D).size());
   Eigen::Matrix<double, kSize, 1> mean;            // [d + 3]
   Eigen::Matrix<double, kSize, kSize> covariance;  // [d + 3 x d + 3]
+
+  Layout layout() const { return StateLayout(mean.size() - StateLayout(0).size()); }
 };
 
 /// One sample and the interval that follows it.
@@ -41,11 +49,13 @@ struct KalmanOutcome {
 template <int D>
 void Correct(const KalmanSample<D>& sample, double noise, KalmanOutcome<D>& outcome) {
   auto& [mean, covariance] = outcome.state;
-  const Eigen::Index d = sample.levels.size();
+  const Layout at = outcome.state.layout();
+  const Eigen::Index d = at.law.size;
   const Eigen::Matrix<double, KalmanState<D>::kSize, 1> Pa =
-      covariance.template leftCols<D>(d) * sample.levels + covariance.col(d + 2);
-  outcome.innovation = sample.level - sample.levels.dot(mean.template head<D>(d)) - mean[d + 2];
-  outcome.variance = noise + sample.levels.dot(Pa.template head<D>(d)) + Pa[d + 2];
+      covariance.template leftCols<D>(d) * sample.levels + covariance.col(at.energy());
+  outcome.innovation =
+      sample.level - sample.levels.dot(mean.template head<D>(d)) - mean[at.energy()];
+  outcome.variance = noise + sample.levels.dot(Pa.template head<D>(d)) + Pa[at.energy()];
   mean += (outcome.innovation / outcome.variance) * Pa;
   const auto scaled = ((1 / outcome.variance) * Pa).eval();
   covariance.noalias() -= scaled * Pa.transpose();
@@ -55,24 +65,25 @@ void Correct(const KalmanSample<D>& sample, double noise, KalmanOutcome<D>& outc
 template <int D>
 void Predict(const KalmanSample<D>& sample, KalmanState<D>& state) {
   auto& [mean, covariance] = state;
-  const Eigen::Index d = sample.levels.size();
-  const double gain = mean[d];
-  const ThermalHold<> hold = HoldOver(sample.step, std::exp(mean[d + 1]));
-  const double energy = mean[d + 2];
+  const Layout at = state.layout();
+  const Eigen::Index d = at.law.size;
+  const double gain = mean[at.gain()];
+  const ThermalHold<> hold = HoldOver(sample.step, std::exp(mean[at.log_time_constant()]));
+  const double energy = mean[at.energy()];
   const double loss = sample.speed * (sample.levels.dot(mean.template head<D>(d)) + energy);
 
   // the row of E in the Jacobian of the motion; the others are those of the identity
-  Eigen::Matrix<double, KalmanState<D>::kSize, 1> row(d + 3);
+  Eigen::Matrix<double, KalmanState<D>::kSize, 1> row(at.size());
   row.template head<D>(d) = gain * hold.cooling * sample.speed * sample.levels;
-  row[d] = hold.cooling * loss;
-  row[d + 1] = hold.Slope() * (energy - gain * loss);
-  row[d + 2] = hold.pole + gain * hold.cooling * sample.speed;
+  row[at.gain()] = hold.cooling * loss;
+  row[at.log_time_constant()] = hold.Slope() * (energy - gain * loss);
+  row[at.energy()] = hold.pole + gain * hold.cooling * sample.speed;
 
   const Eigen::Matrix<double, KalmanState<D>::kSize, 1> cross = covariance * row;
-  covariance.row(d + 2) = cross.transpose();
-  covariance.col(d + 2) = cross;
-  covariance(d + 2, d + 2) = row.dot(cross);
-  mean[d + 2] = ThermalStep(gain * hold.cooling, hold.pole, energy, loss);
+  covariance.row(at.energy()) = cross.transpose();
+  covariance.col(at.energy()) = cross;
+  covariance(at.energy(), at.energy()) = row.dot(cross);
+  mean[at.energy()] = ThermalStep(gain * hold.cooling, hold.pole, energy, loss);
 }
 
 /// One step, a pure function of its arguments. First the measurement, where there is one; then the
@@ -128,7 +139,7 @@ KalmanBank<D> MakeBank(const KalmanPrior<D>& prior) {
   bank.count = prior.confidence;
   bank.log_weight.fill(0);
   bank.members.fill(prior.state);
-  const Eigen::Index at = prior.state.mean.size() - 2;
+  const Eigen::Index at = prior.state.layout().log_time_constant();
   for (int i = 0; i < KalmanBank<D>::kMembers; ++i) {
     bank.members[i].mean[at] = std::log(prior.shortest) + i * Spacing(prior);
     bank.members[i].covariance(at, at) = std::pow(kOverlap * Spacing(prior), 2);

@@ -72,7 +72,7 @@ std::string AddHeat(LawFit& law) {
       [&](const ThermalFit& alone) {
         const Eigen::VectorXd left =
             law.rows.torque - Kept(problem.Respond(alone).torque, law.input().selection);
-        return problem.CovarianceOf(alone, left).Deviation(alone.layout.start.begin);
+        return problem.CovarianceOf(alone, left).Deviation(alone.layout.energy());
       },
       law.fit);
 
@@ -272,7 +272,7 @@ std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& resp
 
 std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
   std::vector<Iterate> trace;
-  for (const ThermalIterate& iterate : warm.trace) {
+  for (const FitPoint& iterate : warm.trace) {
     Iterate& entry = trace.emplace_back();
     entry.iteration = static_cast<int>(trace.size()) - 1;
     entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));

@@ -29,7 +29,7 @@ Eigen::VectorXd Prior(const ThermalRows& rows) {
     prior[layout.jumps.begin + i] = weight(rows.jump_spread[i]);
   }
   if (layout.start.size > 0 && rows.initial.is_expected()) {
-    prior[layout.start.begin] = weight(rows.initial.spread);
+    prior[layout.energy()] = weight(rows.initial.spread);
   }
   return prior;
 }
@@ -83,7 +83,7 @@ Eigen::MatrixXd LogProducts::At(const Eigen::VectorXd& x) {
 
   // what is known beside the samples: rows sqrt(w) [-1, -b] of unknowns that lie b from what they are known for
   Eigen::VectorXd off = x;
-  if (layout_.start.size > 0) off[layout_.start.begin] -= rows_.initial.mean;
+  if (layout_.start.size > 0) off[layout_.energy()] -= rows_.initial.mean;
   const Eigen::Index p = layout_.size();
   const Eigen::VectorXd pull = prior_.cwiseProduct(off);
   products.diagonal().head(p) += prior_;
@@ -112,8 +112,8 @@ Eigen::MatrixXd LogProducts::SumProductsOfSize(const Eigen::VectorXd& x) const {
 
 template <int D, int Q>
 Eigen::MatrixXd LogProducts::SumProducts(const Eigen::VectorXd& x) const {
-  const Thermal thermal{x[layout_.gain()], std::exp(x[layout_.log_time_constant()])};
-  const double initial = Q == 3 ? x[layout_.start.begin] : 0;
+  const Thermal thermal = layout_.ThermalAt(x);
+  const double initial = Q == 3 ? x[layout_.energy()] : 0;
   const double* jumps = x.data() + layout_.jumps.begin;
   // rows of the kept samples along one simulation
   const auto fill = [&](auto&& next) {
@@ -187,7 +187,7 @@ class CondensedProblem {
   /// [J r]^T [J r] at x, each log over its variance. [p + 1 x p + 1]
   const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const;
 
-  std::vector<ThermalIterate>& trace() const { return trace_; }
+  std::vector<FitPoint>& trace() const { return trace_; }
 
  private:
   std::span<const SharedRows> logs_;
@@ -196,7 +196,7 @@ class CondensedProblem {
   mutable std::vector<LogProducts> products_of_;
   mutable Eigen::VectorXd x_;         // [p]
   mutable Eigen::MatrixXd products_;  // [p + 1 x p + 1]
-  mutable std::vector<ThermalIterate> trace_;
+  mutable std::vector<FitPoint> trace_;
 };
 
 bool CondensedProblem::operator()(const double* x, double* residuals, double* jacobian) const {
@@ -243,12 +243,8 @@ Layout ThermalRows::layout() const {
                           {&Layout::rigid, offsets.cols()}});
 }
 
-Thermal ThermalFit::thermal() const {
-  return {x[layout.gain()], std::exp(x[layout.log_time_constant()])};
-}
-
 double ThermalFit::initial_energy() const {
-  return estimates_initial_energy() ? x[layout.start.begin] : 0;
+  return estimates_initial_energy() ? x[layout.energy()] : 0;
 }
 
 InitialGuess StartFrom(const ThermalFit& fit) {
@@ -293,11 +289,11 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
   // from the scanned law and heat, without jumps, with the E(0) that is expected
   const Layout& at = fit.layout;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(at.size());
-  x.segment(at.law.begin, at.law.size) = start.parameters.head(at.law.size);
+  at.law.In(x) = start.parameters.head(at.law.size);
   x[at.gain()] = start.thermal.gain;
   x[at.log_time_constant()] = std::log(start.thermal.time_constant);
-  if (at.start.size > 0) x[at.start.begin] = rows.initial.mean;
-  x.segment(at.rigid.begin, at.rigid.size) = start.parameters.tail(at.rigid.size);
+  if (at.start.size > 0) x[at.energy()] = rows.initial.mean;
+  at.rigid.In(x) = start.parameters.tail(at.rigid.size);
 
   // all unknowns are those of the one log; squares are the torque's
   std::vector<Eigen::Index> places(static_cast<size_t>(x.size()));
@@ -305,7 +301,7 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
   const SharedRows one{rows, std::move(places)};
   SharedFit found = FitTogether({&one, 1}, x);
   const double variance = rows.scale * rows.scale;
-  for (ThermalIterate& iterate : found.trace) iterate.squares *= variance;
+  for (FitPoint& iterate : found.trace) iterate.squares *= variance;
   fit.x = std::move(found.x);
   fit.squares = variance * found.squares;
   fit.cofactor = found.cofactor / variance;

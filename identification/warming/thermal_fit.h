@@ -61,27 +61,21 @@ struct ThermalRows {
   }
 };
 
-/// One iterate of a fit.
-struct ThermalIterate {
-  Eigen::VectorXd x;   // [p] as Layout has it
-  double squares = 0;  // sum of squared residuals over the samples that count
-};
-
 /// What a fit of law, heat, gravity and inertia to one log came to.
 struct ThermalFit {
   Layout layout;
-  Eigen::VectorXd x;                  // [p]
-  double squares = 0;                 // infinite where the columns cannot be told apart
-  Eigen::MatrixXd cofactor;           // [p x p] (J^T J + P)^-1 of the rows as fitted
-  Eigen::VectorXd prior;              // [p] the diagonal P: what is known of x beside the log
-  std::vector<ThermalIterate> trace;  // the solution last; empty without heat
+  Eigen::VectorXd x;            // [p]
+  double squares = 0;           // infinite where the columns cannot be told apart
+  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1 of the rows as fitted
+  Eigen::VectorXd prior;        // [p] the diagonal P: what is known of x beside the log
+  std::vector<FitPoint> trace;  // the solution last; empty without heat
   bool converged = false;
   InitialEnergy initial;            // what was known of E(0)
   std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be told apart
 
   bool has_heat() const { return layout.heat.size > 0; }
   bool estimates_initial_energy() const { return layout.start.size > 0; }
-  Thermal thermal() const;                                      // of a fit with heat
+  Thermal thermal() const { return layout.ThermalAt(x); }       // of a fit with heat
   double initial_energy() const;                                // N.m or N
   Eigen::VectorXd law() const { return layout.law.Of(x); }      // [d]
   Eigen::VectorXd jumps() const { return layout.jumps.Of(x); }  // [J] of E, N.m or N
@@ -113,10 +107,10 @@ struct SharedRows {
 
 /// A minimum over all unknowns of several logs.
 struct SharedFit {
-  Eigen::VectorXd x;                  // [p]
-  double squares = 0;                 // in units of each log's scale
-  Eigen::MatrixXd cofactor;           // [p x p] (J^T J + P)^-1 of the rows over their scales
-  std::vector<ThermalIterate> trace;  // the solution last
+  Eigen::VectorXd x;            // [p]
+  double squares = 0;           // in units of each log's scale
+  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1 of the rows over their scales
+  std::vector<FitPoint> trace;  // the solution last
   bool converged = false;
 };
 

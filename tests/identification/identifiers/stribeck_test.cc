@@ -128,25 +128,28 @@ TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
   const StribeckProblem problem{m,  selection, FindIntervals(m.time), 2, FittedWarming::estimated,
                                 10, law};
   const Eigen::Index levels = law.levels();
-  StribeckPoint start;
-  start.x.resize(levels + 3);
+  const Layout at = problem.layout();
+  FitPoint start{Eigen::VectorXd(at.size())};
   const std::vector<double> values = LawValues(warm);
-  start.x << Eigen::Map<const Eigen::VectorXd>(values.data(), levels), std::log(0.05), -3,
-      std::log(60);
+  at.law.In(start.x) = Eigen::Map<const Eigen::VectorXd>(values.data(), levels);
+  start.x[at.log_vs()] = std::log(0.05);
+  start.x[at.gain()] = -3;
+  start.x[at.log_time_constant()] = std::log(60);
   const StribeckFit fit = RefineStribeck(problem, start);
 
   // the same forces by the model that predicts
   const auto force = [&](const Eigen::VectorXd& x) {
     Friction friction = warm;
     for (Eigen::Index i = 0; i < levels; ++i) {
-      friction.parameters[std::string(law.law.parameters[static_cast<size_t>(i)].name)] = x[i];
+      friction.parameters[std::string(law.law.parameters[static_cast<size_t>(i)].name)] =
+          at.law.Of(x)[i];
     }
-    friction.parameters["stribeck_velocity"] = std::exp(x[levels]);
-    friction.thermal = Thermal{x[levels + 1], std::exp(x[levels + 2])};
+    friction.parameters["stribeck_velocity"] = std::exp(x[at.log_vs()]);
+    friction.thermal = at.ThermalAt(x);
     return PredictFriction(friction, m).force;
   };
   EXPECT_LT((force(fit.solution.x) - fit.fitted).cwiseAbs().maxCoeff(), 1e-10);
-  for (Eigen::Index j = 0; j < levels + 3; ++j) {
+  for (Eigen::Index j = 0; j < at.size(); ++j) {
     Eigen::VectorXd above = fit.solution.x, below = fit.solution.x;
     above[j] += 1e-5;
     below[j] -= 1e-5;
