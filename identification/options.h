@@ -122,6 +122,12 @@ class Options {
   const T& Get() const {
     return dynamic_cast<const T&>(*held_);
   }
+  /// The same; where they have none of that type, as it is by default.
+  template <class T>
+  T OrDefault() const {
+    const T* found = Find<T>();
+    return found ? *found : T{};
+  }
   /// Whether one of them has that name, in whichever group.
   bool Has(std::string_view name) const;
   /// The same with another group of that type.

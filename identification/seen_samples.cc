@@ -29,8 +29,7 @@ const LogView& SeenThrough(View view, const PreparedLog& log) {
 
 IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input) {
   // of a whole log, what is absurd pulls no less at a loss that bounds its pull than others do
-  const auto* loss = input.options.Find<LossOption>();
-  const bool is_bounded = loss && loss->loss == LossKind::huber;
+  const bool is_bounded = input.options.OrDefault<LossOption>().loss == LossKind::huber;
   const PreparedLog& bounded = is_bounded ? input.log.WithoutAbsurd() : input.log;
   if (&bounded != &input.log && &input.selection == &input.log.constant_speed().selection) {
     return SelectSamples(identifier, {bounded, input.options, input.start, input.narrator});

@@ -1,7 +1,8 @@
 // lpv-energy: a law whose parameters follow the energy.
 //
 // F = kv(E) v + kc(E) sign(v), Eq. (27), linear parameter-varying in E: kv(E) and kc(E) are the
-// law's own values, E in kc, and kernels over E on both. E comes from energy-ml.
+// law's own values, E in kc, and kernels over E on both. E comes from a fit of the law
+// alone, as energy-ml has it.
 #include <warmjoint/friction.h>
 
 #include <cmath>
@@ -15,8 +16,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/maps/over_energy.h"
-#include "identification/physical_bounds.h"
+#include "identification/maps/map_model.h"
 
 namespace warmjoint {
 namespace {
@@ -103,19 +103,14 @@ std::vector<std::vector<FrictionMap>> Shapes(int energy_kernels, const MapOption
 }
 
 Fit FitSlopeAndLevel(const IdentifierInput& input) {
-  // E, from a fit whose level alone warms
-  MapTask task = MakeMapTask(input.options, kName);
-  const Identifier warm = EnergyMl();
-  Fit first = warm.fit(input.With(warm.options.With(input.options.Get<LawOption>())));
-  first.identifier = kName;
-  if (!GivesFriction(first)) return first;
-
-  // its slope did not follow the heat, for which the warming is corrected
-  std::optional<Thermal>& thermal = first.friction.thermal;
-  thermal = FitSlopeHeat(input, *task.law, *thermal);
-  return IdentifyOverEnergy(input, task, &first, [&](const MapPoints& points) {
-    return Shapes(input.options.Get<LpvEnergySize>().energy_kernels, task.settings, points);
-  });
+  const int kernels = input.options.Get<LpvEnergySize>().energy_kernels;
+  const auto& options = input.options.Get<MapOptions>();
+  // E of a law whose level alone warms, corrected for its slope, which did not follow the heat; then both over that E
+  return FitMapModel(
+      kName, input,
+      {.heat = MapHeat::of_law,
+       .heat_of_all = &FitSlopeHeat,
+       .over_energy = [&](const MapPoints& points) { return Shapes(kernels, options, points); }});
 }
 
 }  // namespace

@@ -49,8 +49,7 @@ std::string Structure::Name() const {
 }
 
 FittedGravity Structure::gravity() const {
-  const auto* option = identifier.options.Find<GravityOption>();
-  return option ? option->gravity : FittedGravity::none;
+  return identifier.options.OrDefault<GravityOption>().gravity;
 }
 
 Structure Structure::WithShapeOf(const FrictionMap& map) const {
@@ -68,8 +67,8 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
 }
 
 bool Structure::CanEstimateLag() const {
-  const auto* maps = identifier.options.Find<WarmMapOptions>();
-  return identifier.options.Find<LagOption>() && (!maps || maps->position == WarmMap::none);
+  return identifier.options.Find<LagOption>() &&
+         identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;
 }
 
 Structure Structure::Sketch() const {

@@ -75,8 +75,7 @@ MatrixXd AtSamples(const MatrixXd& kept, const KeptRuns& runs, Index all) {
 }  // namespace
 
 bool AsksForLag(const Options& options) {
-  const auto* option = options.Find<LagOption>();
-  return option && option->torque_lag == TorqueLagFit::estimated;
+  return options.OrDefault<LagOption>().torque_lag == TorqueLagFit::estimated;
 }
 
 std::optional<std::string> WhyNoLag(const IdentifierInput& input) {

@@ -130,8 +130,8 @@ RigidPart PrepareRigid(const IdentifierInput& input) {
   // what takes part so far, and no columns yet
   fit.selection = input.selection;
   fit.columns.resize(input.measurements.size(), 0);
-  const auto* option = input.options.Find<GravityOption>();
-  if (option && option->gravity != FittedGravity::none) PrepareGravity(input, option->gravity, fit);
+  const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
+  if (gravity != FittedGravity::none) PrepareGravity(input, gravity, fit);
 
   // the inertia, behind gravity
   const auto& acceleration = input.measurements.acceleration;

@@ -1,26 +1,35 @@
 // The fit behind every identifier with maps: law, maps, and the heat that they share.
 #pragma once
 
+#include <warmjoint/friction.h>
+
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "identification/maps/over_energy.h"
-#include "identification/warming/thermal_fit.h"
+#include "identification/maps/identify_maps.h"
 
 namespace warmjoint {
+
+/// Shapes of maps for points whose energy is known. points: [n x 5] kept.
+using MapMaker = std::function<std::vector<std::vector<FrictionMap>>(const MapPoints& points)>;
 
 /// Whether law and maps warm.
 enum class MapHeat {
   none,
   estimated,   // together with law and maps; without a warming there is no fit
   where_seen,  // or none
+  of_law,      // as a law without maps has it (fit_law.h), or no fit
 };
 
 /// What an identifier fits maps over, of which shapes, with what heat.
 struct MapModel {
-  std::vector<MapQuantity> quantities;  // that the log must have, and vary
-  MapMaker maps;                        // beside the law, to choose from
+  std::vector<MapQuantity> quantities{};  // that the log must have, and vary
+  MapMaker maps{};                        // beside the law, to choose from; not read with of_law
   MapHeat heat = MapHeat::none;
+  /// With of_law: the warming where more than the law's level follows the heat, of which `found` knows; or none.
+  Thermal (*heat_of_all)(const IdentifierInput& input, const Law& law,
+                         const Thermal& found) = nullptr;
   /// Maps over E and others in their place, once the heat is known; or none. Where no heat is seen, over the others.
   MapMaker over_energy{};
 };
@@ -31,7 +40,12 @@ MapBeginning BeginModel(const std::string& name, const IdentifierInput& given,
                         const MapModel& model);
 
 /// By ridge regression on the kernels' weights, with gravity and inertia where the options ask for them; with heat in
-/// turns (warm_maps.h), from the E(0) that the options say. name: of the identifier
+/// turns (warm_maps.h), from the E(0) that the options say.
+///
+/// Over E, F = Fn(v) + sign(v) E + maps: E comes from the fit with heat, with its start and its jumps; law and maps are
+/// fitted to what it leaves of the torque; then the whole friction predicts E anew, until E rests to 1e-4 of its range:
+/// the friction of the fit is consistent with its own heat. Gain and time constant stay as they were, without intervals:
+/// the maps share what they do. name: of the identifier
 Fit FitMapModel(const std::string& name, const IdentifierInput& given, const MapModel& model);
 
 }  // namespace warmjoint

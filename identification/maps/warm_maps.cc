@@ -307,13 +307,11 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   fit.end_energy_std = joint.end_energy_std;
   if (!GivesFriction(fit)) return fit;
   // a friction that drives itself by its own heat is no model
-  const auto* asked = input.options.Find<GravityOption>();
+  const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
-    return Refused(
-        name, Status::inadequate_model,
-        ExplainFeedingItself(
-            m.time[at], RemedyForNonDissipative("energy-ml", fit.friction.law,
-                                                asked ? asked->gravity : FittedGravity::none)));
+    return Refused(name, Status::inadequate_model,
+                   ExplainFeedingItself(m.time[at], RemedyForNonDissipative(
+                                                        "energy-ml", fit.friction.law, gravity)));
   }
   return fit;
 }

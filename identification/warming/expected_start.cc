@@ -17,7 +17,7 @@ bool TakesColdStart(const Options& options) {
 }
 
 InitialEnergy InitialEnergyOf(const Options& options) {
-  const auto& start = options.Get<InitialEnergyOptions>();
+  const auto start = options.OrDefault<InitialEnergyOptions>();
   if (start.initial_energy == StartOfHeat::zero) return InitialEnergy::zero;
   if (start.initial_energy == StartOfHeat::estimated) return InitialEnergy::estimated;
   return {start.expected_energy, std::max(start.expected_energy_std, InitialEnergy::kExact)};

@@ -42,7 +42,7 @@ struct InitialEnergyOptions {
 /// Whether options have these, and take the joint for cold as the log begins.
 bool TakesColdStart(const Options& options);
 
-/// What they say.
+/// What they say; that the joint is cold, where options have none of these.
 InitialEnergy InitialEnergyOf(const Options& options);
 
 /// The sentence that the log itself contradicts what was expected, by more than four deviations of both;

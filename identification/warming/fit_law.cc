@@ -32,7 +32,7 @@ namespace {
 
 /// A fit on its path from plain squares to its last pass.
 struct LawFit {
-  const char* name;
+  std::string name;
   LawProblem problem;
   RowTreatment rows;
   ThermalFit fit;
@@ -263,11 +263,11 @@ std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& resp
         FrictionKind::warm_up};
   }
   if (!response.feeds_itself) return std::nullopt;
+  const FittedGravity gravity = law.input().options.OrDefault<GravityOption>().gravity;
   return Refusal{Status::inadequate_model,
                  ExplainFeedingItself(
                      law.measurements().time[*response.feeds_itself],
-                     RemedyForNonDissipative(law.name, law.problem.task().law.name,
-                                             law.input().options.Get<GravityOption>().gravity))};
+                     RemedyForNonDissipative("energy-ml", law.problem.task().law.name, gravity))};
 }
 
 std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
@@ -366,7 +366,7 @@ Fit Conclude(LawFit law) {
 
 }  // namespace
 
-Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
+Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) {
   if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
   const bool warms = heat == HeatFit::estimated;
   const LinearTask task = BeginLinear(given, warms ? 3 : 0);
@@ -390,7 +390,7 @@ Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat) {
   // behind a lag; else by the passes that outliers and the colour of the noise ask for
   if (AsksForLag(input.options)) AddTorqueLag(law);
   if (!law.lag) {
-    if (input.options.Get<LossOption>().loss == LossKind::huber) {
+    if (input.options.OrDefault<LossOption>().loss == LossKind::huber) {
       RefineByHuber(law);
     } else {
       Whiten(law);

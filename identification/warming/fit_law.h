@@ -1,6 +1,7 @@
 // Law, gravity and inertia by least squares, with heat or without: the fit behind nominal-ls and energy-ml.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "identification/fit.h"
@@ -16,11 +17,11 @@ enum class HeatFit { none, estimated };
 /// (p, k, tau, ...) = argmin sum over the kept samples of (tau - F - G - M a)^2, maximum likelihood for white noise on
 /// the torque: without heat by linear least squares, Eqs. (7)-(9); with heat over the closed loop (19)-(22), from a
 /// scan over tau. The options say what more there is: gravity, inertia beside motion of any kind, E(0) of each recording,
-/// jumps of E at gaps, Huber's loss, and a lag of the torque. Where the noise is coloured beyond doubt, law and heat are fitted once
+/// jumps of E at gaps, Huber's loss, and a lag of the torque; of what they do not name, none. Where the noise is coloured beyond doubt, law and heat are fitted once
 /// more to whitened rows, unless that changes more than noise may (hausman_test.h).
 /// not_identifiable where the motion cannot tell the columns apart, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier
-Fit FitLaw(const char* name, const IdentifierInput& given, HeatFit heat);
+Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat);
 
 /// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
 /// further starts among them
