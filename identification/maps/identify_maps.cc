@@ -15,7 +15,6 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/finer_maps.h"
-#include "identification/maps/friction_at_speeds.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
 #include "identification/maps/motor_maps.h"

@@ -23,6 +23,9 @@ using Eigen::Index;
 constexpr Index kEnough = 1000;  // samples; why 1000: their mean is sure to 3 % of their spread
 // why: with 0.075 or 0.033 all bands of tests/studies/maps.yaml stay
 constexpr double kBlind = 0.05;  // share of kernels without data
+constexpr double kAlike = 0.2;   // of ln |v|; why: speeds nearer to each other are held as one
+constexpr int kRounds = 5;       // why: from the edge of kAlike to the middle of what is within
+constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lies about either
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
 bool IsAlikeBothWays(const FrictionMap& map) {
@@ -67,31 +70,36 @@ MapPoints PlacesOfBand(const FrictionMap& map, double speed, const MapPoints& ke
   return places;
 }
 
-/// Mean row of all kernels over the samples of one direction, from some of them. [q]
-Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints& kept,
-                           int direction) {
-  // samples of the direction, every so manieth of them where there are many
-  std::vector<Index> of_direction;
+/// Kept samples that move in a direction.
+std::vector<Index> Towards(int direction, const MapPoints& kept) {
+  std::vector<Index> samples;
   for (Index i = 0; i < kept.rows(); ++i) {
-    if (Sign(kept(i, kVelocity)) == direction) of_direction.push_back(i);
+    if (Sign(kept(i, kVelocity)) == direction) samples.push_back(i);
   }
-  // so many that more would hardly change the mean
-  const Index all = static_cast<Index>(of_direction.size());
-  const Index some = std::min(all, kEnough);
-  MapPoints points(some, 5);
-  for (Index i = 0; i < some; ++i) {
-    points.row(i) = kept.row(of_direction[static_cast<size_t>(i * all / some)]);
-  }
-  if (some == 0) return Eigen::RowVectorXd();
-  return DenseKernels(maps, points, 0, some).colwise().mean();
+  return samples;
 }
 
-/// MeanRow of both directions.
+/// Points of some samples, or of every so manieth where more would hardly change a mean over them.
+MapPoints Some(const std::vector<Index>& samples, const MapPoints& kept) {
+  const auto all = static_cast<Index>(samples.size()), some = std::min(all, kEnough);
+  std::vector<Index> chosen;
+  for (Index i = 0; i < some; ++i) chosen.push_back(samples[static_cast<size_t>(i * all / some)]);
+  return kept(chosen, Eigen::all);
+}
+
+/// Mean row of all kernels over some points; empty where there are none. [q]
+Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints& points) {
+  if (points.rows() == 0) return Eigen::RowVectorXd();
+  return DenseKernels(maps, points, 0, points.rows()).colwise().mean();
+}
+
+/// Over the samples of both directions.
 struct MeanRows {
   Eigen::RowVectorXd backwards, forwards;
 
   MeanRows(const std::vector<FrictionMap>& maps, const MapPoints& kept)
-      : backwards(MeanRow(maps, kept, -1)), forwards(MeanRow(maps, kept, 1)) {}
+      : backwards(MeanRow(maps, Some(Towards(-1, kept), kept))),
+        forwards(MeanRow(maps, Some(Towards(1, kept), kept))) {}
 };
 
 /// Rows whose products with a fit's x are law and maps at places of its which-th map.
@@ -204,6 +212,71 @@ void MakeBands(const Law& law, const MapFit& maps, const Uncertainty& known, con
       band.interval95.push_back({value[i] - reach * deviation, value[i] + reach * deviation});
     }
   }
+}
+
+namespace {
+
+/// Mean velocity of a group of points, rad/s or m/s. Summed here: Eigen 3.4 sums a view of some rows of a column of a
+/// matrix by rows over other elements.
+double MeanVelocity(const std::vector<Index>& group, const MapPoints& kept) {
+  double sum = 0;
+  for (const Index i : group) sum += kept(i, kVelocity);
+  return sum / static_cast<double>(group.size());
+}
+
+/// Those of some points about a speed that the joint held, from one of the speeds on to where they gather.
+std::vector<Index> Gather(double speed, const std::vector<Index>& way, const MapPoints& kept) {
+  std::vector<Index> group;
+  for (int round = 0; round < kRounds; ++round) {
+    group.clear();
+    for (const Index i : way) {
+      if (std::abs(std::log(std::abs(kept(i, kVelocity)) / speed)) <= kAlike) group.push_back(i);
+    }
+    speed = std::abs(MeanVelocity(group, kept));
+  }
+  return group;
+}
+
+/// a of the mean over the points of a group, or over every so manieth of many. [p + q]
+Eigen::RowVectorXd MeanOver(const std::vector<Index>& group, const Law& law, const MapFit& fit,
+                            const MapPoints& kept) {
+  const MapPoints points = Some(group, kept);
+  const Eigen::MatrixXd columns = LawColumns(law, points.col(kVelocity));
+  const Eigen::RowVectorXd kernels = MeanRow(fit.maps, points);
+  // resistance is the force times the direction
+  Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(fit.x.size());
+  mean.head(columns.cols()) = columns.colwise().mean();
+  mean.tail(kernels.size()) = kernels;
+  return Sign(points(0, kVelocity)) * mean;
+}
+
+}  // namespace
+
+std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
+                                              const Uncertainty& known, const MapPoints& kept) {
+  const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
+  const double reach = StudentQuantile(known.freedom, kIntervalLevel);
+  std::vector<FrictionAtSpeed> all;
+  for (const int direction : {1, -1}) {
+    const std::vector<Index> way = Towards(direction, kept);
+    double latest = 0;
+    for (const double quantile : {kSlow, 0.5, kFast}) {
+      if (way.empty()) continue;
+      Eigen::VectorXd speeds = kept(way, kVelocity).cwiseAbs();
+      const std::vector<Index> group = Gather(QuantileInPlace(speeds, quantile), way, kept);
+      const double speed = MeanVelocity(group, kept);
+      // a joint that knows one speed has one figure
+      if (latest > 0 && !(std::log(std::abs(speed) / latest) > kAlike)) continue;
+      latest = std::abs(speed);
+      // linear in law and weights, so that its variance follows from their covariance
+      const Eigen::RowVectorXd row = MeanOver(group, law, fit, kept);
+      const double value = row * fit.x;
+      const double deviation = std::sqrt(std::max(0.0, double(row * covariance * row.transpose())));
+      all.push_back(
+          {speed, value, deviation, {value - reach * deviation, value + reach * deviation}});
+    }
+  }
+  return all;
 }
 
 }  // namespace warmjoint

@@ -9,7 +9,6 @@
 #include "identification/forward/log_course.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/maps/friction_at_speeds.h"
 #include "identification/maps/map_options.h"
 #include "identification/maps/motor_maps.h"
 #include "tests/support/judging.h"
