@@ -2,8 +2,8 @@
 
 #include <warmjoint/prepared_log.h>
 
-#include "identification/fit_data.h"
-#include "identification/linear/linear_laws.h"
+#include <utility>
+
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -56,42 +56,29 @@ std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) con
 }
 
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier) {
-  const LogSamples& m = given.measurements;
-  const Law& law = *given.options.Get<LawOption>().law;
+  // law and gravity, on enough samples for gain and time constant too
+  LinearTask task = BeginLinear(given, 2);
   NominalPart part;
-  // gravity, where it is asked for
-  part.gravity = PrepareRigid(given);
-  if (part.gravity.why) {
-    part.refusal = Refusal{part.gravity.status, *part.gravity.why};
-    return part;
-  }
-  const IdentifierInput input = part.gravity.Of(given);
-  const auto d = static_cast<int>(law.parameters.size() + part.gravity.count());
-  // enough samples for law, gravity, gain and time constant
-  if (auto why = Unusable(input, d + 2)) {
-    part.refusal = Refusal{Status::bad_data, *why};
-    return part;
-  }
+  part.gravity = task.gravity;
+  part.refusal = task.refusal;
+  if (part.refusal) return part;
+
   // samples that move
-  part.moving = WithoutRest(input.selection, m);
-  part.columns = LawColumns(law, m.velocity);
+  const IdentifierInput input = part.gravity.Of(given);
+  part.moving = WithoutRest(input.selection, input.measurements);
+  part.columns = task.columns;
   if (given.options.Get<NominalMapOptions>().position == NominalMap::map) {
     AddMap(input, identifier, part);
     return part;
   }
 
   // the columns of Fn and G must be distinct before any warming is thought of
-  part.columns = ConcatColumns(part.columns, part.gravity.columns);
-  const LeastSquares fit =
-      SolveLeastSquares(Kept(part.columns, part.moving), Kept(m.torque, part.moving));
-  if (fit.rank < d) {
-    part.refusal =
-        Refusal{Status::not_identifiable, IndistinctColumns(fit.mixed, law, part.gravity, input)};
-  }
+  LeastSquares fit = SolveLinear(input.With(part.moving), task);
+  part.refusal = task.refusal;
   // the nominal fit, without warming
-  part.cofactor = fit.cofactor;
-  part.solution = fit.solution;
-  part.effective = d;
+  part.cofactor = std::move(fit.cofactor);
+  part.solution = std::move(fit.solution);
+  part.effective = task.count();
   return part;
 }
 

@@ -321,31 +321,24 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
 
 Fit FitOnline(const IdentifierInput& input) {
   const LogSamples& m = input.measurements;
-  const Law& law = *input.options.Get<LawOption>().law;
-  const auto d = static_cast<int>(law.parameters.size());
   if (!m.further_starts.empty()) {
     return Refused(
         kName, Status::bad_data,
         "kalman follows one recording; give one, or try --identifier energy-ml for several");
   }
-  if (auto why = Unusable(input, d + 2)) return Refused(kName, Status::bad_data, *why);
-
   // the law's columns must be distinct before any warming is thought of
-  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  const Eigen::MatrixXd kept = Kept(columns, input.selection);
-  const LeastSquares nominal = SolveLeastSquares(kept, torque);
-  if (nominal.rank < d) {
-    return Refused(kName, Status::not_identifiable,
-                   Indistinct(nominal.mixed, law, m, input.selection));
-  }
+  LinearTask task = BeginLinear(input, 2);
+  const LeastSquares nominal = SolveLinear(input, task);
+  if (task.refusal) return Refused(kName, *task.refusal);
 
   // pass after pass over the recording, scaled by the rms of columns and torque
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+  const Eigen::MatrixXd kept = Kept(task.columns, input.selection);
   const double root = std::sqrt(static_cast<double>(torque.size()));
-  const KalmanTrack track{law,
+  const KalmanTrack track{task.law,
                           m,
                           input.selection,
-                          ClosedLoop(m.time, m.velocity, columns),
+                          ClosedLoop(m.time, m.velocity, task.columns),
                           kept.colwise().norm().transpose() / root,
                           torque.norm() / root};
   std::vector<Iterate> trace;

@@ -195,8 +195,7 @@ Fit FitOnline(const IdentifierInput& given) {
   const Eigen::VectorXd roots = weights.cwiseSqrt();
   const LeastSquares weighted = SolveLeastSquares(roots.asDiagonal() * A, roots.cwiseProduct(y));
   if (weighted.rank < task.count()) {
-    return Refused(kName, Status::not_identifiable,
-                   IndistinctColumns(weighted.mixed, law, gravity, input));
+    return Refused(kName, IndistinctColumns(weighted.mixed, task, input));
   }
 
   // the law, gravity and the given warming beside it

@@ -46,7 +46,7 @@ std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
 }
 
 /// Keeps paired samples; says why not where they are too few.
-void SelectPairs(const IdentifierInput& input, RigidPart& fit) {
+std::optional<Refusal> SelectPairs(const IdentifierInput& input, RigidPart& fit) {
   const LogSamples& m = input.measurements;
   const auto paired = PairedCells(input);
   // in cells passed one way alone, friction and gravity are not told apart
@@ -63,13 +63,15 @@ void SelectPairs(const IdentifierInput& input, RigidPart& fit) {
   const auto cells = std::count(paired.begin(), paired.end(), true);
   const double share = static_cast<double>(fit.selection.count()) /
                        static_cast<double>(std::max<Eigen::Index>(input.selection.count(), 1));
-  if (cells >= kFewestCells && share >= kFewestShare) return;
-  fit.status = Status::not_identifiable;
-  fit.why = fmt::format(
-      "gravity paired: only {:.3g} % of the samples, over {:.2g} rad, were also passed in the "
-      "other direction; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
-      "directions, or use gravity sincos",
-      100 * share, static_cast<double>(cells) * kCell, 100 * kFewestShare, kFewestCells * kCell);
+  if (cells >= kFewestCells && share >= kFewestShare) return std::nullopt;
+  return Refusal{
+      Status::not_identifiable,
+      fmt::format(
+          "gravity paired: only {:.3g} % of the samples, over {:.2g} rad, were also passed in the "
+          "other direction; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
+          "directions, or use gravity sincos",
+          100 * share, static_cast<double>(cells) * kCell, 100 * kFewestShare,
+          kFewestCells * kCell)};
 }
 
 /// Combinations of the hats that the kept samples fill, orthogonal over them and of mean square 1.
@@ -86,7 +88,8 @@ Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
 }
 
 /// Sets the columns of G and their transform, or says why there are none.
-void PrepareGravity(const IdentifierInput& input, FittedGravity asked, RigidPart& fit) {
+std::optional<Refusal> PrepareGravity(const IdentifierInput& input, FittedGravity asked,
+                                      RigidPart& fit) {
   const LogSamples& m = input.measurements;
 
   // a linear joint carries one weight wherever it is
@@ -95,81 +98,51 @@ void PrepareGravity(const IdentifierInput& input, FittedGravity asked, RigidPart
              : linear                       ? GravityKind::constant
                                             : GravityKind::paired;
   if (linear && asked == FittedGravity::sincos) {
-    fit.status = Status::bad_data;
-    fit.why = "gravity sincos needs an angle and the joint is linear; use gravity paired";
-    return;
+    return Refusal{Status::bad_data,
+                   "gravity sincos needs an angle and the joint is linear; use gravity paired"};
   }
   if (m.position_integrated) {
-    fit.status = Status::not_identifiable;
-    fit.why =
-        "the log has no positions, and gravity depends on them; log them, or leave gravity out";
-    return;
+    return Refusal{
+        Status::not_identifiable,
+        "the log has no positions, and gravity depends on them; log them, or leave gravity out"};
   }
   if (!m.position.allFinite()) {
-    fit.status = Status::bad_data;
-    fit.why = "position is not finite throughout, and gravity depends on it; repair it";
-    return;
+    return Refusal{Status::bad_data,
+                   "position is not finite throughout, and gravity depends on it; repair it"};
   }
 
   // hats are replaced by the combinations that the kept samples fill
-  if (fit.kind == GravityKind::paired) SelectPairs(input, fit);
-  if (fit.why) return;
+  const bool paired = fit.kind == GravityKind::paired;
+  if (paired) {
+    if (auto why = SelectPairs(input, fit)) return why;
+  }
   const Eigen::MatrixXd columns = GravityColumns(fit.kind, fit.knots, m.position);
-  fit.transform = fit.kind == GravityKind::paired
-                      ? FilledDirections(Kept(columns, fit.selection))
-                      : Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
+  fit.transform = paired ? FilledDirections(Kept(columns, fit.selection))
+                         : Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
   fit.columns = columns * fit.transform;
+  return std::nullopt;
+}
+
+/// Sets gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration.
+std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit) {
+  // what takes part so far, and no columns yet
+  fit.selection = input.selection;
+  fit.columns.resize(input.measurements.size(), 0);
+  const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
+  if (gravity != FittedGravity::none) {
+    if (auto why = PrepareGravity(input, gravity, fit)) return why;
+  }
+
+  // the inertia, behind gravity
+  const auto& acceleration = input.measurements.acceleration;
+  fit.inertia = acceleration.has_value();
+  if (fit.inertia) fit.columns = ConcatColumns(fit.columns, *acceleration);
+  return std::nullopt;
 }
 
 }  // namespace
 
 IdentifierInput RigidPart::Of(const IdentifierInput& given) const { return given.With(selection); }
-
-RigidPart PrepareRigid(const IdentifierInput& input) {
-  RigidPart fit;
-  // what takes part so far, and no columns yet
-  fit.selection = input.selection;
-  fit.columns.resize(input.measurements.size(), 0);
-  const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
-  if (gravity != FittedGravity::none) PrepareGravity(input, gravity, fit);
-
-  // the inertia, behind gravity
-  const auto& acceleration = input.measurements.acceleration;
-  fit.inertia = acceleration && !fit.why;
-  if (fit.inertia) fit.columns = ConcatColumns(fit.columns, *acceleration);
-  return fit;
-}
-
-std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
-                              const RigidPart& gravity, const IdentifierInput& input) {
-  const auto d = static_cast<Eigen::Index>(law.parameters.size());
-  // columns of the law alone have a sentence of their own
-  if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
-    return Indistinct(mixed, law, input.measurements, input.selection);
-  }
-  // those of the law by their names, then gravity and inertia
-  std::vector<std::string> names;
-  bool moves_mass = false, lifts = false;
-  for (const Eigen::Index i : mixed) {
-    if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
-    if (i >= d + gravity.gravity_count()) moves_mass = true;
-    if (i >= d && i < d + gravity.gravity_count()) lifts = true;
-  }
-
-  // what is mixed, in words
-  std::vector<std::string> parts;
-  if (!names.empty()) parts.push_back(fmt::format("{}", fmt::join(names, ", ")));
-  if (lifts) parts.push_back(fmt::format("gravity ({})", NameOf(gravity.kind)));
-  if (moves_mass) parts.emplace_back("inertia");
-
-  // and what motion would tell them apart
-  const bool turns = lifts && gravity.kind != GravityKind::constant;
-  return fmt::format(
-      "the motion cannot tell apart: {}; {}at two or more speeds in both directions{}, or use a "
-      "law that is alike in both directions, as viscous_coulomb",
-      fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
-      moves_mass ? ", with accelerations that differ" : "");
-}
 
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
               Fit& fit) {
@@ -190,14 +163,12 @@ Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 }
 
 LinearTask BeginLinear(const IdentifierInput& given, int more) {
-  LinearTask task{*given.options.Get<LawOption>().law, PrepareRigid(given), {}, {}};
-  const RigidPart& gravity = task.gravity;
+  LinearTask task{*given.options.Get<LawOption>().law, {}, {}, {}};
+  RigidPart& gravity = task.gravity;
 
   // gravity that the motion does not tell from friction ends it here
-  if (gravity.why) {
-    task.refusal = Refusal{gravity.status, *gravity.why};
-    return task;
-  }
+  task.refusal = PrepareRigid(given, gravity);
+  if (task.refusal) return task;
 
   // finite numbers, more samples than parameters, a torque that changes
   const auto d = static_cast<int>(task.law.parameters.size() + gravity.count());
@@ -209,6 +180,48 @@ LinearTask BeginLinear(const IdentifierInput& given, int more) {
   // the columns of the law, then gravity and inertia
   task.columns = ConcatColumns(LawColumns(task.law, given.measurements.velocity), gravity.columns);
   return task;
+}
+
+LeastSquares SolveLinear(const IdentifierInput& input, LinearTask& task) {
+  if (task.refusal) return {};
+  LeastSquares solved = SolveLeastSquares(Kept(task.columns, input.selection),
+                                          Kept(input.measurements.torque, input.selection));
+  if (solved.rank < task.count()) task.refusal = IndistinctColumns(solved.mixed, task, input);
+  return solved;
+}
+
+Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTask& task,
+                          const IdentifierInput& input) {
+  const Law& law = task.law;
+  const RigidPart& gravity = task.gravity;
+  const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  // columns of the law alone have a sentence of their own
+  if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
+    return {Status::not_identifiable, Indistinct(mixed, law, input.measurements, input.selection)};
+  }
+  // those of the law by their names, then gravity and inertia
+  std::vector<std::string> names;
+  bool moves_mass = false, lifts = false;
+  for (const Eigen::Index i : mixed) {
+    if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+    if (i >= d + gravity.gravity_count()) moves_mass = true;
+    if (i >= d && i < d + gravity.gravity_count()) lifts = true;
+  }
+
+  // what is mixed, in words
+  std::vector<std::string> parts;
+  if (!names.empty()) parts.push_back(fmt::format("{}", fmt::join(names, ", ")));
+  if (lifts) parts.push_back(fmt::format("gravity ({})", NameOf(gravity.kind)));
+  if (moves_mass) parts.emplace_back("inertia");
+
+  // and what motion would tell them apart
+  const bool turns = lifts && gravity.kind != GravityKind::constant;
+  return {Status::not_identifiable,
+          fmt::format(
+              "the motion cannot tell apart: {}; {}at two or more speeds in both directions{}, or "
+              "use a law that is alike in both directions, as viscous_coulomb",
+              fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
+              moves_mass ? ", with accelerations that differ" : "")};
 }
 
 }  // namespace warmjoint

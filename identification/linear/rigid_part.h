@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "identification/identifier.h"
+#include "identification/linear/least_squares.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
@@ -42,8 +43,6 @@ struct RigidPart {
   Eigen::MatrixXd columns;    // [N x q] over all samples, G's and then a; q = 0 where there is none
   bool inertia = false;       // whether the last column is the acceleration
   Selection selection;        // samples that take part
-  std::optional<std::string> why;  // why gravity cannot be told from friction: one sentence
-  Status status = Status::ok;      // that goes with `why`
 
   Eigen::Index count() const { return columns.cols(); }
   Eigen::Index gravity_count() const { return columns.cols() - (inertia ? 1 : 0); }
@@ -51,14 +50,6 @@ struct RigidPart {
   /// The input with the samples that take part.
   IdentifierInput Of(const IdentifierInput& given) const;
 };
-
-/// Gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration.
-RigidPart PrepareRigid(const IdentifierInput& input);
-
-/// One sentence on columns that the motion cannot tell apart, law parameters before gravity's
-/// and inertia's. mixed: indices of columns.
-std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
-                              const RigidPart& gravity, const IdentifierInput& input);
 
 /// Puts both into a fit: their model, and their rows of the table behind those that are there.
 /// values: [q] fitted.
@@ -76,14 +67,22 @@ struct LinearTask {
   const Law& law;
   RigidPart gravity;
   Eigen::MatrixXd columns;         // [N x d] over all samples: law, then gravity
-  std::optional<Refusal> refusal;  // why nothing can be fitted; then there are no columns
+  std::optional<Refusal> refusal;  // why nothing can be fitted; there may be no columns then
 
   int count() const { return static_cast<int>(columns.cols()); }
   Eigen::Index law_count() const { return columns.cols() - gravity.count(); }
 };
 
-/// As the options `law` and `gravity` ask for it. more: parameters of the fit beside those of law
-/// and gravity.
+/// As the options `law` and `gravity` ask for it, with inertia where the log has an acceleration. more: parameters of the
+/// fit beside those of law, gravity and inertia.
 LinearTask BeginLinear(const IdentifierInput& given, int more);
+
+/// The columns of a task to the torque of the kept samples, as if nothing warmed. Refuses the task where the motion
+/// cannot tell them apart; empty where it is refused already.
+LeastSquares SolveLinear(const IdentifierInput& input, LinearTask& task);
+
+/// That refusal. mixed: indices of columns.
+Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTask& task,
+                          const IdentifierInput& input);
 
 }  // namespace warmjoint

@@ -28,19 +28,6 @@ namespace {
 constexpr double kBeyondDoubt =
     3.5;  // standard errors; why: by chance once in a thousand logs, of two values
 
-/// Why the law alone cannot be fitted, or the data not used; nothing where all is well.
-std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& law,
-                                     const RigidPart& rigid) {
-  const auto d = static_cast<int>(law.parameters.size() + rigid.count());
-  if (auto why = Unusable(input, d + 2)) return Refusal{Status::bad_data, *why};
-  Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
-  if (rigid.count() > 0) columns = ConcatColumns(columns, rigid.columns);
-  const LeastSquares fit = SolveLeastSquares(Kept(columns, input.selection),
-                                             Kept(input.measurements.torque, input.selection));
-  if (fit.mixed.empty()) return std::nullopt;
-  return Refusal{Status::not_identifiable, IndistinctColumns(fit.mixed, law, rigid, input)};
-}
-
 /// Why no map over a quantity can be told from the kept samples, [n x 5] `points`.
 std::optional<std::string> Unseen(MapQuantity quantity, const LogSamples& measurements,
                                   const MapPoints& points) {
@@ -147,13 +134,15 @@ MapTask MakeMapTask(const Options& options, const std::string& identifier) {
           .settings = options.Get<MapOptions>()};
 }
 
-MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
-                       const std::vector<MapQuantity>& quantities, const RigidPart& rigid) {
-  MapBeginning begin{MakeMapTask(input.options, identifier), {}, {}};
-  begin.task.rigid = rigid;
-  // one that is not asked for has no columns, over all samples
-  if (rigid.count() == 0) begin.task.rigid.columns.resize(input.measurements.size(), 0);
-  begin.refusal = RefuseForMaps(input, *begin.task.law, rigid);
+MapBeginning BeginMaps(const IdentifierInput& given, const std::string& identifier,
+                       const std::vector<MapQuantity>& quantities) {
+  MapBeginning begin{MakeMapTask(given.options, identifier), {}, {}};
+  // law, gravity and inertia must be distinct before any map is thought of
+  LinearTask linear = BeginLinear(given, 2);
+  begin.task.rigid = linear.gravity;
+  const IdentifierInput input = begin.task.rigid.Of(given);
+  SolveLinear(input, linear);
+  begin.refusal = linear.refusal;
   if (begin.refusal) return begin;
   // each quantity of the maps must be known and must vary
   begin.points = Kept(PointsOf(input.measurements), input.selection);

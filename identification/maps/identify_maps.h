@@ -40,11 +40,11 @@ struct MapBeginning {
   std::optional<Refusal> refusal;  // instead of both, where law or maps cannot be fitted
 };
 
-/// Reads the options that all identifiers with maps share (map_options.h) and looks whether the
-/// data tell the law's parameters apart and vary in each of the quantities that maps are wanted
-/// over. identifier: its name; rigid: fitted beside law and maps.
-MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
-                       const std::vector<MapQuantity>& quantities, const RigidPart& rigid = {});
+/// Reads the options that all identifiers with maps share (map_options.h) and looks whether the data tell law, gravity
+/// and inertia apart and vary in each of the quantities that maps are wanted over: those samples that `task.rigid` keeps.
+/// identifier: its name.
+MapBeginning BeginMaps(const IdentifierInput& given, const std::string& identifier,
+                       const std::vector<MapQuantity>& quantities);
 
 /// What is to be fitted, with the choice made.
 struct ChosenProblem {

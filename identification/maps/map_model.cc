@@ -147,14 +147,7 @@ Fit FitBehindLaw(const std::string& name, const IdentifierInput& input, const Ma
 
 MapBeginning BeginModel(const std::string& name, const IdentifierInput& given,
                         const MapModel& model) {
-  // gravity and inertia, where they are asked for, and what a map needs
-  const RigidPart rigid = PrepareRigid(given);
-  MapBeginning begin;
-  if (rigid.why) {
-    begin.refusal = Refusal{rigid.status, *rigid.why};
-    return begin;
-  }
-  begin = BeginMaps(rigid.Of(given), name, model.quantities, rigid);
+  MapBeginning begin = BeginMaps(given, name, model.quantities);
   if (!begin.refusal) begin.task.candidates = model.maps(begin.points);
   return begin;
 }

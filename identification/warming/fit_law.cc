@@ -380,8 +380,7 @@ Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) 
   const RowTreatment measured = problem.AsMeasured();
   ThermalFit cold = problem.FitCold(measured);
   if (!cold.converged) {
-    return Refused(name, Status::not_identifiable,
-                   IndistinctColumns(cold.mixed, task.law, task.gravity, input));
+    return Refused(name, IndistinctColumns(cold.mixed, task, input));
   }
   LawFit law{.name = name, .problem = std::move(problem), .rows = measured, .fit = std::move(cold)};
   law.nominal_squares = law.fit.squares;
