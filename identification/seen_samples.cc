@@ -40,4 +40,9 @@ IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInpu
   return view == input.view ? input : input.Through(view);
 }
 
+const LogView& SeenByModel(const std::optional<double>& inertia, View otherwise,
+                           const PreparedLog& log) {
+  return SeenThrough(inertia ? View::moving : otherwise, log);
+}
+
 }  // namespace warmjoint

@@ -4,6 +4,7 @@
 #include <warmjoint/estimate.h>
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "identification/identifier.h"
@@ -44,5 +45,11 @@ struct LossOption {
 /// The input with the samples that the identifier learns from: those of its view; of one that has the
 /// option `motion`, all that move where that asks for them, or where the log shows no constant speeds.
 IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input);
+
+/// The samples of a log beside which a model is laid: with an inertia all that move, whatever for. Without one it depends
+/// on that: those of its identifier's view, to see how well that fits others; at constant speed, to compare torques; raw,
+/// to show the log or to score the model on it. inertia: of the model; otherwise: the view of one that has none
+const LogView& SeenByModel(const std::optional<double>& inertia, View otherwise,
+                           const PreparedLog& log);
 
 }  // namespace warmjoint

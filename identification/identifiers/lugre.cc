@@ -354,8 +354,7 @@ struct LuGreOptions {
   }
 };
 
-Fit FitLugre(const IdentifierInput& given) {
-  const IdentifierInput input = given.Through(View::raw);
+Fit FitLugre(const IdentifierInput& input) {
   const LogSamples& m = input.measurements;
   const auto& options = input.options.Get<LuGreOptions>();
   const FallingLaw& law = *options.law;

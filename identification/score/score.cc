@@ -5,9 +5,9 @@
 
 #include "identification/find_parameter.h"
 #include "identification/gravity.h"
-#include "identification/identifier.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/score/cramer_rao.h"
+#include "identification/seen_samples.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"
@@ -84,8 +84,9 @@ double ParameterError(const std::vector<ParameterScore>& parameters) {
 }
 
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
-  const bool any = Find(Role::inertia, estimate) && !Find(LawPart::bristle, estimate);
-  return SeenThrough(any ? View::moving : View::raw, log);
+  // a bristle is known by the changes of speed, which no other view shows as they were
+  if (Find(LawPart::bristle, estimate)) return log.raw();
+  return SeenByModel(ValueOf(Role::inertia, estimate), View::raw, log);
 }
 
 Score ScoreEstimate(const Estimate& estimate, const LogSamples& measurements,

@@ -7,9 +7,7 @@ namespace warmjoint {
 
 CourseStart StartOf(const Estimate& estimate, const LogSamples& measurements) {
   CourseStart start;
-  if (const EstimatedParameter* found = Find(Role::start, estimate)) {
-    start.energy = found->value;
-  }
+  start.energy = ValueOf(Role::start, estimate).value_or(0);
   // each gap and each further recording has its own, 0 where none was estimated
   const std::vector<LogGap> gaps = Merged(FindGaps(measurements), FurtherStarts(measurements));
   const std::vector<std::string> names = JumpNames(gaps, measurements);

@@ -41,15 +41,14 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
   const auto first = FitFirstPart(*identifier, input, HoldOutSource{}.fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
-  const LogView& fitted =
-      SeenThrough(first->fit.inertia ? View::moving : View::constant_speed, before);
+  const LogView& fitted = SeenByModel(first->fit.inertia, identifier->view, before);
   Estimate made = ReportFit(first->fit, Infer(first->fit), before, fitted.measurements);
   if (!made.friction) return std::nullopt;
 
   // the rest, with the verdict on the whole
   made.status = estimate.status;
   const auto& [measurements, selection] =
-      SeenThrough(Find(Role::inertia, estimate) ? View::moving : View::raw, log);
+      SeenByModel(ValueOf(Role::inertia, estimate), View::raw, log);
   return MakeFitView(measurements, From(first->split, measurements, selection), made);
 }
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 
 #include "identification/find_parameter.h"
 #include "identification/forward/log_course.h"
-#include "identification/identifier.h"
+#include "identification/seen_samples.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
@@ -35,9 +36,8 @@ void TakeRigidOff(const Estimate& estimate, const LogSamples& measurements, FitV
   view.rigid = Eigen::VectorXd::Zero(measurements.size());
 
   // the inertia's torque, and gravity's
-  const EstimatedParameter* inertia = Find(Role::inertia, estimate);
-  if (inertia && measurements.acceleration)
-    view.rigid += inertia->value * *measurements.acceleration;
+  const std::optional<double> inertia = ValueOf(Role::inertia, estimate);
+  if (inertia && measurements.acceleration) view.rigid += *inertia * *measurements.acceleration;
   if (estimate.gravity) view.rigid += estimate.gravity->Torque(view.position);
   view.torque -= view.rigid;
 
@@ -91,7 +91,7 @@ FitView WithoutFit(const LogSamples& measurements, const Selection& selection,
 
 FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
   const auto& [measurements, selection] =
-      SeenThrough(Find(Role::inertia, estimate) ? View::moving : View::raw, log);
+      SeenByModel(ValueOf(Role::inertia, estimate), View::raw, log);
   return MakeFitView(measurements, selection, estimate);
 }
 
@@ -110,8 +110,8 @@ FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
   // the fit as the log would have it, behind the torque's lag
   view.has_fit = true;
   view.fitted = given.force;
-  if (const EstimatedParameter* lag = Find(Role::lag, estimate)) {
-    view.fitted = LowPass(view.time, given.force + view.rigid, lag->value) - view.rigid;
+  if (const std::optional<double> lag = ValueOf(Role::lag, estimate)) {
+    view.fitted = LowPass(view.time, given.force + view.rigid, *lag) - view.rigid;
   }
 
   // how sure the heat is

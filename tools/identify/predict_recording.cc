@@ -9,7 +9,7 @@
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
-#include "identification/identifier.h"
+#include "identification/seen_samples.h"
 #include "models/foundation/node.h"
 #include "models/friction/friction_json.h"
 #include "models/recording/measurements.h"
@@ -19,7 +19,7 @@ namespace {
 
 /// The samples that a model is compared with: all that move, where it has an inertia.
 const LogView& ViewOf(const StoredModel& stored, const PreparedLog& log) {
-  return SeenThrough(stored.model.inertia ? View::moving : View::constant_speed, log);
+  return SeenByModel(stored.model.inertia, View::constant_speed, log);
 }
 
 /// What a recording leaves, as a model has it that knows no errors.
@@ -57,14 +57,10 @@ StoredModel StoredModelOf(const Estimate& estimate, const std::string& file) {
     Refuse({file}, "is {} and holds no friction; identify again{}", StatusName(estimate.status),
            estimate.status == Status::ok ? "" : " with --force to use it anyway");
   }
-  StoredModel stored{
-      estimate.identifier, estimate.status, {*estimate.friction, estimate.gravity, {}}};
-  // inertia and lag of the torque, where the estimate has them
-  if (const EstimatedParameter* inertia = Find(Role::inertia, estimate)) {
-    stored.model.inertia = inertia->value;
-  }
-  if (const EstimatedParameter* lag = Find(Role::lag, estimate)) stored.model.lag = lag->value;
-  return stored;
+  return {estimate.identifier,
+          estimate.status,
+          {*estimate.friction, estimate.gravity, ValueOf(Role::inertia, estimate),
+           ValueOf(Role::lag, estimate)}};
 }
 
 StoredModel ReadStoredModel(const std::string& file) {
