@@ -18,17 +18,21 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "identification/alternating/block_descent.h"
 #include "identification/alternating/first_guess.h"
-#include "identification/alternating/nominal_part.h"
 #include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/layout.h"
+#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/maps/identify_maps.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -105,6 +109,117 @@ struct EnergyAlsOptions {
          .meaning = "largest distance from the fixed point that counts as converged, relative"});
   }
 };
+
+/// Whether a map stands beside the law.
+enum class NominalMap { none, map };
+std::span<const Word<NominalMap>> WordsOf(NominalMap) {
+  static constexpr std::array words{Word{"none", NominalMap::none}, Word{"map", NominalMap::map}};
+  return words;
+}
+
+/// A map beside the law, and how it is made.
+struct NominalMapOptions : AddedMapOptions {
+  NominalMap position = NominalMap::none;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("position", &position, {.meaning = "a map over position beside the law"});
+    AddedMapOptions::Serialize(a);
+  }
+};
+
+/// What Eq. (24) fits: a nominal law, with gravity or with a map over position beside it.
+struct NominalPart {
+  Selection moving;         // samples that take part: kept, and not at rest
+  RigidPart gravity;        // none beside a map
+  Eigen::MatrixXd columns;  // [N x p] over all samples: law (d), then gravity or kernels (q)
+  /// [p x p] (A^T A + s P)^-1 over the moving samples; P: 1 on the kernels' diagonal.
+  Eigen::MatrixXd cofactor;
+  Eigen::VectorXd solution;        // [p] the fit without warming
+  std::vector<FrictionMap> maps;   // shapes
+  double strength = 0;             // s
+  double effective = 0;            // of the p parameters
+  std::optional<Refusal> refusal;  // why there is no such part
+
+  /// Of the p columns, law, gravity and kernels, and the heat that the fit has behind them.
+  Layout layout() const;
+
+  /// Maps with their weights. nominal: [p]
+  std::vector<FrictionMap> MapsOf(const Eigen::VectorXd& nominal) const;
+};
+
+Layout NominalPart::layout() const {
+  Eigen::Index kernels = 0;
+  for (const FrictionMap& map : maps) kernels += static_cast<Eigen::Index>(map.size());
+  return Layout::InOrder({{&Layout::law, columns.cols() - gravity.count() - kernels},
+                          {&Layout::rigid, gravity.count()},
+                          {&Layout::weights, kernels},
+                          {&Layout::heat, 2}});
+}
+
+std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) const {
+  return WithWeights(maps, layout().weights.Of(nominal));
+}
+
+/// Law and kernels over position.
+void AddMap(const IdentifierInput& input, NominalPart& part) {
+  // a map over position would take gravity up
+  if (input.options.Get<GravityOption>().gravity != FittedGravity::none) {
+    part.refusal = Refusal{Status::bad_data,
+                           "position=map cannot be had together with gravity; leave one of them "
+                           "out (basis=position takes gravity up into the map)"};
+    return;
+  }
+  // law and map over moving samples, without any warming
+  const IdentifierInput moving = input.With(part.moving);
+  MapBeginning begin = BeginMaps(moving, kName, {MapQuantity::position});
+  part.refusal = begin.refusal;
+  if (part.refusal) return;
+  MapTask& task = begin.task;
+  task.candidates = PositionMaps(input.options, begin.points);
+  const auto choice = ChooseAndFit(moving, task);
+  if (!choice) {
+    part.refusal = Unsolvable();
+    return;
+  }
+  // kernels join the law as further columns
+  part.maps = choice->fit.maps;
+  const MapPoints all = PointsOf(input.measurements);
+  part.columns = ConcatColumns(part.columns, DenseKernels(part.maps, all, 0, all.rows()));
+  part.cofactor = choice->fit.inverse;
+  part.solution = choice->fit.x;
+  part.strength = choice->fit.strength;
+  part.effective = choice->fit.effective;
+}
+
+/// As the options law, gravity and position ask for it. The map's shape and strength are chosen on
+/// the torque as it is, warming included.
+NominalPart PrepareNominalPart(const IdentifierInput& given) {
+  // law and gravity, on enough samples for gain and time constant too
+  LinearTask task = BeginLinear(given, 2);
+  NominalPart part;
+  part.gravity = task.gravity;
+  part.refusal = task.refusal;
+  if (part.refusal) return part;
+
+  // samples that move
+  const IdentifierInput input = part.gravity.Of(given);
+  part.moving = WithoutRest(input.selection, input.measurements);
+  part.columns = task.columns;
+  if (given.options.Get<NominalMapOptions>().position == NominalMap::map) {
+    AddMap(input, part);
+    return part;
+  }
+
+  // the columns of Fn and G must be distinct before any warming is thought of
+  LeastSquares fit = SolveLinear(input.With(part.moving), task);
+  part.refusal = task.refusal;
+  // the nominal fit, without warming
+  part.cofactor = std::move(fit.cofactor);
+  part.solution = std::move(fit.solution);
+  part.effective = task.count();
+  return part;
+}
 
 /// Where the loop starts: from the options, from (25) corrected, or drawn at random.
 FirstGuess Start(const IdentifierInput& input) {
@@ -295,7 +410,7 @@ std::vector<Iterate> Trace(const std::vector<DescentState>& states, Eigen::Index
 }
 
 Fit FitInTurn(const IdentifierInput& input) {
-  const NominalPart part = PrepareNominalPart(input, kName);
+  const NominalPart part = PrepareNominalPart(input);
   if (part.refusal) return Refused(kName, *part.refusal);
   const RigidPart& gravity = part.gravity;
 

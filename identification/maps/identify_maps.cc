@@ -14,7 +14,6 @@
 #include "identification/gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/maps/finer_maps.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
 #include "identification/maps/motor_maps.h"
@@ -101,13 +100,12 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
 void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
               const Uncertainty& known, Fit& fit) {
   const Law& law = *task.law;
-  MapProblem finer = ProblemOf(input, task);
-  const std::optional<FinerFit> twice = FitFiner(finer, maps, known.noise);
-  MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr, fit);
+  const MapProblem problem = ProblemOf(input, task);
+  MakeBands(law, problem, maps, known, fit);
   const bool shares = std::ranges::any_of(
       fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
   std::vector<FrictionAtSpeed> friction_at_speeds =
-      FrictionAtSpeeds(law, maps, known, finer.points);
+      FrictionAtSpeeds(law, maps, known, problem.points);
   // beyond doubt below 0 in the mean of its places
   const auto drives = std::ranges::find_if(
       friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "identification/fit.h"
-#include "identification/maps/finer_maps.h"
+#include "identification/maps/map_fit.h"
 
 namespace warmjoint {
 
@@ -19,15 +19,15 @@ namespace warmjoint {
 /// that direction. A map that is alike in both directions stands alone: no law imitates it. The
 /// warming E is left out. Where a kernel has no data (MapFit::unseen), the spread of the seen ones joins
 /// its deviation.
-/// finer: the same fit with twice the kernels, or nothing. What kernels cannot follow is no noise and in no covariance;
-/// where twice as many follow more, the difference f - f2 shows it:
+/// What kernels cannot follow is no noise and in no covariance; where a fit with twice as many follows more, the difference
+/// f - f2 shows it:
 ///     E (f - f2)^2 = bias^2 + var (f - f2),
 /// of which the second part is known from draws of noise and taken off. What is left, averaged over two neighbours on
 /// each side along the first axis and at least 0, joins the variance.
-/// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
+/// problem: of the fit, its maps and rows are not read; known: about law, weights and maybe more.
 /// Sets the fit's bands and bands_by_law.
-void MakeBands(const Law& law, const MapFit& maps, const Uncertainty& known, const MapPoints& kept,
-               const FinerFit* finer, Fit& fit);
+void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
+               const Uncertainty& known, Fit& fit);
 
 /// What law and maps brake with forwards and backwards at a low, the median and a high speed that the joint
 /// held, with 95 % intervals. A constant that only the prior shares out between law and maps is no property of the
