@@ -1,15 +1,36 @@
-// Where a map has no data.
+// How the kernels of a map lie among the samples, and where it has no data.
 #pragma once
 
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "identification/ridge/local_rows.h"
 
 namespace warmjoint {
+
+/// Kernels along the first axis: weight k lies at index k / stride of the line k % stride.
+struct KernelLines {
+  size_t length = 0, stride = 1;
+  bool circular = false;
+
+  explicit KernelLines(const FrictionMap& map)
+      : length(map.axes[0].kernels.centres.size()),
+        stride(map.size() / map.axes[0].kernels.centres.size()),
+        circular(map.axes[0].kernels.period.has_value()) {}
+};
+
+/// The kernel whose centre is nearest to a sample along every axis; axes whose sides are apart keep to
+/// the sample's side. points: [n x 5]
+Eigen::Index NearestKernel(const FrictionMap& map, const MapPoints& points, Eigen::Index sample);
+
+/// How fast the joint moved at each kernel of a map: the median |v| of the samples that it is the nearest kernel of; where
+/// there are none, that of the next kernel along the first axis, if any. kept: [n x 5]; returns [q] rad/s or m/s.
+std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const MapPoints& kept);
 
 /// Kernels to which fewer than 2 samples are nearest, or fewer than a fiftieth of the median of their
 /// map's: there the prior would set the map to 0, to the law's bare level, whatever its neighbours are.

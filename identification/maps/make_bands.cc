@@ -8,8 +8,6 @@
 
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/holes.h"
-#include "identification/maps/kernel_lines.h"
-#include "identification/maps/nearest_kernel.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/tails.h"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "identification/maps/holes.h"
-#include "identification/maps/kernel_lines.h"
 #include "identification/ridge/envelope_cholesky.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/uncertainty/tails.h"
