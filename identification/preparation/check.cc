@@ -26,14 +26,15 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
 
   // steps within the recording show the jitter; longer ones are gaps
   double squares = 0;
-  for (Index i = 1; i < n; ++i) {
-    const double taken = time[i] - time[i - 1];
-    if (taken > kGapSteps * step) {
-      ++check.gaps;
-      check.longest_gap = std::max(check.longest_gap, taken);
-    } else {
-      squares += (taken - step) * (taken - step);
+  for (const SampleRange& piece : PiecesOf(time)) {
+    for (Index i = piece.first + 1; i < piece.end(); ++i) {
+      const double off = time[i] - time[i - 1] - step;
+      squares += off * off;
     }
+  }
+  for (const LogGap& gap : GapsOf(time)) {
+    ++check.gaps;
+    check.longest_gap = std::max(check.longest_gap, gap.length);
   }
   // jitter in steps: root mean square of what a step differs from the median one
   const auto steps = static_cast<double>(std::max<Index>(n - 1 - check.gaps, 1));

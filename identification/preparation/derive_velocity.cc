@@ -70,15 +70,11 @@ Eigen::VectorXd DerivePiece(const Eigen::VectorXd& time, const Eigen::VectorXd& 
 
 Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                                double cutoff) {
-  const Eigen::Index n = time.size();
   // piece by piece: nothing is known of the motion in a gap
-  const double longest = LongestStep(time);  // s
-  Eigen::VectorXd velocity(n);
-  for (Eigen::Index begin = 0, end = 1; begin < n; begin = end++) {
-    // up to the next step that is a gap
-    while (end < n && time[end] - time[end - 1] <= longest) ++end;
-    velocity.segment(begin, end - begin) =
-        DerivePiece(time.segment(begin, end - begin), position.segment(begin, end - begin), cutoff);
+  Eigen::VectorXd velocity(time.size());
+  for (const auto& [first, count] : PiecesOf(time)) {
+    velocity.segment(first, count) =
+        DerivePiece(time.segment(first, count), position.segment(first, count), cutoff);
   }
   return velocity;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/preparation/position_plateaus.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -150,9 +151,8 @@ class MotionBuilder {
   /// The speed from sample to sample, from `first` to `last`.
   void FollowSamples(Index first, Index last) {
     for (Index begin = first; begin < last;) {
-      // one piece without gaps
-      Index end = begin;
-      while (end < last && time_[end + 1] - time_[end] <= found_.longest) ++end;
+      // up to the next gap
+      const Index end = std::min(PieceAt(found_.pieces, begin).end() - 1, last);
       if (end > begin) {
         // noise moves the path back and forth, the joint does not
         const double hysteresis = kHysteresis * found_.noise.reach;

@@ -27,18 +27,6 @@ double RootMeanSquare(const VectorXd& x) {
   return x.size() == 0 ? 0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
 }
 
-/// Pieces without gaps.
-std::vector<SampleRange> PiecesOf(const VectorXd& time) {
-  std::vector<SampleRange> pieces;
-  Index begin = 0;
-  for (const LogGap& gap : GapsOf(time)) {
-    pieces.push_back({begin, gap.behind - begin});
-    begin = gap.behind;
-  }
-  pieces.push_back({begin, time.size() - begin});
-  return pieces;
-}
-
 /// Slope at `time[at]` of the polynomial through all values: the derivatives of Lagrange's polynomials there.
 double SlopeThrough(const Eigen::Ref<const VectorXd>& time,
                     const Eigen::Ref<const VectorXd>& values, Index at) {

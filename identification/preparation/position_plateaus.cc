@@ -68,7 +68,7 @@ class PlateauSearch {
     const auto [steps, step] = FromFirst(log.position);
     found_.position = step * steps;
     found_.keep = given.selection.keep;
-    found_.longest = LongestStep(time_);
+    found_.pieces = PiecesOf(time_);
     found_.noise = MeasurePositionNoise(found_.position);
     for (const Segment& one : given.selection.segments) Add(one, true);
     for (const Segment& one : given.rests) Add(one, false);
@@ -198,15 +198,7 @@ class PlateauSearch {
     return std::abs(plateau.line->slope) * (time_[plateau.end - 1] - time_[plateau.begin]);
   }
 
-  /// Whether a gap lies in front of sample n.
-  bool IsBehindGap(Index n) const { return time_[n] - time_[n - 1] > found_.longest; }
-
-  bool HasGap(Index first, Index last) const {
-    for (Index n = first + 1; n <= last; ++n) {
-      if (IsBehindGap(n)) return true;
-    }
-    return false;
-  }
+  bool HasGap(Index first, Index last) const { return PieceAt(found_.pieces, first).end() <= last; }
 
   /// The change of speed between plateaus i and i + 1, if the transition between them is one.
   std::optional<SpeedChange> FindChange(size_t i) const {
@@ -244,16 +236,18 @@ class PlateauSearch {
     for (size_t i = 0; i < found_.plateaus.size(); ++i) {
       Plateau& plateau = found_.plateaus[i];
       if (!plateau.line || !plateau.is_straight) continue;
-      const Index lowest = i > 0 ? found_.plateaus[i - 1].end : 0;
-      const Index highest = i + 1 < found_.plateaus.size() ? found_.plateaus[i + 1].begin : count_;
+      const Index lowest = PieceAt(found_.pieces, plateau.begin).first;
+      const Index highest = PieceAt(found_.pieces, plateau.end - 1).end();
+      const Index before = i > 0 ? found_.plateaus[i - 1].end : 0;
+      const Index behind = i + 1 < found_.plateaus.size() ? found_.plateaus[i + 1].begin : count_;
       const auto is_on = [&](Index n) { return IsOn(*plateau.line, n); };
       Index begin = plateau.begin, end = plateau.end;
-      while (begin > lowest && is_on(begin - 1) && !IsBehindGap(begin)) --begin;
-      while (end < highest && is_on(end) && !IsBehindGap(end)) ++end;
-      if (begin == 0 || IsBehindGap(begin)) {
+      while (begin > std::max(lowest, before) && is_on(begin - 1)) --begin;
+      while (end < std::min(highest, behind) && is_on(end)) ++end;
+      if (begin == lowest) {
         while (plateau.begin > begin) found_.keep[--plateau.begin] = plateau.moves;
       }
-      if (end == count_ || IsBehindGap(end)) {
+      if (end == highest) {
         while (plateau.end < end) found_.keep[plateau.end++] = plateau.moves;
       }
     }

@@ -24,8 +24,8 @@ struct Plateau {
 };
 
 struct PositionPlateaus {
-  Eigen::VectorXd position;  // [N] less the first, rad or m
-  double longest = 0;        // between samples without a gap, s
+  Eigen::VectorXd position;         // [N] less the first, rad or m
+  std::vector<SampleRange> pieces;  // between gaps
   PositionNoise noise;
   SampleMask keep;  // [N] samples of straight lines
   std::vector<Plateau> plateaus;

@@ -139,14 +139,7 @@ double UnresolvedPath(const std::vector<PreparedLog>& recordings) {
 
 }  // namespace
 
-std::vector<SampleRange> LogSamples::Recordings() const {
-  std::vector<SampleRange> recordings{{0, size()}};
-  for (const Index start : further_starts) {
-    recordings.back().count = start - recordings.back().first;
-    recordings.push_back({start, size() - start});
-  }
-  return recordings;
-}
+std::vector<SampleRange> LogSamples::Recordings() const { return CutAt(further_starts, size()); }
 
 PreparedLog Join(std::vector<PreparedLog> recordings) {
   if (recordings.empty()) Refuse({}, "no recording is given");

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "identification/preparation/select.h"
 #include "identification/preparation/velocity_scale.h"
 #include "models/foundation/robust_noise.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -43,31 +45,27 @@ bool Jumps(const Eigen::VectorXd& v, Index i, const VelocityScale& scale) {
   return jump > smallest && jump > kJumpOverBeside * std::max(before, after);
 }
 
-bool IsTimeGap(const Eigen::VectorXd& time, Index i, const VelocityScale& scale) {
-  return time[i] - time[i - 1] > 3 * scale.step;
-}
-
-std::vector<Segment> Grow(const Measurements& measurements, const VelocityScale& scale) {
-  const Eigen::VectorXd& v = measurements.velocity;
+std::vector<Segment> Grow(const Eigen::VectorXd& v, const SampleRange& piece,
+                          const VelocityScale& scale) {
   std::vector<Segment> runs;
-  Index begin = 0;
-  double sum = v[0];
+  Index begin = piece.first;
+  double sum = v[begin];
   // a run goes on while the speed stays within a band around its mean
-  for (Index i = 1; i <= v.size(); ++i) {
+  for (Index i = begin + 1; i <= piece.end(); ++i) {
     const auto length = static_cast<double>(i - begin);
     const double mean = sum / length;
 
     // the mean of a short run is itself uncertain
-    const bool goes_on = i < v.size() &&
+    const bool goes_on = i < piece.end() &&
                          std::abs(v[i] - mean) <= scale.Band(mean) * std::sqrt(1 + 1 / length) &&
-                         !IsTimeGap(measurements.time, i, scale) && !Jumps(v, i, scale);
+                         !Jumps(v, i, scale);
     // the run grows, or ends in front of this sample
     if (goes_on) {
       sum += v[i];
     } else {
       runs.push_back({begin, i, mean});
       begin = i;
-      sum = i < v.size() ? v[i] : 0;
+      sum = i < piece.end() ? v[i] : 0;
     }
   }
   return runs;
@@ -75,27 +73,26 @@ std::vector<Segment> Grow(const Measurements& measurements, const VelocityScale&
 
 /// Whether a run is no more than a few outliers between two runs at one speed.
 bool Interrupts(const Segment& run, const Segment& before, const Segment& after,
-                const Eigen::VectorXd& time, const VelocityScale& scale) {
+                const VelocityScale& scale) {
   const Index around = std::min(before.end - before.begin, after.end - after.begin);
   const bool is_brief = kOutliers * (run.end - run.begin) <= around;
   const bool is_one_speed =
       std::abs(before.velocity - after.velocity) <= scale.Band(before.velocity) / 2;
-  return is_brief && is_one_speed && !IsTimeGap(time, run.begin, scale) &&
-         !IsTimeGap(time, run.end, scale);
+  return is_brief && is_one_speed;
 }
 
-/// Cuts the velocity into runs that stay within scale.Band of their mean: a run ends at a sample
-/// that leaves the band, at a jump between two steady speeds, or at a gap in time (more than three
-/// median steps). Runs that a few outliers alone divide are joined. Together they hold every
-/// sample, so ramps come as many short runs. One pass.
-std::vector<Segment> CutIntoRuns(const Measurements& measurements, const VelocityScale& scale) {
-  const std::vector<Segment> runs = Grow(measurements, scale);
+/// Cuts a piece without gaps into runs that stay within scale.Band of their mean: a run ends at a
+/// sample that leaves the band, or at a jump between two steady speeds. Runs that a few outliers
+/// alone divide are joined. Together they hold every sample, so ramps come as many short runs. One
+/// pass.
+std::vector<Segment> CutIntoRuns(const Eigen::VectorXd& v, const SampleRange& piece,
+                                 const VelocityScale& scale) {
+  const std::vector<Segment> runs = Grow(v, piece, scale);
   std::vector<Segment> joined;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     // a few outliers between two runs of one speed do not end it
-    const bool joins = !joined.empty() && i + 1 < runs.size() &&
-                       Interrupts(runs[i], joined.back(), runs[i + 1], measurements.time, scale);
-    if (joins) {
+    if (!joined.empty() && i + 1 < runs.size() &&
+        Interrupts(runs[i], joined.back(), runs[i + 1], scale)) {
       joined.back().end = runs[++i].end;
     } else {
       joined.push_back(runs[i]);
@@ -282,8 +279,10 @@ Segment KeptAway(Segment run, std::pair<Index, Index> gaps) {
 /// The runs at one speed, rests among them, each cut to where the speed has settled.
 std::vector<Segment> SteadyRuns(const Measurements& measurements, const VelocityScale& scale) {
   const Eigen::VectorXd& v = measurements.velocity;
-  std::vector<Segment> steady;
-  const std::vector<Segment> runs = CutIntoRuns(measurements, scale);
+  std::vector<Segment> runs, steady;
+  for (const SampleRange& piece : PiecesOf(measurements.time)) {
+    std::ranges::move(CutIntoRuns(v, piece, scale), std::back_inserter(runs));
+  }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     // pieces of accelerations are left out
     if (Length(runs[i]) < kShortest || !StandsOut(runs, i, v, scale)) continue;

@@ -22,32 +22,30 @@ constexpr double kOneSided =
 constexpr double kOfTheTypical = 0.01;  // of a change; why: less is a creep at rest
 constexpr double kNearlyAll = 0.8;  // why: longer stretches lose what lies around turning points
 
-/// For each sample how often the log was broken until there: by gaps, and steps within which a sensor that
-/// starts its turn again may hide turns. [N]
-std::vector<Index> Breaks(const Measurements& m) {
+/// The pieces of a log between its gaps, and between steps within which a sensor that starts its turn again may hide turns.
+std::vector<SampleRange> UnbrokenPieces(const Measurements& m) {
   constexpr double turn = 2 * std::numbers::pi, slack = 1e-3 * turn;  // rad
   const double longest = LongestStep(m.time);
   const bool one_turn =
       m.joint == JointKind::rotary && m.position.maxCoeff() - m.position.minCoeff() <= turn + slack;
-  std::vector<Index> breaks(static_cast<size_t>(m.size()), 0);
+  std::vector<Index> starts;
   for (Index i = 1; i < m.size(); ++i) {
     const double step = m.time[i] - m.time[i - 1];
     const bool is_hidden = one_turn && std::abs(m.velocity[i]) * step > turn / 2;
-    const bool is_broken = step > longest || is_hidden;
-    breaks[static_cast<size_t>(i)] = breaks[static_cast<size_t>(i - 1)] + is_broken;
+    if (step > longest || is_hidden) starts.push_back(i);
   }
-  return breaks;
+  return CutAt(starts, m.size());
 }
 
 /// All of `count` samples that show a change of `clear` (rad or m) or more.
 std::vector<Stretch> StretchesOf(const Measurements& m, Index count, double clear,
-                                 const std::vector<Index>& breaks) {
+                                 const std::vector<SampleRange>& pieces) {
   std::vector<Stretch> stretches;
   for (Index first = 0; first + count < m.size(); first += count) {
     const Index middle = first + count / 2, last = first + count;
     const double change = m.position[last] - m.position[first];
     const double share = (m.position[middle] - m.position[first]) / change;
-    const bool is_whole = breaks[static_cast<size_t>(first)] == breaks[static_cast<size_t>(last)];
+    const bool is_whole = last < PieceAt(pieces, first).end();
     if (!is_whole || !(std::abs(change) >= clear && share > kOneSided && share < 1 - kOneSided))
       continue;
     stretches.push_back({first, middle, last, change, m.time[last] - m.time[first]});
@@ -76,12 +74,12 @@ void LeaveOutCreeping(std::vector<Stretch>& stretches) {
 
 std::vector<Stretch> FindStretches(const Measurements& m) {
   const double clear = kDeviations * MeasurePositionNoise(m.position).deviation;
-  const std::vector<Index> breaks = Breaks(m);
+  const std::vector<SampleRange> pieces = UnbrokenPieces(m);
   std::vector<Stretch> longest;
   double most = 0;  // change of all, rad or m
   for (Index count = kFewSamples; count == kFewSamples || count * kEnoughStretches <= m.size();
        count *= 2) {
-    std::vector<Stretch> stretches = StretchesOf(m, count, clear, breaks);
+    std::vector<Stretch> stretches = StretchesOf(m, count, clear, pieces);
     LeaveOutCreeping(stretches);
     double change = 0;
     for (const Stretch& one : stretches) change += std::abs(one.change);

@@ -144,18 +144,14 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
     return std::abs(by_column - path) <= kSameSpeed * path;
   };
   const auto middle = [](const Segment& segment) { return (segment.begin + segment.end - 1) / 2; };
-  const std::vector<LogGap> gaps = GapsOf(time);
-  const auto has_gap = [&](Index first, Index last) {
-    return std::ranges::any_of(
-        gaps, [&](const LogGap& gap) { return gap.behind > first && gap.behind <= last; });
-  };
+  const std::vector<SampleRange> pieces = PiecesOf(time);
 
   PathComparison paths;
   double path = 0, sum = 0;
   for (size_t i = 0; i + 1 < segments.size(); ++i) {
     const Index first = middle(segments[i]), last = middle(segments[i + 1]);
     if (!is_same_speed(segments[i]) || !is_same_speed(segments[i + 1])) continue;
-    if (has_gap(first, last)) continue;
+    if (PieceAt(pieces, first).end() <= last) continue;  // a gap lies between
     const double length = position.Between(time[first], time[last]);
     const double difference = velocity.Between(time[first], time[last]) - length;
     paths.transitions.push_back({first, last, length, difference});

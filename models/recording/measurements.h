@@ -61,4 +61,13 @@ inline double LongestStep(const Eigen::VectorXd& time) { return kGapSteps * Medi
 /// Every step that is longer than LongestStep, in order of time. time: [N] s
 std::vector<LogGap> GapsOf(const Eigen::VectorXd& time);
 
+/// Samples 0, ..., size - 1, cut in front of each of `starts`, which ascend.
+std::vector<SampleRange> CutAt(const std::vector<Eigen::Index>& starts, Eigen::Index size);
+
+/// The pieces of a log between its gaps, in order of time. time: [N] s
+std::vector<SampleRange> PiecesOf(const Eigen::VectorXd& time);
+
+/// The piece that holds sample n. pieces: as CutAt makes them
+const SampleRange& PieceAt(const std::vector<SampleRange>& pieces, Eigen::Index n);
+
 }  // namespace warmjoint

@@ -15,13 +15,6 @@
 
 namespace warmjoint {
 
-/// Samples first, ..., first + count - 1 of a log.
-struct SampleRange {
-  Eigen::Index first = 0, count = 0;
-
-  Eigen::Index end() const { return first + count; }
-};
-
 /// A log as fits see it: the samples of one recording, or of several of one joint one behind the other, with what preparation
 /// found beside that which was logged.
 struct LogSamples : Measurements {

@@ -19,6 +19,13 @@
 
 namespace warmjoint {
 
+/// Samples first, ..., first + count - 1 of a log.
+struct SampleRange {
+  Eigen::Index first = 0, count = 0;
+
+  Eigen::Index end() const { return first + count; }
+};
+
 /// A time without samples.
 struct LogGap {
   Eigen::Index behind = 0;  // first sample after it
