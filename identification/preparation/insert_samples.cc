@@ -1,6 +1,7 @@
 #include "identification/preparation/insert_samples.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/recording/measurements.h"
 
@@ -39,6 +40,7 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
   for (size_t i = 0; i < inserted.size(); ++i) {
     const InsertedSample& one = inserted[i];
     const Index n = one.after + 1 + static_cast<Index>(i);
+    log.put_in.push_back(n);
     log.time[n] = one.time;
     log.position[n] = one.position;
     log.velocity[n] = one.velocity;
@@ -57,6 +59,10 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
     segment.begin = moved(segment.begin);
     segment.end = moved(segment.end);
   }
+}
+
+double UnresolvedAt(double v0, double v1, double nearer) {
+  return v0 * v1 < 0 ? 2 * nearer * std::abs(v0 * v1 / (v0 - v1)) : 0;
 }
 
 double HeldPath(const Measurements& m) {

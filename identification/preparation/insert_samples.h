@@ -23,9 +23,15 @@ struct FilledLog {
   double unresolved_path = 0;
 };
 
-/// Puts samples in, ascending in time: with the torque and the other columns of the sample behind,
-/// and not kept, so that the thermal filter alone sees them. Segments keep their samples.
+/// Puts samples into a log that has none put in, ascending in time: with the torque and the other
+/// columns of the sample behind, and not kept, so that the thermal filter alone sees them. Segments
+/// keep their samples.
 void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& log);
+
+/// Most of the path, rad or m, that a reversal from v0 to v1 may lack which is taken for a switch: a
+/// ramp that no sample shows lasts twice the time to the nearer sample at most. nearer: that time, s;
+/// v0, v1: rad/s or m/s. 0 where the speed does not turn.
+double UnresolvedAt(double v0, double v1, double nearer);
 
 /// The path sum |v| h, each velocity held until the next sample, rad or m.
 double HeldPath(const Measurements& measurements);

@@ -204,14 +204,12 @@ class MotionBuilder {
 
   /// The path that a ramp which no sample shows would not have travelled.
   void CountUnresolved(const SpeedChange& change, Index first, Index last) {
-    const double v0 = change.before.slope, v1 = change.behind.slope;
-    if (change.duration > 0 || v0 * v1 >= 0) return;
-    // a ramp without samples reaches to the nearer sample at most
+    if (change.duration > 0) return;
     Index behind = first;
     while (behind < last && time_[behind] < change.time) ++behind;
     const double nearest =
         std::min(time_[behind] - change.time, change.time - time_[std::max(behind - 1, first)]);
-    unresolved_ += 2 * std::max(nearest, 0.0) * std::abs(v0 * v1 / (v0 - v1));
+    unresolved_ += UnresolvedAt(change.before.slope, change.behind.slope, std::max(nearest, 0.0));
   }
 
   const VectorXd& time_;      // [N] s

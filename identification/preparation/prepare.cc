@@ -39,34 +39,26 @@ ConstantSpeed FindFromPositions(Measurements& m) {
   return found;
 }
 
-/// Calls visit(i, n) for each sample i at `time` that the log has, too, as its sample n.
-template <typename Visit>
-void ForEachCommon(const Eigen::VectorXd& time, const LogView& log, const Visit& visit) {
-  Eigen::Index i = 0;
-  for (Eigen::Index n = 0; n < log.measurements.size() && i < time.size(); ++n) {
-    if (log.measurements.time[n] == time[i]) visit(i++, n);
-  }
-}
-
 /// Whether the speeds of a log made from positions are those of its velocity column where both call them constant, over
 /// all of them: time stamps that jitter spoil the former. keep: [N] samples of `column`.
 bool AgreesOnSpeeds(const LogView& log, const Measurements& column, const SampleMask& keep) {
   double by_column = 0, by_position = 0;
-  ForEachCommon(column.time, log, [&](Eigen::Index i, Eigen::Index n) {
-    if (!keep[i] || !log.selection.keep[n]) return;
-    by_column += std::abs(column.velocity[i]);
-    by_position += std::abs(log.measurements.velocity[n]);
-  });
+  for (Eigen::Index i = 0; const Eigen::Index n : log.measurements.Logged()) {
+    if (keep[i] && log.selection.keep[n]) {
+      by_column += std::abs(column.velocity[i]);
+      by_position += std::abs(log.measurements.velocity[n]);
+    }
+    ++i;
+  }
   return std::abs(by_column - by_position) <= kSameSpeed * by_position;
 }
 
 /// Leaves out what a velocity column that is not believed did not call constant: it may not have
-/// settled there, and a torque that went through the same filter has not either. keep: [N] samples
-/// at `time`; log: of these and others.
-void KeepAlso(const SampleMask& keep, const Eigen::VectorXd& time, LogView& log) {
-  ForEachCommon(time, log, [&](Eigen::Index i, Eigen::Index n) {
-    if (!keep[i]) log.selection.keep[n] = false;
-  });
+/// settled there, and a torque that went through the same filter has not either. keep: [N] of the
+/// samples that were logged.
+void KeepAlso(const SampleMask& keep, LogView& log) {
+  const std::vector<Eigen::Index> logged = log.measurements.Logged();
+  log.selection.keep(logged) = log.selection.keep(logged) && keep;
 }
 
 }  // namespace
@@ -131,8 +123,8 @@ struct PreparedLog::Maker {
                                           const PrepareSettings& holds) {
     Log log = ByPositions(measurements, holds);
     if (!AgreesOnSpeeds(*log.constant_speed, measurements, selection.keep)) return {};
-    KeepAlso(selection.keep, measurements.time, log.raw);
-    KeepAlso(selection.keep, measurements.time, *log.constant_speed);
+    KeepAlso(selection.keep, log.raw);
+    KeepAlso(selection.keep, *log.constant_speed);
     return log;
   }
 
@@ -149,9 +141,9 @@ struct PreparedLog::Maker {
 
     // the paths from one segment to the next
     const FilledLog motion = MotionFromPositions(measurements, found);
-    const Measurements& by_velocity =
+    const LogSamples& by_velocity =
         (log.constant_speed ? *log.constant_speed : log.raw).measurements;
-    const Measurements& by_position = motion.view.measurements;
+    const LogSamples& by_position = motion.view.measurements;
     const auto paths = ComparePaths(by_velocity, by_position, selection.segments, measurements);
     if (!paths) return log;
     if (!Contradicts(*paths)) {

@@ -29,6 +29,7 @@ LogView Head(const LogView& all, double time) {
     segment.end = std::min(segment.end, n);
     head.selection.segments.push_back(segment);
   }
+  std::erase_if(head.measurements.put_in, [n](Index one) { return one >= n; });
   return head;
 }
 
@@ -66,6 +67,7 @@ void Append(const LogView& next, double step, LogView& stack) {
   LogSamples& all = stack.measurements;
   const Index n = all.size();
   all.further_starts.push_back(n);
+  for (const Index one : more.put_in) all.put_in.push_back(one + n);
   all.source += " + " + more.source;
   Append(Named(more.source, more.notes), all.notes);
   // the columns; one that may be absent is gone where either lacks it
@@ -141,6 +143,19 @@ double UnresolvedPath(const std::vector<PreparedLog>& recordings) {
 
 std::vector<SampleRange> LogSamples::Recordings() const { return CutAt(further_starts, size()); }
 
+std::vector<Index> LogSamples::Logged() const {
+  std::vector<Index> logged;
+  auto next = put_in.begin();
+  for (Index i = 0; i < size(); ++i) {
+    if (next != put_in.end() && *next == i) {
+      ++next;
+    } else {
+      logged.push_back(i);
+    }
+  }
+  return logged;
+}
+
 PreparedLog Join(std::vector<PreparedLog> recordings) {
   if (recordings.empty()) Refuse({}, "no recording is given");
   if (recordings.size() == 1) return recordings.front();
@@ -195,9 +210,9 @@ PreparedLog PreparedLog::Before(double time) const {
 }
 
 void PreparedLog::LeaveOut(LogView& view) const {
-  for (Index i = 0; i < view.measurements.size() && !log_->left_out.empty(); ++i) {
-    if (std::ranges::binary_search(log_->left_out, view.measurements.time[i]))
-      view.selection.keep[i] = false;
+  const std::vector<Index> logged = view.measurements.Logged();
+  for (const Index n : log_->left_out) {
+    if (n < std::ssize(logged)) view.selection.keep[logged[static_cast<size_t>(n)]] = false;
   }
 }
 
@@ -219,7 +234,7 @@ const PreparedLog& PreparedLog::WithoutAbsurd() const {
     without.absurd = fmt::format("{}, and left out", DescribeAbsurd(measurements, absurd));
     without.warnings.push_back(*without.absurd);
     for (Index i = 0; i < absurd.size(); ++i) {
-      if (absurd[i]) without.left_out.push_back(measurements.time[i]);
+      if (absurd[i]) without.left_out.push_back(i);
     }
 
     PreparedLog log(without);

@@ -36,14 +36,6 @@ bool StandsAlone(const VectorXd& v, Index n) {
   return std::max(before, behind) <= kSteady * std::abs(v[n + 1] - v[n]);
 }
 
-/// Most of the path that a ramp through 0 behind sample n may lack, which is taken for a switch `delay` s behind it.
-double UnresolvedAt(const Measurements& m, Index n, double delay) {
-  const double v0 = m.velocity[n], v1 = m.velocity[n + 1];
-  if (v0 * v1 >= 0) return 0;
-  const double h = m.time[n + 1] - m.time[n];
-  return 2 * std::min(delay, h - delay) * std::abs(v0 * v1 / (v0 - v1));
-}
-
 /// The path since the first sample, as a function of time.
 class Path {
  public:
@@ -70,24 +62,14 @@ class Path {
   VectorXd until_;  // [N] rad or m
 };
 
-/// What one version of a log says of the motion.
-struct Version {
-  VectorXd velocity;                     // [N] of the samples that were taken
-  std::vector<InsertedSample> inserted;  // ascending in time
-};
-
-Version VersionOf(const Measurements& log, const VectorXd& time) {
-  Version version{VectorXd(time.size()), {}};
-  Index n = 0;
-  // samples that were taken are at `time`, the others were put in
-  for (Index i = 0; i < log.size(); ++i) {
-    if (n < time.size() && log.time[i] == time[n]) {
-      version.velocity[n++] = log.velocity[i];
-    } else {
-      version.inserted.push_back({n - 1, log.time[i], log.position[i], log.velocity[i]});
-    }
+/// The samples that a version of a log puts in.
+std::vector<InsertedSample> InsertedIn(const LogSamples& log) {
+  std::vector<InsertedSample> inserted;
+  for (const Index i : log.put_in) {
+    const Index logged = i - std::ssize(inserted);  // samples in front of it
+    inserted.push_back({logged - 1, log.time[i], log.position[i], log.velocity[i]});
   }
-  return version;
+  return inserted;
 }
 
 /// Which samples lie on a transition whose two versions differ by no more than sampling explains. [N]
@@ -122,7 +104,7 @@ std::optional<FilledLog> SplitAtSwitches(const LogView& log) {
     const double s = (m.position[n + 1] - m.position[n] - v1 * h) / (v0 - v1);
     if (!(s > kInside * h && s < (1 - kInside) * h)) continue;
     switches.push_back({n, m.time[n] + s, m.position[n] + s * v0, v1});
-    unresolved += UnresolvedAt(m, n, s);
+    unresolved += UnresolvedAt(v0, v1, std::min(s, h - s));
   }
   if (switches.empty()) return std::nullopt;
   const double path = HeldPath(m);
@@ -184,13 +166,13 @@ bool PositionsTellMore(const PathComparison& paths, double deviation) {
   return squares / n > least;
 }
 
-LogView ReplaceTransitions(const LogView& taken, const Measurements& by_velocity,
-                           const Measurements& by_position,
+LogView ReplaceTransitions(const LogView& taken, const LogSamples& by_velocity,
+                           const LogSamples& by_position,
                            const std::vector<Transition>& transitions) {
   const auto& [m, selection] = taken;
-  const Version velocity = VersionOf(by_velocity, m.time),
-                position = VersionOf(by_position, m.time);
-  const SampleMask on = OnTransitions(transitions, velocity.velocity, m.time);
+  const VectorXd velocity = by_velocity.velocity(by_velocity.Logged()),
+                 position = by_position.velocity(by_position.Logged());
+  const SampleMask on = OnTransitions(transitions, velocity, m.time);
 
   // what each version puts in where it is believed, but nothing within a segment
   std::set<Index> begins;
@@ -199,23 +181,23 @@ LogView ReplaceTransitions(const LogView& taken, const Measurements& by_velocity
     return selection.keep[n] && selection.keep[n + 1] && !begins.contains(n + 1);
   };
   std::vector<InsertedSample> inserted;
-  const auto add = [&](const Version& version, bool here) {
-    for (const InsertedSample& one : version.inserted) {
+  const auto add = [&](const LogSamples& version, bool here) {
+    for (const InsertedSample& one : InsertedIn(version)) {
       if (on[one.after] == here && !is_within(one.after)) inserted.push_back(one);
     }
   };
-  add(velocity, false);
-  add(position, true);
+  add(by_velocity, false);
+  add(by_position, true);
 
   // the speeds of the samples; right behind the last of a segment the speed changes
   LogView log = taken;
   for (Index n = 0; n < m.size(); ++n) {
     const bool changes = on[n] && !selection.keep[n];
-    log.measurements.velocity[n] = (changes ? position : velocity).velocity[n];
+    log.measurements.velocity[n] = (changes ? position : velocity)[n];
     // where the positions are believed, a segment is left right behind its last sample
     if (!on[n] || changes || n + 1 == m.size() || selection.keep[n + 1]) continue;
     const double behind = m.time[n] + kBehind * (m.time[n + 1] - m.time[n]);
-    inserted.push_back({n, behind, m.position[n], position.velocity[n]});
+    inserted.push_back({n, behind, m.position[n], position[n]});
   }
   std::ranges::sort(inserted, {}, &InsertedSample::time);
   InsertSamples(inserted, log);

@@ -64,8 +64,8 @@ bool PositionsTellMore(const PathComparison& paths, double deviation);
 /// larger than samples can hide, one step at the change of speed, stay as they are: there one of the two is spoilt.
 /// taken: the N samples that both have; its selection is that of the result, with the samples put in not kept.
 /// by_velocity, by_position: of SplitAtSwitches and of motion_from_positions.h
-LogView ReplaceTransitions(const LogView& taken, const Measurements& by_velocity,
-                           const Measurements& by_position,
+LogView ReplaceTransitions(const LogView& taken, const LogSamples& by_velocity,
+                           const LogSamples& by_position,
                            const std::vector<Transition>& transitions);
 
 }  // namespace warmjoint

@@ -115,14 +115,7 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
   if (m.position_integrated && needs) {
     Refuse({m.source}, "has no positions, and the estimate's gravity or map needs them; log them");
   }
-  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
-  // samples put in between those that were logged are no rows of the log
-  const Eigen::VectorXd& logged = log.raw().measurements.time;
-  for (Eigen::Index i = 0, n = 0; i < m.size() && n < logged.size(); ++i) {
-    if (m.time[i] != logged[n]) continue;
-    predicted.logged.push_back(i);
-    ++n;
-  }
+  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}};
   // samples that all parts of the model know
   const Selection& known = predicted.torque.known;
   if (known.count() == 0) {
@@ -151,10 +144,10 @@ nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predi
 }
 
 std::string PredictedToCsv(const Predicted& predicted) {
-  const Measurements& m = predicted.measurements;
+  const LogSamples& m = predicted.measurements;
   const TorquePrediction& torque = predicted.torque;
   std::string csv = "time,position,velocity,torque,predicted,residual,energy,compared\n";
-  for (const Eigen::Index i : predicted.logged) {
+  for (const Eigen::Index i : m.Logged()) {
     csv += fmt::format("{},{},{},{},{},{},{},{:d}\n", m.time[i], m.position[i], m.velocity[i],
                        m.torque[i], torque.torque[i], m.torque[i] - torque.torque[i],
                        torque.friction.energy[i], torque.known.keep[i]);

@@ -50,8 +50,6 @@ WarmStart StartOf(const StoredModel& stored, const std::string& file, const std:
 struct Predicted {
   LogSamples measurements;  // of the log as the model sees it
   TorquePrediction torque;
-  std::vector<Eigen::Index>
-      logged;       // samples that are rows of the log: preparation may put others in
   Metrics metrics;  // over the samples that take part; its parameters count 0, since none is fitted
 };
 

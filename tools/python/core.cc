@@ -128,8 +128,9 @@ nb::dict PredictInPython(nb::handle estimate, const Log& log, const std::vector<
       Interruptibly([=](const auto&) { return PredictLog(stored, log.prepared, start); });
 
   // a row for each sample of the log
+  const std::vector<Eigen::Index> logged = predicted.measurements.Logged();
   const auto column = [&](const Eigen::VectorXd& all) {
-    return ToPython(Eigen::VectorXd(all(predicted.logged)));
+    return ToPython(Eigen::VectorXd(all(logged)));
   };
   nb::dict dict;
   dict["time"] = column(predicted.measurements.time);

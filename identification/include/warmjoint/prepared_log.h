@@ -36,8 +36,14 @@ struct LogSamples : Measurements {
   /// samples, where a row begins behind each. Otherwise nothing, and gaps are found by the time.
   std::optional<std::vector<LogGap>> gaps;
 
+  /// Samples that were not logged but put in, ascending (InsertSamples).
+  std::vector<Eigen::Index> put_in;
+
   /// The list of recordings: where the samples of each stand. [R >= 1]
   std::vector<SampleRange> Recordings() const;
+
+  /// The samples that were logged, ascending.
+  std::vector<Eigen::Index> Logged() const;
 };
 
 /// A log and the samples of it that take part in fits.
@@ -137,7 +143,7 @@ class PreparedLog {
     double unresolved_path = 0;
     std::vector<std::string> faults{};
     std::vector<std::string> warnings{};
-    std::vector<double> left_out{};  // times of samples, s
+    std::vector<Eigen::Index> left_out{};  // of the samples that were logged
     std::optional<std::string> absurd{};
     std::vector<PreparedLog> recordings{};  // of several, in their order
   };

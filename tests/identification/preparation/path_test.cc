@@ -232,7 +232,7 @@ TEST(ReplaceTransitions, AWayThatSamplesCannotHideStaysAsItIs) {
   const LogView& taken = prepared.raw();
   const auto& segments = taken.selection.segments;
   const auto middle = [&](size_t i) { return (segments[i].begin + segments[i].end) / 2; };
-  Measurements other = log;
+  LogSamples by_velocity(log), other(log);
   other.velocity *= 0.5;
 
   // one step at the change of speed is the most that a sample hides
@@ -241,7 +241,7 @@ TEST(ReplaceTransitions, AWayThatSamplesCannotHideStaysAsItIs) {
   for (const bool is_hidden : {true, false}) {
     Transition one = way;
     one.difference = (is_hidden ? 0.9 : 1.1) * most;
-    const Measurements made = ReplaceTransitions(taken, log, other, {one}).measurements;
+    const Measurements made = ReplaceTransitions(taken, by_velocity, other, {one}).measurements;
     Index j = way.first;
     for (Index i = way.first; i < way.last; ++i, ++j) {
       // one is put in right behind the last of the segment
