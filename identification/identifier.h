@@ -21,7 +21,7 @@ using Narrator = std::function<void(const std::string& words)>;
 enum class View {
   constant_speed,  // PreparedLog::constant_speed: sliding at constant speeds, tau = G + F, Eq. (6)
   raw,  // PreparedLog::raw: changes of speed too, tau = M a + G + F, Eq. (5), from sample to sample
-  moving,  // MovingView: all that moves clearly, with its acceleration, Eq. (5)
+  moving,  // PreparedLog::moving: all that moves clearly, with its acceleration, Eq. (5)
 };
 
 /// The samples of a log as a view shows them; those of `moving` are made when they are first asked for.

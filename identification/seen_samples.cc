@@ -1,7 +1,5 @@
 #include "identification/seen_samples.h"
 
-#include "identification/preparation/moving_view.h"
-
 namespace warmjoint {
 namespace {
 
@@ -9,7 +7,7 @@ View ViewFor(const Identifier& identifier, const IdentifierInput& input) {
   const auto* asked = input.options.Find<MotionOption>();
   if (!asked || identifier.view != View::constant_speed) return identifier.view;
   const bool any = asked->motion == MotionKind::any ||
-                   (asked->motion == MotionKind::chosen && !HoldsSpeeds(input.log));
+                   (asked->motion == MotionKind::chosen && !input.log.holds_speeds());
   return any ? View::moving : View::constant_speed;
 }
 
@@ -20,7 +18,7 @@ const LogView& SeenThrough(View view, const PreparedLog& log) {
     case View::raw:
       return log.raw();
     case View::moving:
-      return MovingView(log);
+      return log.moving();
     case View::constant_speed:
       break;
   }

@@ -132,7 +132,7 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                      const LackOfFitSettings& judging, const Answer& answer) {
   LackOfFit found;
-  const std::vector<std::string>& faults = input.log.faults();
+  const std::vector<std::string> faults = input.log.faults();
   if (!faults.empty()) {
     found.causes.push_back({.source = Source::faults,
                             .action = Action::refuse,

@@ -27,7 +27,7 @@ struct TorquePrediction {
 };
 
 /// Along the motion from its first sample on, from `start`. Inertia acts where the log has an
-/// acceleration (MovingView). asked: samples that are to be compared.
+/// acceleration (PreparedLog::moving). asked: samples that are to be compared.
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& measurements,
                                Selection asked, const CourseStart& start);
 

@@ -33,7 +33,7 @@ struct GravityOption {
 
 /// Gravity and inertia as one fit sees them. Torque = M a + F + G(p), Eqs. (5) and (6): F alone makes
 /// heat, so the columns of G and a stand beside the friction, outside of its loss. M is fitted where
-/// the log has an acceleration (MovingView). `paired` keeps the samples whose cell of the
+/// the log has an acceleration (PreparedLog::moving). `paired` keeps the samples whose cell of the
 /// turn is passed in both directions; because G is fitted together with friction and its warming,
 /// the two passes may differ in heat.
 struct RigidPart {

@@ -12,11 +12,11 @@
 
 namespace warmjoint {
 
-/// The faults of a log, each one sentence: what, how many, where, the bound, the remedy. Looks at
-/// the kept samples, without those of absurd torque, which are named last; a velocity made of the
-/// positions is not held against them.
-std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection,
-                                    MotionSource source = MotionSource::velocity);
+/// The faults of a log, each with a sentence: what, how many, where, the bound, the remedy. Looks at
+/// the kept samples, without those of absurd torque, which are a fault of their own; a velocity made
+/// of the positions is not held against them.
+std::vector<LogFault> FindFaults(const Measurements& measurements, const Selection& selection,
+                                 MotionSource source = MotionSource::velocity);
 
 // The kinds, each nothing where the log is free of it.
 

@@ -203,22 +203,10 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
   return view;
 }
 
-const LogView& MovingView(const PreparedLog& log) {
-  return log.found().moving.Get([&] {
-    return log.Stack(
-        [](const PreparedLog& one) { return ViewMotion(one.raw().measurements, one.source()); });
-  });
-}
-
 bool HoldsSpeeds(const Measurements& m, const Selection& selection) {
   constexpr double fewest = 0.1;  // of the samples that move clearly
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   return static_cast<double>(selection.count()) >= fewest * moving;
-}
-
-bool HoldsSpeeds(const PreparedLog& log) {
-  return log.found().holds_speeds.Get(
-      [&] { return HoldsSpeeds(log.raw().measurements, log.raw().selection); });
 }
 
 }  // namespace warmjoint

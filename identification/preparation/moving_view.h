@@ -37,13 +37,8 @@ BetweenSamples MeansBetween(const Measurements& measurements,
 /// jumps by a tenth of its root mean square, and four times as far as in the median. No segments.
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 
-/// A log as fits to motion of any kind see it: ViewMotion of how it was taken. Made when it is first
-/// asked for, and kept with the log.
-const LogView& MovingView(const PreparedLog& log);
-
 /// Whether constant speeds are what a log shows of friction: a tenth or more of what moves clearly moves
 /// at a constant speed.
 bool HoldsSpeeds(const Measurements& measurements, const Selection& selection);
-bool HoldsSpeeds(const PreparedLog& log);
 
 }  // namespace warmjoint

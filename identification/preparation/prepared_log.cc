@@ -3,10 +3,12 @@
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "identification/preparation/insert_samples.h"
 #include "identification/preparation/log_faults.h"
+#include "identification/preparation/moving_view.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
@@ -91,16 +93,24 @@ void Append(const LogView& next, double step, LogView& stack) {
   }
 }
 
-using ViewOf = std::function<LogView(const PreparedLog&)>;
-
-LogView StackOf(const std::vector<PreparedLog>& recordings, const ViewOf& view) {
-  LogView stack = view(recordings.front());
+/// A view of each recording, one after the other.
+template <typename View>
+LogView StackOf(const std::vector<PreparedLog>& recordings, const View& view) {
+  LogView stack = std::invoke(view, recordings.front());
   stack.measurements.notes = Named(stack.measurements.source, std::move(stack.measurements.notes));
   for (size_t i = 1; i < recordings.size(); ++i) {
     const double step = MedianStep(recordings[i - 1].raw().measurements.time);
-    Append(view(recordings[i]), step, stack);
+    Append(std::invoke(view, recordings[i]), step, stack);
   }
   return stack;
+}
+
+/// Leaves samples out of fits. samples: of those that were logged
+void LeaveOut(const std::vector<Index>& samples, LogView& view) {
+  const std::vector<Index> logged = view.measurements.Logged();
+  for (const Index n : samples) {
+    if (n < std::ssize(logged)) view.selection.keep[logged[static_cast<size_t>(n)]] = false;
+  }
 }
 
 void CheckAlike(const Measurements& a, const Measurements& b) {
@@ -156,6 +166,12 @@ std::vector<Index> LogSamples::Logged() const {
   return logged;
 }
 
+PreparedLog::PreparedLog(Log log) {
+  log.holds_speeds = HoldsSpeeds(log.raw.measurements, log.raw.selection);
+  log.without_absurd = LeaveOutAbsurd(log);
+  log_ = std::make_shared<const Log>(std::move(log));
+}
+
 PreparedLog Join(std::vector<PreparedLog> recordings) {
   if (recordings.empty()) Refuse({}, "no recording is given");
   if (recordings.size() == 1) return recordings.front();
@@ -166,7 +182,9 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
     CheckAlike(recordings.front().raw().measurements, m);
     is_changed |= one.log_->constant_speed.has_value();
     if (one.source() == MotionSource::positions) all.source = MotionSource::positions;
-    Append(Named(m.source, one.faults()), all.faults);
+    for (const auto& [sentence, is_absurd] : one.log_->faults) {
+      all.faults.push_back({fmt::format("{}: {}", m.source, sentence), is_absurd});
+    }
     Append(Named(m.source, one.warnings()), all.warnings);
     if (one.absurd()) {
       all.absurd = fmt::format("{}{}{}: {}", all.absurd.value_or(""), all.absurd ? "; " : "",
@@ -181,13 +199,22 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
   return PreparedLog(std::move(all));
 }
 
-LogView PreparedLog::Stack(const ViewOf& view) const {
-  const ViewOf take = [&](const PreparedLog& one) {
-    LogView taken = view(one);
-    one.LeaveOut(taken);
-    return taken;
-  };
-  return log_->recordings.empty() ? take(*this) : StackOf(log_->recordings, take);
+const LogView& PreparedLog::moving() const {
+  std::call_once(moving_->once, [this] { moving_->view = MakeMoving(); });
+  return moving_->view;
+}
+
+LogView PreparedLog::MakeMoving() const {
+  if (!log_->recordings.empty()) return StackOf(log_->recordings, &PreparedLog::MakeMoving);
+  LogView view = ViewMotion(log_->raw.measurements, log_->source);
+  LeaveOut(log_->left_out, view);
+  return view;
+}
+
+std::vector<std::string> PreparedLog::faults() const {
+  std::vector<std::string> sentences;
+  for (const LogFault& fault : log_->faults) sentences.push_back(fault.sentence);
+  return sentences;
 }
 
 PreparedLog PreparedLog::Before(double time) const {
@@ -209,40 +236,31 @@ PreparedLog PreparedLog::Before(double time) const {
   return Join(std::move(before));
 }
 
-void PreparedLog::LeaveOut(LogView& view) const {
-  const std::vector<Index> logged = view.measurements.Logged();
-  for (const Index n : log_->left_out) {
-    if (n < std::ssize(logged)) view.selection.keep[logged[static_cast<size_t>(n)]] = false;
+std::shared_ptr<const PreparedLog> PreparedLog::LeaveOutAbsurd(const Log& log) {
+  // of several recordings each by itself
+  if (!log.recordings.empty()) {
+    const auto has_none = [](const PreparedLog& one) { return !one.log_->without_absurd; };
+    if (std::ranges::all_of(log.recordings, has_none)) return nullptr;
+    std::vector<PreparedLog> without;
+    for (const PreparedLog& one : log.recordings) without.push_back(one.WithoutAbsurd());
+    return std::make_shared<const PreparedLog>(Join(std::move(without)));
   }
-}
+  if (std::ranges::none_of(log.faults, &LogFault::is_absurd_torque)) return nullptr;
+  const auto& [measurements, selection] = log.raw;
+  const SampleMask absurd = AbsurdTorque(measurements, selection);
+  if (!absurd.any()) return nullptr;
 
-const PreparedLog& PreparedLog::WithoutAbsurd() const {
-  const auto& made = found_->without_absurd.Get([&]() -> std::shared_ptr<const PreparedLog> {
-    if (!log_->recordings.empty()) {
-      std::vector<PreparedLog> without;
-      for (const PreparedLog& one : log_->recordings) without.push_back(one.WithoutAbsurd());
-      const auto lacks_none = [](const PreparedLog& one) { return !one.absurd(); };
-      if (std::ranges::all_of(without, lacks_none)) return nullptr;
-      return std::make_shared<const PreparedLog>(Join(std::move(without)));
-    }
-    const auto& [measurements, selection] = log_->raw;
-    const SampleMask absurd = AbsurdTorque(measurements, selection);
-    if (log_->faults.empty() || !absurd.any()) return nullptr;
-    // the fault, which is named last, becomes a warning
-    Log without = *log_;
-    without.faults.pop_back();
-    without.absurd = fmt::format("{}, and left out", DescribeAbsurd(measurements, absurd));
-    without.warnings.push_back(*without.absurd);
-    for (Index i = 0; i < absurd.size(); ++i) {
-      if (absurd[i]) without.left_out.push_back(i);
-    }
-
-    PreparedLog log(without);
-    log.LeaveOut(without.raw);
-    if (without.constant_speed) log.LeaveOut(*without.constant_speed);
-    return std::make_shared<const PreparedLog>(PreparedLog(std::move(without)));
-  });
-  return made ? *made : *this;
+  // the fault becomes a warning
+  Log without = log;
+  std::erase_if(without.faults, [](const LogFault& fault) { return fault.is_absurd_torque; });
+  without.absurd = fmt::format("{}, and left out", DescribeAbsurd(measurements, absurd));
+  without.warnings.push_back(*without.absurd);
+  for (Index i = 0; i < absurd.size(); ++i) {
+    if (absurd[i]) without.left_out.push_back(i);
+  }
+  LeaveOut(without.left_out, without.raw);
+  if (without.constant_speed) LeaveOut(without.left_out, *without.constant_speed);
+  return std::make_shared<const PreparedLog>(PreparedLog(std::move(without)));
 }
 
 }  // namespace warmjoint

@@ -21,7 +21,6 @@
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
-#include "identification/preparation/moving_view.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "scenarios/suite.h"
@@ -53,7 +52,7 @@ const std::map<std::string, std::pair<std::string, Given>> kRight{
 /// Mean squared errors of a fit's prediction on blocks of another log; nothing where it predicts nothing.
 std::optional<Eigen::VectorXd> ErrorsOn(const PreparedLog& log, const Fit& fit) {
   if (fit.refusal) return std::nullopt;
-  const LogView& view = fit.inertia ? MovingView(log) : log.constant_speed();
+  const LogView& view = fit.inertia ? log.moving() : log.constant_speed();
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), view.measurements, view.selection, fit.Start());
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(view.selection, kBlocks);

@@ -6,7 +6,6 @@
 
 #include <warmjoint/recording.h>
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -63,18 +62,10 @@ struct VelocityNoise {
   double mean_speed = 0;   // mean |v| of the kept samples, rad/s or m/s
 };
 
-/// What is made when it is first asked for, by whichever thread is first.
-template <typename T>
-class MadeOnce {
- public:
-  const T& Get(const std::function<T()>& make) {
-    std::call_once(once_, [&] { value_ = make(); });
-    return value_;
-  }
-
- private:
-  std::once_flag once_;
-  T value_{};
+/// What in a log contradicts itself (log_faults.h).
+struct LogFault {
+  std::string sentence;
+  bool is_absurd_torque = false;  // of samples that WithoutAbsurd leaves out
 };
 
 /// Recordings of one joint, prepared for a fit: what moves at constant speed, one velocity for each
@@ -98,18 +89,12 @@ class PreparedLog {
   /// What the velocity of `raw` was taken from; of several recordings, positions where one has no other.
   MotionSource source() const { return log_->source; }
 
-  /// What others found in the log when they first needed it (moving_view.h).
-  struct Found {
-    MadeOnce<LogView> moving;
-    MadeOnce<bool> holds_speeds;
-    MadeOnce<std::shared_ptr<const PreparedLog>>
-        without_absurd;  // or none, where no sample is absurd
-  };
-  Found& found() const { return *found_; }
+  /// The log as fits to motion of any kind see it (moving_view.h). Made when it is first asked for, by
+  /// whichever thread is first.
+  const LogView& moving() const;
 
-  /// A view of each recording, one after the other, without the samples that were left out of the
-  /// log itself. view: of a log of one recording.
-  LogView Stack(const std::function<LogView(const PreparedLog&)>& view) const;
+  /// Whether constant speeds are what the log shows of friction (moving_view.h).
+  bool holds_speeds() const { return log_->holds_speeds; }
 
   /// What was done to the velocity, if anything.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
@@ -119,7 +104,7 @@ class PreparedLog {
   double unresolved_path() const { return log_->unresolved_path; }
 
   /// What in the log contradicts itself, each one sentence (log_faults.h).
-  const std::vector<std::string>& faults() const { return log_->faults; }
+  std::vector<std::string> faults() const;
 
   /// What a reader of the numbers must know of what was done, each one sentence.
   const std::vector<std::string>& warnings() const { return log_->warnings; }
@@ -130,9 +115,11 @@ class PreparedLog {
   /// The samples before a time (s), with all that was done to them.
   PreparedLog Before(double time) const;
 
-  /// The log without samples of absurd torque (log_faults.h), which is no fault any more; made once. For a
-  /// loss that bounds the pull of a sample.
-  const PreparedLog& WithoutAbsurd() const;
+  /// The log without samples of absurd torque (log_faults.h), which is no fault any more. For a loss
+  /// that bounds the pull of a sample.
+  const PreparedLog& WithoutAbsurd() const {
+    return log_->without_absurd ? *log_->without_absurd : *this;
+  }
 
  private:
   struct Log {
@@ -141,22 +128,32 @@ class PreparedLog {
     std::optional<LogView> constant_speed{};       // where anything was done to the log
     std::optional<VelocityNoise> velocity_noise{};
     double unresolved_path = 0;
-    std::vector<std::string> faults{};
+    std::vector<LogFault> faults{};
     std::vector<std::string> warnings{};
     std::vector<Eigen::Index> left_out{};  // of the samples that were logged
     std::optional<std::string> absurd{};
     std::vector<PreparedLog> recordings{};  // of several, in their order
+    // what the constructor finds
+    bool holds_speeds = false;
+    std::shared_ptr<const PreparedLog> without_absurd{};  // none where no sample is absurd
+  };
+
+  /// The view `moving`, once it is made.
+  struct Moving {
+    std::once_flag once;
+    LogView view;
   };
 
   struct Maker;
-  explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
-  void LeaveOut(LogView& view) const;
+  explicit PreparedLog(Log log);
+  LogView MakeMoving() const;
+  static std::shared_ptr<const PreparedLog> LeaveOutAbsurd(const Log& log);
   friend PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
   friend PreparedLog Join(std::vector<PreparedLog> recordings);
 
   std::shared_ptr<const Log> log_;
-  std::shared_ptr<Found> found_ = std::make_shared<Found>();
+  std::shared_ptr<Moving> moving_ = std::make_shared<Moving>();
 };
 
 /// Prepares a recording: the samples at constant speed are found in it (select.h). The one path of

@@ -54,9 +54,12 @@ Measurements Log(const Plan& plan) {
   return m;
 }
 
-std::vector<std::string> Faults(const Measurements& m) {
-  return FindFaults(m, SelectConstantSpeed(m));
+std::vector<std::string> Faults(const Measurements& m, const Selection& selection) {
+  std::vector<std::string> sentences;
+  for (const LogFault& fault : FindFaults(m, selection)) sentences.push_back(fault.sentence);
+  return sentences;
 }
+std::vector<std::string> Faults(const Measurements& m) { return Faults(m, SelectConstantSpeed(m)); }
 
 /// A change of a good log, and what the one fault that is found then names; empty: none is found.
 struct Change {
@@ -132,7 +135,7 @@ TEST(FindFaults, AllowsASensorThatHidesTurnsBetweenSamples) {
   Measurements m = Log({});
   m.velocity *= 10;
   for (double& p : m.position) p = std::remainder(10 * p, 2 * std::numbers::pi);
-  EXPECT_THAT(FindFaults(m, SelectConstantSpeed(m)), IsEmpty());
+  EXPECT_THAT(Faults(m), IsEmpty());
 }
 
 TEST(FindFaults, TellsNothingOfAVelocityWherePositionsAreMostlyNoise) {
@@ -147,7 +150,7 @@ TEST(FindFaults, TellsNothingOfAVelocityWherePositionsAreMostlyNoise) {
     const double way = m.position[one.end - 1] - m.position[one.begin];
     for (Index i = one.begin; i < one.end; ++i) m.position[i] += 0.1 * way * random.Normal();
   }
-  EXPECT_THAT(FindFaults(m, selection), IsEmpty());
+  EXPECT_THAT(Faults(m, selection), IsEmpty());
 }
 
 TEST(FindFaults, TellsADelayAndCoarseStepsFromAScale) {
@@ -167,7 +170,7 @@ TEST(FindFaults, FindsTheRangeAfterWhichAPositionStartsAgain) {
   Measurements m = Log({.step = 0.1});
   const Selection selection = SelectConstantSpeed(m);
   for (double& p : m.position) p -= 2.5 * std::floor(p / 2.5);
-  EXPECT_THAT(FindFaults(m, selection), testing::Contains(HasSubstr("--wrap 2.5")));
+  EXPECT_THAT(Faults(m, selection), testing::Contains(HasSubstr("--wrap 2.5")));
 }
 
 TEST(FindFaults, CallsNeitherStepsNorSimulationsClipped) {

@@ -2,7 +2,6 @@
 #include <warmjoint/errors.h>
 #include <warmjoint/prepared_log.h>
 
-#include "identification/preparation/moving_view.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -49,10 +48,10 @@ TEST(Join, EachRecordingIsPreparedByItself) {
   for (const PreparedLog& part : parts) {
     ExpectPart(joined.raw(), taken, part.raw());
     ExpectPart(joined.constant_speed(), steady, part.constant_speed());
-    ExpectPart(MovingView(joined), moving, MovingView(part));
+    ExpectPart(joined.moving(), moving, part.moving());
     taken += part.raw().measurements.size();
     steady += part.constant_speed().measurements.size();
-    moving += MovingView(part).measurements.size();
+    moving += part.moving().measurements.size();
   }
   EXPECT_EQ(joined.constant_speed().measurements.size(), steady);
   // the next begins a step behind the last sample
@@ -114,7 +113,7 @@ TEST(PreparedLog, BeforeCutsTheRecordingsAtATime) {
     ASSERT_EQ(before.raw().measurements.size(), n);
     EXPECT_EQ(before.raw().measurements.time, time.head(n));
     EXPECT_EQ(before.raw().measurements.further_starts.size(), n > 900 ? 1 : 0);
-    EXPECT_EQ(MovingView(before).measurements.size(), MovingView(before).selection.keep.size());
+    EXPECT_EQ(before.moving().measurements.size(), before.moving().selection.keep.size());
   }
   // a sample or two of the next recording show no motion
   EXPECT_EQ(joined.Before(time[901]).raw().measurements.size(), 900);

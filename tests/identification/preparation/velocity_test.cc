@@ -115,10 +115,10 @@ TEST(MovingView, LeavesOutCornersOfTheVelocity) {
 }
 
 TEST(PreparedLog, TellsWhetherItHoldsSpeeds) {
-  EXPECT_FALSE(HoldsSpeeds(Prepare(Sine(2000, 0.01, 1))));
+  EXPECT_FALSE(Prepare(Sine(2000, 0.01, 1)).holds_speeds());
   Eigen::VectorXd holds(400);
   for (Eigen::Index i = 0; i < 400; ++i) holds[i] = i / 40 % 2 ? -0.5 : 1;
-  EXPECT_TRUE(HoldsSpeeds(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400)))));
+  EXPECT_TRUE(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400))).holds_speeds());
 }
 
 /// Speed that goes up and down between -1 and 1 rad/s, 4 s a period, by straight lines or as a sine.

@@ -7,7 +7,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/moving_view.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
 #include "tests/support/warm_recording.h"
@@ -175,7 +174,7 @@ TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
   EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
               estimate.metrics->rmse, 1e-9);
   // and what is taken off is gravity and inertia
-  const LogSamples& m = MovingView(log).measurements;
+  const LogSamples& m = log.moving().measurements;
   const Eigen::VectorXd rigid =
       estimate.Find("inertia")->value * *m.acceleration + estimate.gravity->Torque(m.position);
   EXPECT_LT((view.rigid - rigid).cwiseAbs().maxCoeff(), 1e-12);
