@@ -15,12 +15,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// why each number is what it is: tests/studies/identification.md
 constexpr Index kHalfWidths[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  // samples to each side
-constexpr Index kWide = 6;           // from which half width on the degree is five; why: README.md
-constexpr double kByChance = 1e-3;   // of good windows, taken for bent; why: README.md
-constexpr double kJump = 0.1;        // of the acceleration's rms; why: README.md
-constexpr double kBeyondMedian = 4;  // of the change over two samples; why: README.md
-constexpr double kDeviations = 5;    // of the noise; why: README.md
+constexpr Index kWide = 6;           // from which half width on the degree is five
+constexpr double kByChance = 1e-3;   // of good windows, taken for bent
+constexpr double kJump = 0.1;        // of the acceleration's rms
+constexpr double kBeyondMedian = 4;  // of the change over two samples
+constexpr double kDeviations = 5;    // of the noise
 constexpr double kEven = 1e-3;       // of the step by which evenly sampled times may differ
 
 /// What is fitted: a series, and which derivative of it is the acceleration.

@@ -14,8 +14,8 @@ namespace warmjoint {
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;
 
-/// Speed from which on a sample moves clearly.
-inline constexpr double kClear = 0.05;  // of the velocity's root mean square; why: README.md
+/// Speed from which on a sample moves clearly; why: tests/studies/identification.md.
+inline constexpr double kClear = 0.05;  // of the velocity's root mean square
 
 struct LocalMotion {
   Eigen::VectorXd velocity;      // [N] rad/s or m/s
