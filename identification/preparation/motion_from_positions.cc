@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "identification/preparation/position_noise.h"
 #include "identification/preparation/position_plateaus.h"
+#include "models/foundation/low_pass.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -17,6 +21,61 @@ using Eigen::VectorXd;
 constexpr int kPiecesOfRamp = 8;    // in which its speed is held
 constexpr double kHysteresis = 6;   // reaches
 constexpr double kAtSample = 1e-6;  // of a step: nearer to a sample is at it
+
+// DeriveVelocity: the smoothed slope.
+
+double SamplingRate(const VectorXd& time) {
+  const Index n = time.size();
+  return static_cast<double>(n - 1) / (time[n - 1] - time[0]);
+}
+
+/// Central differences, one-sided at the ends.
+VectorXd Differences(const VectorXd& time, const VectorXd& x) {
+  const Index n = x.size();
+  VectorXd slope(n);
+  slope.segment(1, n - 2) =
+      (x.tail(n - 2) - x.head(n - 2)).cwiseQuotient(time.tail(n - 2) - time.head(n - 2));
+  slope[0] = (x[1] - x[0]) / (time[1] - time[0]);
+  slope[n - 1] = (x[n - 1] - x[n - 2]) / (time[n - 1] - time[n - 2]);
+  return slope;
+}
+
+/// y at the times t, by straight lines between its samples at `time`; both increase, and t lies
+/// within `time`.
+VectorXd Interpolate(const VectorXd& time, const VectorXd& y, const VectorXd& t) {
+  VectorXd result(t.size());
+  for (Index i = 0, k = 0; i < t.size(); ++i) {
+    while (k + 2 < time.size() && time[k + 1] < t[i]) ++k;
+    const double share = (t[i] - time[k]) / (time[k + 1] - time[k]);
+    result[i] = y[k] + share * (y[k + 1] - y[k]);
+  }
+  return result;
+}
+
+/// Velocity of a piece without gaps.
+VectorXd DerivePiece(const VectorXd& time, const VectorXd& position, double cutoff) {
+  const Index n = time.size();
+  // too few samples for a filter: one slope
+  if (n < 3) {
+    const double moved = position[n - 1] - position[0];
+    return VectorXd::Constant(n, n == 1 ? 0 : moved / (time[1] - time[0]));
+  }
+  const double rate = SamplingRate(time);
+  // a cutoff near half the rate filters nothing
+  if (cutoff > 0.4 * rate) return Differences(time, position);
+
+  // evenly sampled positions are filtered as they are, others on an even grid and back
+  const std::vector<Biquad> filter = ButterworthLowPass(4, cutoff, rate);
+  const VectorXd steps = time.tail(n - 1) - time.head(n - 1);
+  if ((steps.array() * rate - 1).abs().maxCoeff() <= 0.01) {
+    return Differences(time, FilterZeroPhase(filter, position));
+  }
+  const VectorXd even = VectorXd::LinSpaced(n, time[0], time[n - 1]);
+  const VectorXd smooth = FilterZeroPhase(filter, Interpolate(time, position, even));
+  return Interpolate(even, Differences(even, smooth), time);
+}
+
+// MotionFromPositions: one speed for each segment, and the path between them.
 
 /// First and last sample and the turning points between them, ascending: a turning point is the
 /// furthest sample before it leads back by more than the hysteresis.
@@ -222,6 +281,39 @@ class MotionBuilder {
 };
 
 }  // namespace
+
+VectorXd DeriveVelocity(const VectorXd& time, const VectorXd& position, double cutoff) {
+  // piece by piece: nothing is known of the motion in a gap
+  VectorXd velocity(time.size());
+  for (const auto& [first, count] : PiecesOf(time)) {
+    velocity.segment(first, count) =
+        DerivePiece(time.segment(first, count), position.segment(first, count), cutoff);
+  }
+  return velocity;
+}
+
+double ChooseCutoff(const VectorXd& time, const VectorXd& position) {
+  constexpr double highest = 100;  // Hz
+  constexpr double lowest = 0.02;  // of the sampling rate
+  constexpr double accepted_noise =
+      0.01;  // of the velocity's rms; why: it takes 0.01^2 off a slope
+  const double rate = 1 / MedianStep(time);
+
+  // slope over a fiftieth of a second or one step, so that noise hardly enters the scale
+  const Index n = position.size();
+  const auto lag = std::clamp<Index>(static_cast<Index>(rate / 50), 1, n - 1);
+  const VectorXd slope =
+      (position.tail(n - lag) - position.head(n - lag)) * (rate / static_cast<double>(lag));
+  const double speed = std::sqrt(slope.squaredNorm() / static_cast<double>(slope.size()));
+
+  // white noise, or the rounding to steps of the encoder
+  const double noise = std::max(WhiteNoise(position), StepOfPosition(position) / std::sqrt(12.0));
+  if (noise == 0) return highest;
+  // below a cutoff f white noise leaves the velocity a variance of (2 pi noise)^2 2 f^3 / (3 rate)
+  const double ratio = accepted_noise * speed / (2 * std::numbers::pi * noise);
+  const double cutoff = std::cbrt(1.5 * ratio * ratio * rate);
+  return std::clamp(cutoff, std::min(lowest * rate, highest), highest);
+}
 
 FilledLog MotionFromPositions(const Measurements& measurements, const ConstantSpeed& found) {
   return MotionBuilder(measurements, FindPlateaus(measurements, found)).Fill(measurements);

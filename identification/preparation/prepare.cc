@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/preparation/derive_velocity.h"
 #include "identification/preparation/log_faults.h"
 #include "identification/preparation/motion_from_positions.h"
 #include "identification/preparation/position_noise.h"
@@ -61,6 +60,21 @@ void KeepAlso(const SampleMask& keep, LogView& log) {
   log.selection.keep(logged) = log.selection.keep(logged) && keep;
 }
 
+std::string SayCoarse(double step, JointKind joint) {
+  return fmt::format(
+      "the velocity column comes in steps of {:.3g} {}, and the positions show the speeds more "
+      "finely: the velocity is taken from the positions, and the column is not used",
+      step, kVelocityUnit.For(joint));
+}
+
+std::string SayContradiction(const PathComparison& paths) {
+  return fmt::format(
+      "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % "
+      "{} than that of the positions ({} changes)",
+      100 * std::abs(paths.excess), paths.excess < 0 ? "shorter" : "longer",
+      paths.transitions.size());
+}
+
 }  // namespace
 
 /// Makes the logs that Prepare promises, each of one recording.
@@ -74,7 +88,8 @@ struct PreparedLog::Maker {
     TakeOptions(holds, log.raw.measurements.time, log.raw.selection);
     if (level) {
       log.velocity_noise = level->noise;
-      log.constant_speed = {LogSamples(std::move(level->measurements)), log.raw.selection};
+      log.constant_speed = log.raw;
+      log.constant_speed->measurements.velocity = std::move(level->velocity);
     }
     if (auto split = SplitAtSwitches(log.constant_speed ? *log.constant_speed : log.raw)) {
       log.unresolved_path = split->unresolved_path;
@@ -101,77 +116,58 @@ struct PreparedLog::Maker {
     return log;
   }
 
-  /// By the positions, where the velocity column comes in steps so coarse that these show it, and have no faults.
-  static std::optional<Log> WithoutCoarseColumn(const Measurements& measurements,
-                                                const Selection& selection,
-                                                const PrepareSettings& holds) {
-    const std::optional<double> step = CoarseStep(measurements, selection);
-    if (!step) return {};
-    Log log = ByPositions(measurements, holds);
-    if (!log.faults.empty()) return {};
-    log.warnings.push_back(fmt::format(
-        "the velocity column comes in steps of {:.3g} {}, and the positions show the speeds more "
-        "finely: the velocity is taken from the positions, and the column is not used",
-        *step, kVelocityUnit.For(measurements.joint)));
-    return log;
-  }
-
-  /// By the positions, which contradict the velocity column over its changes of speed. Nothing where they have other
-  /// speeds than the column between these.
-  static std::optional<Log> WithoutColumn(const Measurements& measurements,
-                                          const Selection& selection,
-                                          const PrepareSettings& holds) {
-    Log log = ByPositions(measurements, holds);
-    if (!AgreesOnSpeeds(*log.constant_speed, measurements, selection.keep)) return {};
-    KeepAlso(selection.keep, log.raw);
-    KeepAlso(selection.keep, *log.constant_speed);
-    return log;
-  }
-
-  /// By the velocity column, compared with the positions: these replace it where they contradict it, and its changes of
-  /// speed where they know more of these.
+  /// By the velocity column, compared with the positions: these replace it where it comes in steps so coarse that they show
+  /// it, or contradicts them over its changes of speed, and its changes of speed where they know more of these.
   static Log ByBoth(const Measurements& measurements, const PrepareSettings& holds) {
     const ConstantSpeed found = FindConstantSpeed(measurements);
-    const Selection& selection = found.selection;
-    if (!measurements.position_integrated) {
-      if (auto log = WithoutCoarseColumn(measurements, selection, holds)) return std::move(*log);
+    if (measurements.position_integrated) return ByColumn(measurements, found.selection, holds);
+    std::optional<Log> by_positions;
+    if (const auto step = CoarseStep(measurements, found.selection)) {
+      by_positions = ByPositions(measurements, holds);
+      if (by_positions->faults.empty()) {
+        by_positions->warnings.push_back(SayCoarse(*step, measurements.joint));
+        return *std::move(by_positions);
+      }
     }
-    Log log = ByColumn(measurements, selection, holds);
-    if (measurements.position_integrated || !log.faults.empty()) return log;
+    Log log = ByColumn(measurements, found.selection, holds);
+    if (!log.faults.empty()) return log;
 
     // the paths from one segment to the next
     const FilledLog motion = MotionFromPositions(measurements, found);
-    const LogSamples& by_velocity =
-        (log.constant_speed ? *log.constant_speed : log.raw).measurements;
+    const LogSamples& by_column = (log.constant_speed ? *log.constant_speed : log.raw).measurements;
     const LogSamples& by_position = motion.view.measurements;
-    const auto paths = ComparePaths(by_velocity, by_position, selection.segments, measurements);
+    const auto paths = ComparePaths(by_column, by_position, found.selection.segments, measurements);
     if (!paths) return log;
-    if (!Contradicts(*paths)) {
-      const double deviation = MeasurePositionNoise(measurements.position).deviation;
-      if (PositionsTellMore(*paths, deviation)) {
-        log.constant_speed =
-            ReplaceTransitions(log.raw, by_velocity, by_position, paths->transitions);
-        log.unresolved_path = motion.unresolved_path;
-      }
-      return log;
+    if (Contradicts(*paths)) {
+      if (!by_positions) by_positions = ByPositions(measurements, holds);
+      return InsteadOf(std::move(log), *std::move(by_positions), *paths, found.selection.keep);
     }
-
-    const std::string contradiction = fmt::format(
-        "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % "
-        "{} than that of the positions ({} changes)",
-        100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer",
-        paths->transitions.size());
-    if (auto other = WithoutColumn(measurements, selection, holds)) {
-      other->warnings.push_back(contradiction +
-                                ": it is filtered, late, scaled or sampled too seldom, and the "
-                                "positions are used instead");
-      return std::move(*other);
+    const double deviation = MeasurePositionNoise(measurements.position).deviation;
+    if (PositionsTellMore(*paths, deviation)) {
+      log.constant_speed = ReplaceTransitions(log.raw, by_column, by_position, paths->transitions);
+      log.unresolved_path = motion.unresolved_path;
     }
-    log.warnings.push_back(
-        contradiction +
-        ", but by themselves these give other speeds: the clock jitters, or the positions are "
-        "spoilt, and the column is used");
     return log;
+  }
+
+  /// Of a log by its column and the same by the positions, which contradict that over its changes of speed, the one to be
+  /// believed: the former where the positions have other speeds than the column between these. keep: [N] of the column.
+  static Log InsteadOf(Log column, Log positions, const PathComparison& paths,
+                       const SampleMask& keep) {
+    const std::string contradiction = SayContradiction(paths);
+    if (!AgreesOnSpeeds(*positions.constant_speed, column.raw.measurements, keep)) {
+      column.warnings.push_back(
+          contradiction +
+          ", but by themselves these give other speeds: the clock jitters, or the positions are "
+          "spoilt, and the column is used");
+      return column;
+    }
+    KeepAlso(keep, positions.raw);
+    KeepAlso(keep, *positions.constant_speed);
+    positions.warnings.push_back(contradiction +
+                                 ": it is filtered, late, scaled or sampled too seldom, and the "
+                                 "positions are used instead");
+    return positions;
   }
 };
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <utility>
 
-#include "identification/preparation/insert_samples.h"
 #include "identification/preparation/log_faults.h"
 #include "identification/preparation/moving_view.h"
+#include "identification/preparation/transitions.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"

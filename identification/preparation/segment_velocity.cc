@@ -111,7 +111,8 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
   }
 
   SegmentVelocity taken{
-      measurements, {pooled.velocity_noise, pooled.Attenuation(variance), 0, pooled.mean_speed}};
+      measurements.velocity,
+      {pooled.velocity_noise, pooled.Attenuation(variance), 0, pooled.mean_speed}};
   double errors = 0;  // of a velocity, mean square over the samples
   // each segment moves at its own best velocity, and drifts where its slope is beyond doubt
   for (const Steady& one : all) {
@@ -122,8 +123,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
     errors += one.velocity.samples * velocity.error * velocity.error / pooled.count;
     for (Index i = one.segment->begin; i < one.segment->end; ++i) {
       if (!selection.keep[i]) continue;
-      taken.measurements.velocity[i] =
-          velocity.value + slope * (measurements.time[i] - one.velocity.time);
+      taken.velocity[i] = velocity.value + slope * (measurements.time[i] - one.velocity.time);
     }
   }
   // what the errors that remain take off a slope

@@ -7,9 +7,9 @@
 
 namespace warmjoint {
 
-/// A log whose kept samples have the velocity of their segment.
+/// What takes the place of a velocity column: the kept samples have the velocity of their segment.
 struct SegmentVelocity {
-  Measurements measurements;
+  Eigen::VectorXd velocity;  // [N] rad/s or m/s
   VelocityNoise noise;
 };
 

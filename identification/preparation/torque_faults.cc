@@ -14,12 +14,15 @@
 namespace warmjoint {
 namespace {
 
-constexpr Eigen::Index kLongRun = 20;  // kept samples of one torque; why 20: noise gives none
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kLongRun = 20;  // kept samples of one torque; why 20: noise gives none
 
 /// Samples in a row with exactly one torque.
 struct ConstantRun {
-  Eigen::Index begin = 0, end = 0;  // first sample, one past the last
-  Eigen::Index kept = 0;            // of them, how many are kept
+  Index begin = 0, end = 0;  // first sample, one past the last
+  Index kept = 0;            // of them, how many are kept
 };
 
 /// What neighbouring samples, both kept, say of the torque. Long runs do not count in the shares.
@@ -32,9 +35,7 @@ struct TorqueNoiseStatistics {
   bool IsNoisy() const { return turning > 0.2; }
 };
 
-using Eigen::Index;
-
-std::vector<ConstantRun> LongRuns(const Eigen::VectorXd& torque, const Selection& selection) {
+std::vector<ConstantRun> LongRuns(const VectorXd& torque, const Selection& selection) {
   std::vector<ConstantRun> runs;
   for (Index begin = 0, end = 0; begin < torque.size(); begin = end) {
     end = begin + 1;
@@ -53,7 +54,7 @@ double Share(Index part, Index whole) {
 
 TorqueNoiseStatistics MeasureTorqueNoise(const Measurements& measurements,
                                          const Selection& selection) {
-  const Eigen::VectorXd& torque = measurements.torque;
+  const VectorXd& torque = measurements.torque;
   TorqueNoiseStatistics noise;
   noise.long_runs = LongRuns(torque, selection);
 
@@ -82,9 +83,6 @@ TorqueNoiseStatistics MeasureTorqueNoise(const Measurements& measurements,
   noise.turning = Share(turning, triples);
   return noise;
 }
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 // ClippedTorque
 constexpr Index kPile = 10;            // samples at the extreme value
@@ -235,7 +233,7 @@ std::optional<std::string> StuckTorque(const Measurements& measurements,
 std::optional<std::string> DroppedTorque(const Measurements& measurements,
                                          const Selection& selection) {
   // short runs of exact zeros
-  const Eigen::VectorXd& torque = measurements.torque;
+  const VectorXd& torque = measurements.torque;
   Index drops = 0, first = -1;
   for (Index begin = 0, end = 0; begin < torque.size(); begin = end) {
     end = begin + 1;

@@ -64,15 +64,6 @@ double MedianByChange(const ArrayXd& values, const ArrayXd& change) {
   return 0;
 }
 
-/// Those of `values` where `takes` holds.
-ArrayXd Where(const SampleMask& takes, const ArrayXd& values) {
-  ArrayXd taken(takes.count());
-  for (Index i = 0, k = 0; i < values.size(); ++i) {
-    if (takes[i]) taken[k++] = values[i];
-  }
-  return taken;
-}
-
 double Integral(const Measurements& m, const Stretch& one) {
   double integral = 0;
   for (Index i = one.first + 1; i <= one.last; ++i) {
@@ -134,9 +125,9 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const ArrayXd ratio = integral / change;
   const double typical = MedianOf(bend.abs());
   const SampleMask least = bend.abs() <= typical;
-  const ArrayXd straight = Where(least, ratio);
+  const ArrayXd straight = Chosen(ratio, least);
   Factor factor;
-  factor.times = MedianByChange(straight, Where(least, change.abs()));
+  factor.times = MedianByChange(straight, Chosen(change.abs(), least));
   const double scatter = MedianOf((straight - factor.times).abs()) / kNormal;
   factor.error = std::sqrt(std::numbers::pi / 2 / static_cast<double>(straight.size())) * scatter;
   factor.by_position = MedianOf(change / duration);
@@ -147,7 +138,7 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
 
   // what a lag, long steps and a coarse column take off a right one
   const SampleMask bent = bend.abs() >= typical && bend != 0;
-  const double lag = MedianOf(Where(bent, (ratio - factor.times) / bend));
+  const double lag = MedianOf(Chosen((ratio - factor.times) / bend, bent));
   const double step = MedianStep(m.time);
   const double coarse = MedianOf(Resolution(m.velocity) * duration / change.abs());
   factor.allowed = (lag * lag + step * step / 12) * typical * typical +

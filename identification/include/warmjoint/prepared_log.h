@@ -78,7 +78,7 @@ struct LogFault {
 class PreparedLog {
  public:
   /// The log as it was taken: for fits that follow changes of speed from sample to sample. A
-  /// velocity that it lacks is the smoothed slope of its positions (derive_velocity.h).
+  /// velocity that it lacks is the smoothed slope of its positions (DeriveVelocity).
   const LogView& raw() const { return log_->raw; }
 
   /// The log as fits at constant speed see it.

@@ -37,8 +37,9 @@ struct Noisy {
   }
 };
 
-double LargestError(const Measurements& m, const Eigen::VectorXd& truth, const Selection& kept) {
-  return (kept.keep.select((m.velocity - truth).array(), 0.0)).abs().maxCoeff();
+double LargestError(const Eigen::VectorXd& velocity, const Eigen::VectorXd& truth,
+                    const Selection& kept) {
+  return (kept.keep.select((velocity - truth).array(), 0.0)).abs().maxCoeff();
 }
 
 TEST(SegmentVelocity, MeasuresNoiseAndAttenuation) {
@@ -70,7 +71,7 @@ TEST(SegmentVelocity, TakesWhatIsSurerOfPositionAndVelocity) {
   Selection selection = SelectConstantSpeed(m);
   auto taken = TakeSegmentVelocity(m, selection);
   ASSERT_TRUE(taken);
-  EXPECT_LT(LargestError(taken->measurements, fine.Truth(), selection), 1e-9) << "exact positions";
+  EXPECT_LT(LargestError(taken->velocity, fine.Truth(), selection), 1e-9) << "exact positions";
 
   // steps of 1 rad in 2 to 20 rad tell less than 200 samples of the velocity
   const Noisy coarse{.encoder = 1};
@@ -79,7 +80,7 @@ TEST(SegmentVelocity, TakesWhatIsSurerOfPositionAndVelocity) {
   taken = TakeSegmentVelocity(m, selection);
   ASSERT_TRUE(taken);
   const double deviation = 0.05 / std::sqrt(200.0);
-  const double error = LargestError(taken->measurements, coarse.Truth(), selection);
+  const double error = LargestError(taken->velocity, coarse.Truth(), selection);
   EXPECT_LT(error, 5 * deviation);
   EXPECT_GT(error, 0.1 * deviation);
 }
@@ -104,7 +105,7 @@ TEST(SegmentVelocity, KeepsADriftOfTheSpeed) {
   const auto taken = TakeSegmentVelocity(m, selection);
   ASSERT_TRUE(taken);
   EXPECT_NEAR(taken->noise.noise, 0.02, 0.02 * 0.028);
-  const Eigen::VectorXd rest = taken->measurements.velocity - drift - Noisy{}.Truth();
+  const Eigen::VectorXd rest = taken->velocity - drift - Noisy{}.Truth();
   // a line through 200 samples of 0.02: twice 0.02/sqrt(200) at its ends, four of these
   EXPECT_LT(rest.cwiseAbs().maxCoeff(), 8 * 0.02 / std::sqrt(200.0));
 }

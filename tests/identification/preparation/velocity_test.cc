@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/derive_velocity.h"
+#include "identification/preparation/motion_from_positions.h"
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/random_stream.h"
 #include "models/foundation/robust_noise.h"
