@@ -5,29 +5,19 @@
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
-namespace {
-
-double Median(const std::vector<double>& values) {
-  if (values.empty()) return 0;
-  Eigen::VectorXd all =
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  return MedianInPlace(all);
-}
-
-}  // namespace
 
 double KeptRuns::Step() const {
   std::vector<double> steps;
   for (const KeptRun& run : runs) {
     for (Eigen::Index i = run.begin + 1; i < run.end; ++i) steps.push_back(time[i] - time[i - 1]);
   }
-  return Median(steps);
+  return MedianOf(steps);
 }
 
 double KeptRuns::Duration() const {
   std::vector<double> durations;
   for (const KeptRun& run : runs) durations.push_back(time[run.end - 1] - time[run.begin]);
-  return Median(durations);
+  return MedianOf(durations);
 }
 
 KeptRuns FindRuns(const LogSamples& m, const Selection& selection) {

@@ -34,11 +34,9 @@ std::optional<double> OneAcceleration(const std::vector<std::optional<SpeedChang
   if (shown.size() < kFewestRamps) return std::nullopt;
 
   // how far they lie from it
-  using Column = Eigen::Map<const Eigen::VectorXd>;
-  Eigen::VectorXd all = Column(shown.data(), static_cast<Eigen::Index>(shown.size()));
-  const double acceleration = MedianInPlace(all);
-  all = (all.array() - acceleration).abs();
-  if (MedianInPlace(all) > kOneAcceleration * acceleration) return std::nullopt;
+  const double acceleration = MedianOf(shown);
+  for (double& one : shown) one = std::abs(one - acceleration);
+  if (MedianOf(shown) > kOneAcceleration * acceleration) return std::nullopt;
   return acceleration;
 }
 

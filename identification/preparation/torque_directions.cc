@@ -59,14 +59,10 @@ Cells FindCells(const Measurements& m) {
   }
 
   // medians, where there are enough
-  const auto median = [](const std::vector<double>& values) {
-    VectorXd copy = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-    return MedianInPlace(copy);
-  };
   Cells cells;
   for (const auto& [at, both] : torques) {
     if (std::min(both[0].size(), both[1].size()) < kFewestSamples) continue;
-    cells[at] = {median(both[0]), median(both[1])};
+    cells[at] = {MedianOf(both[0]), MedianOf(both[1])};
   }
   return cells;
 }

@@ -45,11 +45,6 @@ struct Factor {
   }
 };
 
-double MedianOf(const ArrayXd& values) {
-  VectorXd copy = values;
-  return copy.size() == 0 ? 0 : MedianInPlace(copy);
-}
-
 /// The value below which half of the change of position lies; a stretch counts no more than kMostChange times the median one.
 double MedianByChange(const ArrayXd& values, const ArrayXd& change) {
   const ArrayXd weight = change.min(kMostChange * MedianOf(change));

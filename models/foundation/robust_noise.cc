@@ -28,6 +28,13 @@ double Quantile(const std::vector<double>& sorted, double share) {
   return lower == upper ? lower : lower + beyond * (upper - lower);  // may be infinite
 }
 
+double MedianOf(Eigen::VectorXd values) { return values.size() > 0 ? MedianInPlace(values) : 0; }
+
+double MedianOf(const std::vector<double>& values) {
+  return MedianOf(Eigen::VectorXd(
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))));
+}
+
 double MedianStep(const Eigen::VectorXd& time) {
   const Eigen::Index n = time.size() - 1;
   Eigen::VectorXd steps = time.tail(n) - time.head(n);

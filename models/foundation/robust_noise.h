@@ -36,6 +36,10 @@ double Quantile(const std::vector<double>& sorted, double share);
 /// Median of x, which is reordered. x: [N], N at least 1.
 inline double MedianInPlace(Eigen::VectorXd& x) { return QuantileInPlace(x, 0.5); }
 
+/// Median; 0 of no values.
+double MedianOf(Eigen::VectorXd values);
+double MedianOf(const std::vector<double>& values);
+
 /// Median of the steps between sample times. time: [N] s, N at least 2; s.
 double MedianStep(const Eigen::VectorXd& time);
 

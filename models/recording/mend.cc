@@ -18,12 +18,6 @@ constexpr Eigen::Index kFewInAll =
     100;  // one sample in so many may go: that moves no estimate by more than its noise does
 constexpr std::size_t kFewestTicks = 10;  // that tell the step of a clock to a tenth
 
-double Median(const std::vector<double>& values) {
-  Eigen::VectorXd x =
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  return MedianInPlace(x);
-}
-
 /// Where the samples of each stamp begin, and the number of samples behind the last.
 std::vector<Eigen::Index> TicksOf(const Eigen::VectorXd& time) {
   std::vector<Eigen::Index> begin{0};
@@ -44,7 +38,7 @@ bool AreSeveral(const Eigen::VectorXd& position, const std::vector<Eigen::Index>
     }
   }
   // in ticks the first is a part of the second; noise makes both alike
-  return !within.empty() && Median(within) > 2 * Median(between);
+  return !within.empty() && MedianOf(within) > 2 * MedianOf(between);
 }
 
 /// Spreads the samples of each tick evenly over it.
@@ -56,7 +50,7 @@ std::string SpreadTicks(const std::vector<Eigen::Index>& begin, Eigen::VectorXd&
     lengths.push_back(time[begin[k + 1]] - time[begin[k]]);
     steps.push_back(lengths.back() / static_cast<double>(begin[k + 1] - begin[k]));
   }
-  const double tick = Median(lengths), step = Median(steps);
+  const double tick = MedianOf(lengths), step = MedianOf(steps);
 
   Eigen::VectorXd even(time.size());
   for (std::size_t k = 0; k < ticks; ++k) {
