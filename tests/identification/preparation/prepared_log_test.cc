@@ -2,6 +2,7 @@
 #include <warmjoint/errors.h>
 #include <warmjoint/prepared_log.h>
 
+#include "tests/identification/preparation/driven_joint.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -102,6 +103,28 @@ TEST(Join, RefusesAnotherUnitAndNothing) {
       },
       ThrowsMessage<BadInput>(HasSubstr("b: is of another joint or in another unit (A)")));
   EXPECT_THROW(Prepare(std::vector<Measurements>{}), BadInput);
+}
+
+TEST(Join, LeavesOutWhatIsAbsurdInEach) {
+  Measurements one = Recording("a", 900, 1, 0, 1), other = Recording("b", 600, 1, 0, 2);
+  other.torque[333] = -1e5;
+  const PreparedLog joined = Prepare(std::vector{one, other});
+  EXPECT_THAT(joined.faults(), ElementsAre(HasSubstr("b: torque is far out of range")));
+  const PreparedLog& without = joined.WithoutAbsurd();
+  EXPECT_TRUE(without.faults().empty());
+  EXPECT_FALSE(without.raw().selection.keep[900 + 333]);
+  EXPECT_FALSE(without.moving().selection.keep[900 + 333]);
+  EXPECT_EQ(&without.WithoutAbsurd(), &without);
+}
+
+TEST(PreparedLog, KnowsWhichSamplesWereLogged) {
+  // speeds change between two samples, where some are put in
+  const Measurements m = test::Carried({.rate = 10, .acceleration = 5}).log;
+  for (const PreparedLog& log : {Prepare(m), Prepare(std::vector{m, m})}) {
+    const LogSamples& all = log.constant_speed().measurements;
+    ASSERT_FALSE(all.put_in.empty());
+    EXPECT_EQ(Eigen::VectorXd(all.time(all.Logged())), log.raw().measurements.time);
+  }
 }
 
 TEST(PreparedLog, BeforeCutsTheRecordingsAtATime) {
