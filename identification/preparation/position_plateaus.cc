@@ -234,6 +234,7 @@ class PlateauSearch {
     for (size_t i = 0; i < found_.plateaus.size(); ++i) {
       Plateau& plateau = found_.plateaus[i];
       if (!plateau.line || !plateau.is_straight) continue;
+      // as far as its piece and its neighbours let it
       const Index lowest = PieceAt(found_.pieces, plateau.begin).first;
       const Index highest = PieceAt(found_.pieces, plateau.end - 1).end();
       const Index before = i > 0 ? found_.plateaus[i - 1].end : 0;

@@ -60,6 +60,7 @@ void KeepAlso(const SampleMask& keep, LogView& log) {
   log.selection.keep(logged) = log.selection.keep(logged) && keep;
 }
 
+/// That a velocity column is not used. step: of it, rad/s or m/s
 std::string SayCoarse(double step, JointKind joint) {
   return fmt::format(
       "the velocity column comes in steps of {:.3g} {}, and the positions show the speeds more "
@@ -67,6 +68,7 @@ std::string SayCoarse(double step, JointKind joint) {
       step, kVelocityUnit.For(joint));
 }
 
+/// That column and positions contradict each other; what is done about it follows.
 std::string SayContradiction(const PathComparison& paths) {
   return fmt::format(
       "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % "
@@ -121,6 +123,7 @@ struct PreparedLog::Maker {
   static Log ByBoth(const Measurements& measurements, const PrepareSettings& holds) {
     const ConstantSpeed found = FindConstantSpeed(measurements);
     if (measurements.position_integrated) return ByColumn(measurements, found.selection, holds);
+    // a column in steps so coarse that the positions show it
     std::optional<Log> by_positions;
     if (const auto step = CoarseStep(measurements, found.selection)) {
       by_positions = ByPositions(measurements, holds);
@@ -132,7 +135,7 @@ struct PreparedLog::Maker {
     Log log = ByColumn(measurements, found.selection, holds);
     if (!log.faults.empty()) return log;
 
-    // the paths from one segment to the next
+    // the paths from one segment to the next, by both
     const FilledLog motion = MotionFromPositions(measurements, found);
     const LogSamples& by_column = (log.constant_speed ? *log.constant_speed : log.raw).measurements;
     const LogSamples& by_position = motion.view.measurements;
@@ -142,6 +145,7 @@ struct PreparedLog::Maker {
       if (!by_positions) by_positions = ByPositions(measurements, holds);
       return InsteadOf(std::move(log), *std::move(by_positions), *paths, found.selection.keep);
     }
+    // speeds of the column, and between them the paths of the positions
     const double deviation = MeasurePositionNoise(measurements.position).deviation;
     if (PositionsTellMore(*paths, deviation)) {
       log.constant_speed = ReplaceTransitions(log.raw, by_column, by_position, paths->transitions);
