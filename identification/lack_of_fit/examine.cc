@@ -11,8 +11,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/fitted_model.h"
-#include "identification/lack_of_fit/lag.h"
-#include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/lack_of_fit/significance.h"
@@ -24,146 +22,95 @@
 namespace warmjoint {
 namespace {
 
-/// What tests over bins found.
-struct BinFindings {
-  std::vector<Finding> findings;  // one for each test that was asked, in the order of the table
-  Eigen::VectorXd explained;      // [m] what those rejected and the parameters take up, N.m or N
-};
-
 using Eigen::Index;
 
+constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
 constexpr Index kRowsAColumn = 3;
+constexpr double kRange =
+    3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
 
 /// The tests that are still open, with their features beside the present fit.
 struct Open {
-  std::vector<const LackOfFitTest*> tests;
   std::vector<Finding*> findings;
   std::vector<Features> features;
 
-  size_t size() const { return tests.size(); }
+  size_t size() const { return findings.size(); }
   void Close(size_t i) {
     const auto at = static_cast<std::ptrdiff_t>(i);
-    tests.erase(tests.begin() + at);
     findings.erase(findings.begin() + at);
     features.erase(features.begin() + at);
   }
 };
 
 /// The tests that there are rows for; the others say why not.
-Open Affordable(const std::vector<const LackOfFitTest*>& tests, const Bins& bins,
-                const Circumstances& known, const GrowingFit& fit, Index columns,
-                std::vector<Finding>& findings) {
+Open Affordable(const std::vector<Finding*>& findings, const Bins& bins, const Circumstances& known,
+                const GrowingFit& fit, Index columns) {
   Open open;
-  for (size_t i = 0; i < tests.size(); ++i) {
-    findings[i].test = tests[i];
-    Features features = tests[i]->features(bins, known, fit);
+  for (Finding* const finding : findings) {
+    Features features = finding->test->features(bins, known, fit);
     const Index more = features.columns.cols();
-    if (more == 0) {
-      findings[i].reason = tests[i]->absent;
-    } else if (kRowsAColumn * (columns + more) > bins.size()) {
-      findings[i].reason = fmt::format("{} samples or segments are too few for it", bins.size());
-    } else {
-      columns += more;
-      open.tests.push_back(tests[i]);
-      open.findings.push_back(&findings[i]);
-      open.features.push_back(std::move(features));
+    if (more == 0) continue;
+    if (kRowsAColumn * (columns + more) > bins.size()) {
+      finding->reason = fmt::format("{} samples or segments are too few for it", bins.size());
+      continue;
     }
+    columns += more;
+    open.findings.push_back(finding);
+    open.features.push_back(std::move(features));
   }
   return open;
 }
 
-/// Makes a test beside the present fit.
-void Make(const Open& open, size_t i, const GrowingFit& fit, const ErrorLevel& level) {
-  Finding made = fit.Test(open.features[i]);
-  made.test = open.tests[i];
-  if (!made.made) made.reason = kHeldByTheFit;
-  made.p_adjusted = level.Adjusted(made.p);
-  *open.findings[i] = std::move(made);
+/// Enters what a test found; a test that was not made leaves its row as it is.
+void Enter(std::optional<Finding> made, Finding& row) {
+  if (!made) return;
+  made->test = row.test;
+  row = std::move(*made);
 }
 
 /// Makes tests one after the other: of those that reject, the features of the largest gain join the
 /// fit, and the others are made again beside it, until none rejects. Too few rows for all features
 /// leave the last tests out: two rows in three are left to tell the noise.
-/// tests: rows of the table with features; residual: [m] mean tau - F of each bin; derivatives:
-/// [m x p] mean dF/dx.
-BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins& bins,
-                     const Eigen::VectorXd& residual, const Eigen::MatrixXd& derivatives,
-                     const Circumstances& known, ErrorLevel& level) {
+/// findings: of tests with features; residual: [m] mean tau - F of each bin; derivatives:
+/// [m x p] mean dF/dx; returns what those rejected and the parameters take up, [m] N.m or N.
+Eigen::VectorXd TestBins(const std::vector<Finding*>& findings, const Bins& bins,
+                         const Eigen::VectorXd& residual, const Eigen::MatrixXd& derivatives,
+                         const Circumstances& known, ErrorLevel& level) {
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}};
   GrowingFit fit(bins.weight, residual, derivatives, all);
-  BinFindings result;
-  result.findings.resize(tests.size());
-  Open open = Affordable(tests, bins, known, fit, derivatives.cols(), result.findings);
+  Open open = Affordable(findings, bins, known, fit, derivatives.cols());
   fit.LearnNoise(open.features);
 
   while (open.size() > 0) {
     // the test that rejects with the largest gain
     size_t best = open.size();
     for (size_t i = 0; i < open.size(); ++i) {
-      Make(open, i, fit, level);
-      const Finding& made = *open.findings[i];
-      if (!level.WouldReject(made.p) || made.explained <= 0) continue;
-      if (best == open.size() || made.gain > open.findings[best]->gain) best = i;
+      Finding made = fit.Test(open.features[i]);
+      if (!made.made) made.reason = kHeldByTheFit;
+      const bool rejects = level.WouldReject(made);
+      Enter(std::move(made), *open.findings[i]);
+      if (!rejects) continue;
+      if (best == open.size() || open.findings[i]->gain > open.findings[best]->gain) best = i;
     }
     if (best == open.size()) break;
 
     // joins the fit; scans look for their best candidate beside it
-    open.findings[best]->rejected = level.Rejects(open.findings[best]->p);
+    level.Rejects(*open.findings[best]);
     fit.Take(open.features[best]);
     open.Close(best);
     for (size_t i = 0; i < open.size(); ++i) {
       if (open.features[i].candidates == 1) continue;
-      open.features[i] = open.tests[i]->features(bins, known, fit);
+      open.features[i] = open.findings[i]->test->features(bins, known, fit);
     }
   }
-  result.explained = fit.Explained();
-  return result;
+  return fit.Explained();
 }
 
-/// Whether what the maps give goes with the energy, beside maps whose strength is free.
-/// residual: [N] tau - F; what is found is taken off it.
-Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLevel& level) {
-  Finding finding;
-  finding.test = FindLackOfFitTest("position_by_energy");
-  finding.reason = finding.test->absent;
-  if (!model.maps || !model.thermal) return finding;
-
-  // beside maps whose strength is free
-  const Selection& selection = model.selection;
-  const Eigen::MatrixXd maps = Kept(*model.maps, selection);
-  const Eigen::MatrixXd left = Kept(residual, selection);
-  const Features steady{maps}, fading{maps.cwiseProduct(Kept(model.energy, selection))};
-  GrowingFit fit(Eigen::VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection),
-                 selection);
-  fit.LearnNoise({steady, fading});
-  fit.Take(steady);
-  finding = fit.Test(fading);
-  finding.test = FindLackOfFitTest("position_by_energy");
-  finding.p_adjusted = level.Adjusted(finding.p);
-  if (finding.explained <= 0 || !level.Rejects(finding.p)) return finding;
-
-  // taken off the residual
-  finding.rejected = true;
-  fit.Take(fading);
-  const Eigen::VectorXd explained = fit.Explained();
-  Eigen::Index row = 0;
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (selection.keep[i]) residual[i] -= explained[row++];
-  }
-  return finding;
-}
-
-using Eigen::Index;
-
-constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
-constexpr double kRange =
-    3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
-
-/// The rows of the table that look at bins in one turn.
-std::vector<const LackOfFitTest*> Rows(Turn turn) {
-  std::vector<const LackOfFitTest*> rows;
-  for (const LackOfFitTest& test : LackOfFitTests()) {
-    if (test.turn == turn && test.features) rows.push_back(&test);
+/// The rows of one turn.
+std::vector<Finding*> InTurn(Turn turn, std::vector<Finding>& table) {
+  std::vector<Finding*> rows;
+  for (Finding& finding : table) {
+    if (finding.test->turn == turn) rows.push_back(&finding);
   }
   return rows;
 }
@@ -184,25 +131,17 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
   return "";
 }
 
-/// Puts findings where the table has their rows.
-void Enter(std::vector<Finding> some, std::vector<Finding>& table) {
-  for (Finding& one : some) {
-    const auto row = std::ranges::find(table, one.test, &Finding::test);
-    *row = std::move(one);
-  }
-}
-
 /// The tests over bins in one turn, on what is left; takes off what they find. rest: [N]
 void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
                 const Circumstances& known, Eigen::VectorXd& rest, ErrorLevel& level,
                 std::vector<Finding>& table) {
-  BinFindings made = TestBins(Rows(turn), bins, bins.Means(rest), derivatives, known, level);
+  const Eigen::VectorXd explained =
+      TestBins(InTurn(turn, table), bins, bins.Means(rest), derivatives, known, level);
   // what they found is taken off all samples of a bin alike
   for (Index c = 0; c < bins.size(); ++c) {
     const auto i = static_cast<size_t>(c);
-    for (Index n = bins.begin[i]; n < bins.end[i]; ++n) rest[n] -= made.explained[c];
+    for (Index n = bins.begin[i]; n < bins.end[i]; ++n) rest[n] -= explained[c];
   }
-  Enter(std::move(made.findings), table);
 }
 
 /// The tests of what changes within segments and stays from one to the next. A bristle's force
@@ -211,9 +150,10 @@ void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
 void TestWithin(const FittedModel& model, const LogSamples& m, const Bins& bins,
                 const Eigen::MatrixXd& derivatives, const Circumstances& known,
                 Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
+  using enum Turn;
   if (model.has_bristle) {
     for (Finding& finding : table) {
-      if (finding.test->turn != Turn::first) {
+      if (finding.test->turn != first) {
         finding.reason = "the law has a bristle, whose force follows the way by itself";
       }
     }
@@ -221,14 +161,17 @@ void TestWithin(const FittedModel& model, const LogSamples& m, const Bins& bins,
   }
 
   // samples first: they show what is too fine for bins
-  Enter({TestFading(model, rest, level)}, table);
-  Enter({TestLag(model, m, rest, level)}, table);
-  Enter(TestRipple(model, m, rest, level), table);
+  for (const Turn turn :
+       {fading, lag, motor_angle, motor_angle_by_speed, position, position_by_speed}) {
+    for (Finding* const row : InTurn(turn, table)) {
+      Enter(row->test->at_samples(*row->test, model, m, rest, level), *row);
+    }
+  }
 
   // then what returns with every hold, and last what is periodic in time
   const Bins within = BinsWithinHolds(m, model.selection);
-  TestInTurn(Turn::hold, within, DerivativesOver(within, model), known, rest, level, table);
-  TestInTurn(Turn::last, bins, derivatives, known, rest, level, table);
+  TestInTurn(hold, within, DerivativesOver(within, model), known, rest, level, table);
+  TestInTurn(last, bins, derivatives, known, rest, level, table);
 }
 
 /// How far a finding changes the friction, as the row of its test has it.

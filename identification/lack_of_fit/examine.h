@@ -9,7 +9,7 @@
 
 #include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
-#include "identification/lack_of_fit/finding.h"
+#include "identification/lack_of_fit/significance.h"
 
 namespace warmjoint {
 

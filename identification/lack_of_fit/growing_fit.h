@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/lack_of_fit/finding.h"
 #include "identification/lack_of_fit/orthonormal.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/uncertainty/noise_model.h"
 
 namespace warmjoint {

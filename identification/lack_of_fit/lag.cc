@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/lack_of_fit/growing_fit.h"
 #include "identification/lack_of_fit/rows_by_value.h"
 #include "models/foundation/robust_noise.h"
 
@@ -122,16 +123,13 @@ MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
 
 }  // namespace
 
-Finding TestLag(const FittedModel& model, const LogSamples& measurements, VectorXd& residual,
-                ErrorLevel& level) {
-  Finding finding;
-  finding.test = FindLackOfFitTest("lag");
-  finding.reason = finding.test->absent;
+std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, const LogSamples& m,
+                               VectorXd& residual, ErrorLevel& level) {
   const Selection& selection = model.selection;
-  if (selection.segments.size() < 2) return finding;
+  if (selection.segments.size() < 2) return std::nullopt;
   const VectorXd friction = model.torque - model.residual;
-  const Followers followers = AfterChanges(friction, measurements.time, selection);
-  if (followers.size() < kFewestRows) return finding;
+  const Followers followers = AfterChanges(friction, m.time, selection);
+  if (followers.size() < kFewestRows) return std::nullopt;
 
   // the decay that explains most beside the fit
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(followers.size(), true), {}};
@@ -145,15 +143,12 @@ Finding TestLag(const FittedModel& model, const LogSamples& measurements, Vector
   fit.ExplainedBy(decays).maxCoeff(&best);
   const Features decay{decays.col(best), kLags};
   fit.LearnNoise({decay});
-  finding = fit.Test(decay);
-  finding.test = FindLackOfFitTest("lag");
+  Finding finding = fit.Test(decay);
 
   // a lag leaves a share of what was before, not of what comes: the test has one side
   const double share = fit.CoefficientOf(decay.columns);
   if (share <= 0 || finding.explained <= 0) finding.p = 1;
-  finding.p_adjusted = level.Adjusted(finding.p);
-  if (!level.Rejects(finding.p)) return finding;
-  finding.rejected = true;
+  if (!level.Rejects(finding)) return finding;
   // the area under what is left, summed over the samples
   finding.lag = share * model.step / (1 - std::exp(-model.step / lags[best]));
 

@@ -4,10 +4,10 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/significance.h"
-#include "identification/lack_of_fit/table.h"
 
 namespace warmjoint {
 
@@ -18,7 +18,8 @@ namespace warmjoint {
 /// A torque that is late by d samples leaves all of F0 - F1 in d samples. The finding's lag is the
 /// area under what is left over F0 - F1, s: T for a first-order filter.
 /// residual: [N] tau - F; what is found is taken off it.
-Finding TestLag(const FittedModel& model, const LogSamples& measurements, Eigen::VectorXd& residual,
-                ErrorLevel& level);
+std::optional<Finding> TestLag(const LackOfFitTest& test, const FittedModel& model,
+                               const LogSamples& measurements, Eigen::VectorXd& residual,
+                               ErrorLevel& level);
 
 }  // namespace warmjoint

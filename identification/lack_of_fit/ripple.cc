@@ -9,7 +9,8 @@
 #include <unsupported/Eigen/FFT>
 
 #include "identification/fit_data.h"
-#include "identification/lack_of_fit/significance.h"
+#include "identification/lack_of_fit/growing_fit.h"
+#include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/waves.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
@@ -29,6 +30,19 @@ constexpr double kSamplesACycle = 16;    // why: two samples a bin
 constexpr int kSpeedFactors = 4;         // why: they tell five speeds apart
 constexpr double kSpeedsDiffer = 0.02;   // relative; why: bins take such speeds for one
 constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
+
+/// An angle, or a way, along which ripple is looked for.
+struct AngleAxis {
+  Eigen::VectorXd phase;  // [N] 0 to 1: way along the axis, or turn
+  double length = 1;      // of the axis, in its own unit
+  double step = 1;        // between frequencies, cycles along the axis
+  int frequencies = 8;    // step, 2 step, ...
+  /// [N] by which each sample's ripple is multiplied, as by a function of its speed; empty: by 1.
+  Eigen::VectorXd factor{};
+  int factors = 1;  // of which this one is tried
+
+  double FactorOf(Eigen::Index n) const { return factor.size() > 0 ? factor[n] : 1; }
+};
 
 /// The residual of the kept samples by bins of the axis, apart for each direction and part.
 class BinnedResidual {
@@ -192,7 +206,6 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
   const MatrixXd scatter = parts / (parts - static_cast<double>(q)) * scores * scores.transpose();
 
   Finding& finding = ripple.finding;
-  finding.test = axis.test;
   finding.made = true;
   // the strongest of many frequencies: each of them counts
   finding.p = std::min(
@@ -210,7 +223,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
 
 std::optional<AngleAxis> MotorAxis(const LogSamples& m) {
   if (!KnowsMotorAngle(m)) return std::nullopt;
-  AngleAxis axis{FindLackOfFitTest("motor_angle"), {}, 2 * std::numbers::pi, 1, kMotorHarmonics};
+  AngleAxis axis{{}, 2 * std::numbers::pi, 1, kMotorHarmonics};
   const Eigen::ArrayXd turns = MotorPosition(m).array() / axis.length;
   axis.phase = turns - turns.floor();
   return axis;
@@ -231,7 +244,7 @@ std::optional<AngleAxis> PositionAxis(const FittedModel& model, const LogSamples
   const double cycles = std::min(
       {travel / finest, kFinestPosition, static_cast<double>(kept.size()) / kSamplesACycle});
   if (cycles < 1) return std::nullopt;
-  AngleAxis axis{FindLackOfFitTest("position"), {}, travel, 0.5, static_cast<int>(2 * cycles)};
+  AngleAxis axis{{}, travel, 0.5, static_cast<int>(2 * cycles)};
   axis.phase = (m.position.array() - lower) / travel;
   return axis;
 }
@@ -254,75 +267,100 @@ MatrixXd SpeedFactors(const VectorXd& velocity, const Selection& selection) {
   return factors;
 }
 
-/// Ripple whose strength changes with the speed, as one finding: that of the strongest function of the speed.
-Finding TestBySpeed(AngleAxis axis, const VectorXd& velocity, const Selection& selection,
-                    VectorXd& residual, ErrorLevel& level) {
-  const MatrixXd factors = SpeedFactors(velocity, selection);
-  axis.factors = static_cast<int>(factors.cols());
-  Finding strongest;
-  double explained = 0;
-  for (Index k = 0; k < factors.cols(); ++k) {
-    axis.factor = factors.col(k);
-    ErrorLevel own = level;
-    Finding finding = TestAxis(axis, velocity, selection, residual, own);
-    if (finding.rejected) explained += finding.explained;
-    if (!strongest.test || finding.p < strongest.p) strongest = std::move(finding);
-  }
-  if (strongest.rejected) strongest.explained = explained;
-  if (strongest.rejected) level.Rejects(strongest.p);
-  return strongest;
+/// Along which a test looks; nothing where the log does not tell it.
+std::optional<AngleAxis> AxisOf(const LackOfFitTest& test, const FittedModel& model,
+                                const LogSamples& m) {
+  return test.over == SeenOver::motor_angle ? MotorAxis(m) : PositionAxis(model, m);
 }
 
-}  // namespace
-
-Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selection& selection,
-                 VectorXd& residual, ErrorLevel& level) {
+/// One axis, each of whose samples has one factor.
+std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
+                                const Selection& selection, VectorXd& residual, ErrorLevel& level) {
   BinnedResidual binned(axis, residual, velocity, selection);
-  Finding finding;
+  std::optional<Finding> strongest;
   for (int i = 0; i < kMost; ++i) {
     const MatrixXd totals = binned.Totals();
     const Peak peak = StrongestFrequency(axis, binned, totals);
     if (peak.index == 0) break;
     Ripple ripple = FitRipple(axis, peak.index, binned, totals);
-    ripple.finding.p_adjusted = level.Adjusted(ripple.finding.p);
-    const bool rejects = ripple.finding.explained > 0 && level.WouldReject(ripple.finding.p);
-    if (i == 0) finding = ripple.finding;
+    const bool rejects = level.WouldReject(ripple.finding);
+    if (!strongest) {
+      strongest = std::move(ripple.finding);
+    } else if (rejects) {
+      // of one axis as one: the strongest frequency stands for all
+      strongest->explained += ripple.finding.explained;
+    }
     if (!rejects) break;
-
-    // of one axis as one: the strongest frequency stands for all
-    if (i > 0) finding.explained += ripple.finding.explained;
-    finding.rejected = true;
     binned.TakeOff(ripple.waves);
   }
-  if (!finding.rejected) return finding;
+  if (!strongest || !level.Rejects(*strongest)) return strongest;
 
   // one rejection for the whole axis, and all of its waves off the residual
-  level.Rejects(finding.p);
   for (Index i = 0; i < residual.size(); ++i) {
     if (!selection.keep[i]) continue;
     residual[i] -= axis.FactorOf(i) * binned.Taken(axis.phase[i], velocity[i]);
   }
-  return finding;
+  return strongest;
 }
 
-std::vector<Finding> TestRipple(const FittedModel& model, const LogSamples& m, VectorXd& residual,
-                                ErrorLevel& level) {
-  std::vector<Finding> findings;
-  const auto add = [&](Finding finding) {
-    if (finding.test) findings.push_back(std::move(finding));
-  };
-  for (auto axis : {MotorAxis(m), PositionAxis(model, m)}) {
-    if (!axis) continue;
-    add(TestAxis(*axis, m.velocity, model.selection, residual, level));
-    // a map follows the ripple at the mean of the speeds
-    const bool is_motor = axis->test == FindLackOfFitTest("motor_angle");
-    const MapQuantity quantity = is_motor ? MapQuantity::motor_position : MapQuantity::position;
-    if (std::ranges::find(model.mapped, quantity) == model.mapped.end()) continue;
-    axis->test = is_motor ? FindLackOfFitTest("motor_angle_by_speed")
-                          : FindLackOfFitTest("position_by_speed");
-    add(TestBySpeed(*axis, m.velocity, model.selection, residual, level));
+}  // namespace
+
+std::optional<Finding> TestRipple(const LackOfFitTest& test, const FittedModel& model,
+                                  const LogSamples& m, VectorXd& residual, ErrorLevel& level) {
+  const std::optional<AngleAxis> axis = AxisOf(test, model, m);
+  if (!axis) return std::nullopt;
+  return TestAxis(*axis, m.velocity, model.selection, residual, level);
+}
+
+std::optional<Finding> TestRippleBySpeed(const LackOfFitTest& test, const FittedModel& model,
+                                         const LogSamples& m, VectorXd& residual,
+                                         ErrorLevel& level) {
+  const bool is_motor = test.over == SeenOver::motor_angle;
+  const MapQuantity angle = is_motor ? MapQuantity::motor_position : MapQuantity::position;
+  if (std::ranges::find(model.mapped, angle) == model.mapped.end()) return std::nullopt;
+  std::optional<AngleAxis> axis = AxisOf(test, model, m);
+  if (!axis) return std::nullopt;
+
+  // as one finding: that of the strongest function of the speed
+  const MatrixXd factors = SpeedFactors(m.velocity, model.selection);
+  axis->factors = static_cast<int>(factors.cols());
+  std::optional<Finding> strongest;
+  double explained = 0;
+  for (const auto& factor : factors.colwise()) {
+    axis->factor = factor;
+    ErrorLevel own = level;
+    std::optional<Finding> one = TestAxis(*axis, m.velocity, model.selection, residual, own);
+    if (!one) continue;
+    if (one->rejected) explained += one->explained;
+    if (!strongest || one->p < strongest->p) strongest = std::move(one);
   }
-  return findings;
+  if (strongest && level.Rejects(*strongest)) strongest->explained = explained;
+  return strongest;
+}
+
+std::optional<Finding> TestFading(const LackOfFitTest&, const FittedModel& model, const LogSamples&,
+                                  VectorXd& residual, ErrorLevel& level) {
+  if (!model.maps || !model.thermal) return std::nullopt;
+
+  // beside maps whose strength is free
+  const Selection& selection = model.selection;
+  const MatrixXd maps = Kept(*model.maps, selection);
+  const MatrixXd left = Kept(residual, selection);
+  const Features steady{maps}, fading{maps.cwiseProduct(Kept(model.energy, selection))};
+  GrowingFit fit(VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection), selection);
+  fit.LearnNoise({steady, fading});
+  fit.Take(steady);
+  Finding finding = fit.Test(fading);
+  if (!level.Rejects(finding)) return finding;
+
+  // taken off the residual
+  fit.Take(fading);
+  const VectorXd explained = fit.Explained();
+  Index row = 0;
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (selection.keep[i]) residual[i] -= explained[row++];
+  }
+  return finding;
 }
 
 }  // namespace warmjoint

@@ -1,11 +1,23 @@
 #include "identification/lack_of_fit/significance.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
+
+bool ErrorLevel::WouldReject(Finding& finding) const {
+  finding.p_adjusted = std::min(1.0, finding.p * std::max(remaining_, 1));
+  return finding.explained > 0 && finding.p_adjusted <= level_;
+}
+
+bool ErrorLevel::Rejects(Finding& finding) {
+  finding.rejected = WouldReject(finding);
+  remaining_ -= finding.rejected;
+  return finding.rejected;
+}
 
 double HotellingPValue(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& scatter,
                        double groups) {

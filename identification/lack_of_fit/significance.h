@@ -1,10 +1,37 @@
-// How far from chance a sum over parts of a recording is.
+// What one test for lack of fit found in a residual, and how far that is from chance.
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
+#include <string>
 
 namespace warmjoint {
+
+struct LackOfFitTest;
+
+/// Outcome of a test. A test that was not made keeps p = 1 and says why.
+struct Finding {
+  const LackOfFitTest* test = nullptr;
+  bool made = false;
+  std::string reason;     // why not made
+  double p = 1;           // by chance, the candidates within the test counted
+  double p_adjusted = 1;  // the tests of the log counted (ErrorLevel)
+  bool rejected = false;
+  double explained = 0;  // squares of the residual's samples that it explains, less the noise's
+  double gain = 0;       // the same less ln(m) times the noise's variance for each feature, as BIC
+      // has it: of two that explain as much, the one with fewer features gains more
+  /// Of a ripple, in the unit of the angle; of what is periodic in time, or the time constant of a memory,
+  /// s; 0: none.
+  double period = 0;
+  double lag = 0;         // of the torque behind the velocity, s; 0: none
+  double alike = 0;       // share of an angle's part that acts alike in both directions
+  Eigen::VectorXd moves;  // [p] change of the fit's parameters when the features join it; or empty
+  Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`
+  double harm =
+      0;  // of one that was rejected: how far it changes the friction, as a share of its rms (HarmOf)
+};
+
+/// Parts of a recording that count as independent of each other: noise may be coloured within them.
+inline constexpr Eigen::Index kParts = 32;
 
 /// Share of the logs without any lack of fit in which a test of the table finds one by chance.
 inline constexpr double kErrorLevel = 0.01;
@@ -17,17 +44,11 @@ class ErrorLevel {
   /// tests: all of the log, those counted that come later.
   explicit ErrorLevel(int tests, double level = kErrorLevel) : remaining_(tests), level_(level) {}
 
-  double Adjusted(double p) const { return std::min(1.0, p * std::max(remaining_, 1)); }
+  /// Counts the tests of the log in a finding's probability; whether it is then beyond chance, and explains anything.
+  bool WouldReject(Finding& finding) const;
 
-  /// Whether a test with that p-value rejects.
-  bool WouldReject(double p) const { return Adjusted(p) <= level_; }
-
-  /// The same; the next tests then count as one fewer.
-  bool Rejects(double p) {
-    if (!WouldReject(p)) return false;
-    --remaining_;
-    return true;
-  }
+  /// The same, entered in the finding; the next tests then count as one fewer.
+  bool Rejects(Finding& finding);
 
  private:
   int remaining_;

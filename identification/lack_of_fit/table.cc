@@ -8,7 +8,9 @@
 
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/features.h"
+#include "identification/lack_of_fit/lag.h"
 #include "identification/lack_of_fit/remedies.h"
+#include "identification/lack_of_fit/ripple.h"
 
 namespace warmjoint {
 namespace {
@@ -137,35 +139,41 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        RemedyForStep, "Does it jump at some moment?",
        "Something changed in the middle of the log (load, controller, grease): record again, or "
        "cut the log there."},
-      {"lag", "too few samples follow a change of speed", sample, independent, of_either_twice,
+      {"lag", "too few samples follow a change of speed", lag, independent, of_either_twice,
        SeenOver::time, nullptr, Lag, RemedyForLag, "Does the torque lag behind changes of speed?",
        "The torque column is filtered or delayed: raise --trim, so that samples after each change "
-       "of speed are left out."},
-      {"position_by_energy", "the fit has no map beside a warming", sample, independent, of_moves,
+       "of speed are left out.",
+       TestLag},
+      {"position_by_energy", "the fit has no map beside a warming", fading, independent, of_moves,
        SeenOver::position, nullptr, Say<kFading>, RemedyForFading,
        "Does the pattern over position change with warmth?",
        "The pattern over position fades or grows as the joint warms: let the map depend on "
-       "energy."},
-      {"position", "the log has no positions, or too short a travel for its speed", sample,
+       "energy.",
+       TestFading},
+      {"position", "the log has no positions, or too short a travel for its speed", position,
        independent, of_effect, SeenOver::position, nullptr, Position, RemedyForPosition,
        "Does it repeat over position?",
        "Friction varies over position: try --identifier position-ridge, with motion over the whole "
-       "travel."},
-      {"motor_angle", "the log has neither a gear nor the column motor_position", sample,
+       "travel.",
+       TestRipple},
+      {"motor_angle", "the log has neither a gear nor the column motor_position", motor_angle,
        independent, of_effect, SeenOver::motor_angle, nullptr, MotorAngle, RemedyForMotorAngle,
        "Does it repeat over the motor's angle?",
        "The motor or the gear ripples: give --gear or a column motor_position and try --identifier "
-       "motor-ridge."},
-      {"position_by_speed", kNoMapOrOneSpeed, sample, independent, of_effect, SeenOver::position,
-       nullptr, BySpeed<Position>, RemedyForAngleBySpeed,
+       "motor-ridge.",
+       TestRipple},
+      {"position_by_speed", kNoMapOrOneSpeed, position_by_speed, independent, of_effect,
+       SeenOver::position, nullptr, BySpeed<Position>, RemedyForAngleBySpeed,
        "Does the pattern over position change with speed?",
        "The pattern over position changes with speed: let the map depend on speed (--set "
-       "basis=velocity), or give it more kernels over speed."},
-      {"motor_angle_by_speed", kNoMapOrOneSpeed, sample, independent, of_effect,
+       "basis=velocity), or give it more kernels over speed.",
+       TestRippleBySpeed},
+      {"motor_angle_by_speed", kNoMapOrOneSpeed, motor_angle_by_speed, independent, of_effect,
        SeenOver::motor_angle, nullptr, BySpeed<MotorAngle>, RemedyForAngleBySpeed,
        "Does the pattern over the motor's angle change with speed?",
        "The motor's ripple changes with speed: give its map more kernels over speed (--set "
-       "velocity_kernels)."},
+       "velocity_kernels).",
+       TestRippleBySpeed},
       {"hold_parity", kNoHolds, hold, independent, of_either, SeenOver::time, OfHoldParity,
        Say<kParity>, RemedyForHolds, "Is every other hold of constant speed different?",
        "Holds alternate: look whether the two directions have the same load."},

@@ -1,13 +1,16 @@
 // The tests for lack of fit: what each asks of a residual, what it is called, what would help.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "identification/identifier.h"
 #include "identification/lack_of_fit/circumstances.h"
+#include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/growing_fit.h"
+#include "identification/lack_of_fit/significance.h"
 
 namespace warmjoint {
 
@@ -20,8 +23,18 @@ struct Advice {
 };
 
 /// When a test looks: at what is known to act on friction first, then at what changes within each segment of
-/// constant speed, at samples and then at bins within them, then at what stays.
-enum class Turn { first, sample, hold, last };
+/// constant speed, at samples, where each test has a turn of its own, and then at bins within them, then at what stays.
+enum class Turn {
+  first,
+  fading,
+  lag,
+  motor_angle,
+  motor_angle_by_speed,
+  position,
+  position_by_speed,
+  hold,
+  last
+};
 
 /// What a fitted warming may have taken up of that which a test looks for; `starts`: that the log began warm.
 enum class HeatRelation { independent, confounded, starts };
@@ -46,7 +59,7 @@ struct LackOfFitTest {
   Harm harm = Harm::of_moves;
   SeenOver over = SeenOver::time;
   /// Features over the bins, the best of several candidates beside the fit; of a test that looks
-  /// at samples (lag.h, ripple.h): none.
+  /// at samples: none.
   Features (*features)(const Bins& bins, const Circumstances& known,
                        const GrowingFit& fit) = nullptr;
   /// What the residual depends on, in a message.
@@ -55,6 +68,11 @@ struct LackOfFitTest {
   std::string (*remedy)(const Advice& advice) = nullptr;
   // for those who never saw warmjoint: what it asks of the residual, and what helps where the answer is yes
   std::string_view question, advice;
+  /// What a test that looks at samples (lag.h, ripple.h) finds; nothing where it is not made.
+  /// residual: [N] tau - F; what is found is taken off it.
+  std::optional<Finding> (*at_samples)(const LackOfFitTest& test, const FittedModel& model,
+                                       const LogSamples& measurements, Eigen::VectorXd& residual,
+                                       ErrorLevel& level) = nullptr;
 };
 
 /// All rows. Of those over bins the ones that come first are made first where the rows are too few
