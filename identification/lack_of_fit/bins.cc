@@ -102,19 +102,20 @@ Bins Gather(const LogSamples& measurements, const Selection& selection, Index pa
   return bins;
 }
 
-/// Means of C columns from `column` on. all: [N x c]; means: [m x c]
+/// Means of C columns from `column` on. all: [N x c]; keep: as Means; means: [m x c]
 template <int C>
-void WriteMeans(const Bins& bins, const Eigen::Ref<const Eigen::MatrixXd>& all, Index column,
-                Eigen::MatrixXd& means) {
+void WriteMeans(const Bins& bins, const Eigen::Ref<const Eigen::MatrixXd>& all, const bool* keep,
+                Index column, Eigen::MatrixXd& means) {
   const Index stride = all.outerStride();
   const double* values = all.data() + column * stride;
   for (Index c = 0; c < bins.size(); ++c) {
     const Index begin = bins.begin[static_cast<size_t>(c)], end = bins.end[static_cast<size_t>(c)];
     double sums[C] = {};
     for (Index n = begin; n < end; ++n) {
+      if (keep && !keep[n]) continue;
       for (int k = 0; k < C; ++k) sums[k] += values[n + k * stride];
     }
-    for (int k = 0; k < C; ++k) means(c, column + k) = sums[k] / static_cast<double>(end - begin);
+    for (int k = 0; k < C; ++k) means(c, column + k) = sums[k] / bins.weight[c];
   }
 }
 
@@ -130,13 +131,20 @@ Bins BinsWithinHolds(const LogSamples& measurements, const Selection& selection)
   return Gather(measurements, selection, parts);
 }
 
-Eigen::MatrixXd Bins::Means(const Eigen::Ref<const Eigen::MatrixXd>& all) const {
+Eigen::MatrixXd Bins::Means(const Eigen::Ref<const Eigen::MatrixXd>& all, const bool* keep) const {
   Eigen::MatrixXd means(size(), all.cols());
   // four columns in one pass, so that a bin's few samples cost no loop each
   Index column = 0;
-  for (; column + 4 <= all.cols(); column += 4) WriteMeans<4>(*this, all, column, means);
-  for (; column < all.cols(); ++column) WriteMeans<1>(*this, all, column, means);
+  for (; column + 4 <= all.cols(); column += 4) WriteMeans<4>(*this, all, keep, column, means);
+  for (; column < all.cols(); ++column) WriteMeans<1>(*this, all, keep, column, means);
   return means;
+}
+
+void Bins::TakeOff(const Eigen::VectorXd& numbers, Eigen::VectorXd& all) const {
+  for (Index c = 0; c < size(); ++c) {
+    const auto i = static_cast<size_t>(c);
+    all.segment(begin[i], end[i] - begin[i]).array() -= numbers[c];
+  }
 }
 
 }  // namespace warmjoint

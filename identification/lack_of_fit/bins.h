@@ -15,7 +15,7 @@ namespace warmjoint {
 struct Bins {
   std::vector<Eigen::Index> begin;  // [m] first sample
   std::vector<Eigen::Index> end;    // [m] one past the last
-  Eigen::VectorXd weight;           // [m] number of samples
+  Eigen::VectorXd weight;           // [m] number of samples, of those kept where they are asked for
   Eigen::VectorXd velocity;         // [m] mean, rad/s or m/s
   Eigen::VectorXd time;             // [m] middle, share of the recording, 0 to 1
   Eigen::VectorXd hold;             // [m] index of the segment; [0] where none are known
@@ -23,8 +23,12 @@ struct Bins {
 
   Eigen::Index size() const { return weight.size(); }
 
-  /// Means over each bin. all: [N x c] over all samples; returns [m x c].
-  Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
+  /// Means over each bin, of those samples alone that are kept where that is given. all: [N x c] over all samples;
+  /// keep: [N] or none; returns [m x c].
+  Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all,
+                        const bool* keep = nullptr) const;
+  /// Takes one number of each bin off all of its samples alike. numbers: [m]; all: [N]
+  void TakeOff(const Eigen::VectorXd& numbers, Eigen::VectorXd& all) const;
 };
 
 /// Means over each bin of rows that are made one after the other: row(n, numbers) makes that of sample n and is called for

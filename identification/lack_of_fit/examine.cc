@@ -135,13 +135,8 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
 void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
                 const Circumstances& known, Eigen::VectorXd& rest, ErrorLevel& level,
                 std::vector<Finding>& table) {
-  const Eigen::VectorXd explained =
-      TestBins(InTurn(turn, table), bins, bins.Means(rest), derivatives, known, level);
-  // what they found is taken off all samples of a bin alike
-  for (Index c = 0; c < bins.size(); ++c) {
-    const auto i = static_cast<size_t>(c);
-    for (Index n = bins.begin[i]; n < bins.end[i]; ++n) rest[n] -= explained[c];
-  }
+  bins.TakeOff(TestBins(InTurn(turn, table), bins, bins.Means(rest), derivatives, known, level),
+               rest);
 }
 
 /// The tests of what changes within segments and stays from one to the next. A bristle's force

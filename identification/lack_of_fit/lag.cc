@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
+#include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/growing_fit.h"
 #include "identification/lack_of_fit/rows_by_value.h"
 #include "models/foundation/robust_noise.h"
@@ -19,61 +21,21 @@ constexpr Index kFewestRows = 40;
 constexpr int kLags = 14;     // time constants that are tried
 constexpr Index kSingle = 4;  // samples of a segment that stay by themselves
 
-/// A run of samples that follow a change of friction.
-struct Follower {
-  Index begin, end;  // samples
-  double kept;       // of them
-  double since;      // mean time since the segment began, s
-  double drop;       // F0 - F1, N.m or N
-};
-
+/// Runs of samples that follow a change of friction.
 struct Followers {
-  std::vector<Follower> rows;
+  Bins runs;                  // their weight: kept samples
+  std::vector<double> since;  // [m] mean time since the segment began, s
+  std::vector<double> drop;   // [m] F0 - F1, N.m or N
   std::vector<double> holds;  // durations of the segments, s
-
-  Index size() const { return static_cast<Index>(rows.size()); }
-  /// One number of each row.
-  VectorXd Column(double Follower::*member) const {
-    VectorXd column(size());
-    std::ranges::transform(rows, column.begin(), member);
-    return column;
-  }
 };
 
-/// Means over the kept samples of each row, of C columns from `column` on. means: [rows x c]
-template <int C>
-void WriteMeans(const Followers& followers, const Selection& selection,
-                const Eigen::Ref<const MatrixXd>& columns, Index column, MatrixXd& means) {
-  const Index stride = columns.outerStride(), size = means.rows();
-  const double* values = columns.data() + column * stride;
-  double* mean = means.data() + column * size;
-  for (const Follower& row : followers.rows) {
-    // most rows are a kept sample by itself
-    const bool single = row.end - row.begin == 1;
-    double sums[C] = {};
-    for (Index i = row.begin; i < row.end; ++i) {
-      if (!single && !selection.keep[i]) continue;
-      for (int k = 0; k < C; ++k) sums[k] += values[i + k * stride];
-    }
-    for (int k = 0; k < C; ++k) mean[k * size] = single ? sums[k] : sums[k] / row.kept;
-    ++mean;
-  }
+VectorXd AsVector(const std::vector<double>& numbers) {
+  return Eigen::Map<const VectorXd>(numbers.data(), std::ssize(numbers));
 }
 
-/// Of all columns. columns: [N x c]; returns [rows x c].
-MatrixXd Means(const Followers& followers, const Selection& selection,
-               const Eigen::Ref<const MatrixXd>& columns) {
-  MatrixXd means(followers.size(), columns.cols());
-  // four columns in one pass, so that a row's few samples cost no loop each
-  Index c = 0;
-  for (; c + 4 <= columns.cols(); c += 4) WriteMeans<4>(followers, selection, columns, c, means);
-  for (; c < columns.cols(); ++c) WriteMeans<1>(followers, selection, columns, c, means);
-  return means;
-}
-
-/// The rows of one segment: single samples first, then runs that grow by half.
+/// The runs of one segment: single samples first, then runs that grow by half. weight: goes on
 void AddSegment(const Segment& segment, double drop, const VectorXd& time,
-                const Selection& selection, Followers& followers) {
+                const Selection& selection, Followers& followers, std::vector<double>& weight) {
   Index begin = segment.begin;
   while (begin < segment.end) {
     // the further from the change, the longer the runs: half of what has passed
@@ -86,7 +48,13 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
       kept += 1;
       since += time[i] - time[segment.begin];
     }
-    if (kept > 0) followers.rows.push_back({begin, end, kept, since / kept, drop});
+    if (kept > 0) {
+      followers.runs.begin.push_back(begin);
+      followers.runs.end.push_back(end);
+      weight.push_back(kept);
+      followers.since.push_back(since / kept);
+      followers.drop.push_back(drop);
+    }
     begin = end;
   }
 }
@@ -94,15 +62,17 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
 /// Segments that follow another one after less than that one's duration. friction: [N] of the fit
 Followers AfterChanges(const VectorXd& friction, const VectorXd& time, const Selection& selection) {
   Followers followers;
-  followers.rows.reserve(static_cast<size_t>(time.size()));
+  std::vector<double> weight;
   for (size_t s = 1; s < selection.segments.size(); ++s) {
     const Segment &before = selection.segments[s - 1], &after = selection.segments[s];
     const double pause = time[after.begin] - time[before.end - 1];
     const double held = time[before.end - 1] - time[before.begin];
     if (pause > std::max(held, 2 * (time[before.begin + 1] - time[before.begin]))) continue;
-    AddSegment(after, friction[before.end - 1] - friction[after.begin], time, selection, followers);
+    AddSegment(after, friction[before.end - 1] - friction[after.begin], time, selection, followers,
+               weight);
     followers.holds.push_back(time[after.end - 1] - time[after.begin]);
   }
+  followers.runs.weight = AsVector(weight);
   return followers;
 }
 
@@ -117,8 +87,7 @@ MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
   const auto decay = [&](const Eigen::ArrayXd& since) -> MatrixXd {
     return (-since.matrix() * lags.cwiseInverse().transpose()).array().exp();
   };
-  return followers.Column(&Follower::drop).asDiagonal() *
-         RowsByValue(followers.Column(&Follower::since), decay);
+  return AsVector(followers.drop).asDiagonal() * RowsByValue(AsVector(followers.since), decay);
 }
 
 }  // namespace
@@ -129,14 +98,14 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
   if (selection.segments.size() < 2) return std::nullopt;
   const VectorXd friction = model.torque - model.residual;
   const Followers followers = AfterChanges(friction, m.time, selection);
-  if (followers.size() < kFewestRows) return std::nullopt;
+  const Bins& runs = followers.runs;
+  if (runs.size() < kFewestRows) return std::nullopt;
 
   // the decay that explains most beside the fit
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(followers.size(), true), {}};
-  GrowingFit fit(followers.Column(&Follower::kept), Means(followers, selection, residual),
-                 Means(followers, selection, model.derivatives), all);
-  VectorXd holds = Eigen::Map<const VectorXd>(followers.holds.data(),
-                                              static_cast<Index>(followers.holds.size()));
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(runs.size(), true), {}};
+  const bool* const keep = selection.keep.data();
+  GrowingFit fit(runs.weight, runs.Means(residual, keep), runs.Means(model.derivatives, keep), all);
+  VectorXd holds = AsVector(followers.holds);
   const VectorXd lags = TimeConstants(model.step, MedianInPlace(holds));
   const MatrixXd decays = Decays(followers, lags);
   Index best = 0;
@@ -154,11 +123,7 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
 
   // taken off the residual
   fit.Take(decay);
-  const VectorXd explained = fit.Explained();
-  for (Index i = 0; i < followers.size(); ++i) {
-    const Follower& row = followers.rows[static_cast<size_t>(i)];
-    residual.segment(row.begin, row.end - row.begin).array() -= explained[i];
-  }
+  runs.TakeOff(fit.Explained(), residual);
   return finding;
 }
 
