@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "identification/fit_data.h"
+#include "identification/lack_of_fit/assumptions.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/rounding.h"
-#include "identification/lack_of_fit/sensitivity.h"
 #include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
-#include "identification/lack_of_fit/undetected_bias.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 
@@ -71,14 +70,13 @@ void Enter(std::optional<Finding> made, Finding& row) {
 /// Makes tests one after the other: of those that reject, the features of the largest gain join the
 /// fit, and the others are made again beside it, until none rejects. Too few rows for all features
 /// leave the last tests out: two rows in three are left to tell the noise.
-/// findings: of tests with features; residual: [m] mean tau - F of each bin; derivatives:
-/// [m x p] mean dF/dx; returns what those rejected and the parameters take up, [m] N.m or N.
+/// findings: of tests with features; residual: [m] mean tau - F of each bin; begin: the fit by mean dF/dx;
+/// returns what those rejected and the parameters take up, [m] N.m or N.
 Eigen::VectorXd TestBins(const std::vector<Finding*>& findings, const Bins& bins,
-                         const Eigen::VectorXd& residual, const Eigen::MatrixXd& derivatives,
+                         const Eigen::VectorXd& residual, const WeighedFit& begin,
                          const Circumstances& known, ErrorLevel& level) {
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}};
-  GrowingFit fit(bins.weight, residual, derivatives, all);
-  Open open = Affordable(findings, bins, known, fit, derivatives.cols());
+  GrowingFit fit(begin, residual, AllOf(bins.size()));
+  Open open = Affordable(findings, bins, known, fit, begin.norms.size());
   fit.LearnNoise(open.features);
 
   while (open.size() > 0) {
@@ -131,21 +129,26 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
   return "";
 }
 
+/// Of the parameters, of the jumps at gaps, and of heat within the steps where that matters (held_loss.h), over
+/// bins. [m x (p + ...)]
+Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
+  const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);
+  return model.held_loss ? ConcatColumns(derivatives, bins.Means(*model.held_loss)) : derivatives;
+}
+
 /// The tests over bins in one turn, on what is left; takes off what they find. rest: [N]
-void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
-                const Circumstances& known, Eigen::VectorXd& rest, ErrorLevel& level,
-                std::vector<Finding>& table) {
-  bins.TakeOff(TestBins(InTurn(turn, table), bins, bins.Means(rest), derivatives, known, level),
-               rest);
+void TestInTurn(Turn turn, const Bins& bins, const WeighedFit& fit, const Circumstances& known,
+                Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
+  bins.TakeOff(TestBins(InTurn(turn, table), bins, bins.Means(rest), fit, known, level), rest);
 }
 
 /// The tests of what changes within segments and stays from one to the next. A bristle's force
 /// depends on the way since the last reversal by itself, and by how much between two samples the log
 /// does not tell: of a law that has one nothing more can be said. rest: [N]
-void TestWithin(const FittedModel& model, const LogSamples& m, const Bins& bins,
-                const Eigen::MatrixXd& derivatives, const Circumstances& known,
-                Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
+void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
+                std::vector<Finding>& table) {
   using enum Turn;
+  const auto& [model, m, bins, derivatives, fit, known] = over;
   if (model.has_bristle) {
     for (Finding& finding : table) {
       if (finding.test->turn != first) {
@@ -165,9 +168,37 @@ void TestWithin(const FittedModel& model, const LogSamples& m, const Bins& bins,
 
   // then what returns with every hold, and last what is periodic in time
   const Bins within = BinsWithinHolds(m, model.selection);
-  TestInTurn(hold, within, DerivativesOver(within, model), known, rest, level, table);
-  TestInTurn(last, bins, derivatives, known, rest, level, table);
+  const WeighedFit fit_within(within.weight, DerivativesOver(within, model));
+  TestInTurn(hold, within, fit_within, known, rest, level, table);
+  TestInTurn(last, bins, fit, known, rest, level, table);
 }
+
+/// How far changes of a fit's parameters change the friction of law and heat.
+class FrictionChange {
+ public:
+  /// friction: rms of law and heat over the kept samples, N.m or N.
+  FrictionChange(const OverBins& over, double friction)
+      : root_(over.fit.root / (friction * std::sqrt(over.bins.weight.sum()))),
+        warm_(over.derivatives.leftCols(over.model.of_friction)),
+        cold_(over.bins.Means(over.model.cold)) {}
+
+  /// The largest of three, rms over the kept samples as a share of the friction's: the change along
+  /// the log J d, that of the cold curve dFn/dp d, and that of what heat takes off it, the
+  /// difference of both. d: [p]
+  double By(const Eigen::VectorXd& changes) const {
+    const Eigen::VectorXd along = warm_ * changes.head(warm_.cols());
+    const Eigen::VectorXd cold = cold_ * changes.head(cold_.cols());
+    const auto share = [&](const Eigen::VectorXd& force) {
+      return root_.cwiseProduct(force).norm();
+    };
+    return std::max({share(along), share(cold), share(along - cold)});
+  }
+
+ private:
+  Eigen::VectorXd root_;  // [m] of the weights, over the friction's rms and the root of the samples
+  Eigen::MatrixXd warm_;  // [m x q] dF/dx by law, heat and start
+  Eigen::MatrixXd cold_;  // [m x d] dFn/dp
+};
 
 /// How far a finding changes the friction, as the row of its test has it.
 double HarmOf(const Finding& finding, const FrictionChange& change,
@@ -182,9 +213,9 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
 }
 
 /// Sums up how what was found moves the parameters, and how far that changes the friction.
-void SumMoves(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
-              Index p, Examination& examination) {
+void SumMoves(const OverBins& over, Examination& examination) {
   if (examination.Found().empty()) return;
+  const Index p = std::ssize(examination.rows);
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(p);
   // findings count as independent of each other: their variances add up
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
@@ -196,7 +227,7 @@ void SumMoves(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd&
   examination.Add(Source::findings, Action::widen, std::move(bias));
   examination.causes.back().spread = variance.cwiseSqrt();
 
-  const FrictionChange change(model, bins, derivatives, examination.friction);
+  const FrictionChange change(over, examination.friction);
   for (Finding& finding : examination.findings) {
     if (finding.rejected) finding.harm = HarmOf(finding, change, examination);
   }
@@ -204,9 +235,10 @@ void SumMoves(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd&
 
 /// What hints move parameters by, with 95 % of it. They may be one and the same thing seen twice: the largest of them
 /// counts.
-void AddHints(Index p, Examination& examination) {
+void AddHints(Examination& examination) {
   const std::vector<const Finding*> hints = examination.Hints();
   if (hints.empty()) return;
+  const Index p = std::ssize(examination.rows);
   Eigen::VectorXd most = Eigen::VectorXd::Zero(p);
   for (const Finding* hint : hints) {
     most =
@@ -218,7 +250,7 @@ void AddHints(Index p, Examination& examination) {
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
 /// than its values are from each other. The mean looks like friction, or like an offset. Of two directions that
 /// differ either may be the one without what disturbs, by as much as their mean is off.
-void AddHiddenMeans(const Bins& bins, const ForceMoves& moves, Index p, Examination& examination) {
+void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examination) {
   // how far apart the values lie of all that returns with the holds
   double range = 0;
   for (const Finding& finding : examination.findings) {
@@ -232,26 +264,25 @@ void AddHiddenMeans(const Bins& bins, const ForceMoves& moves, Index p, Examinat
   Eigen::MatrixXd means(bins.size(), 2);
   means << bins.velocity.array().sign().matrix(), Eigen::VectorXd::Ones(bins.size());
   examination.Add(Source::hidden_means, Action::widen,
-                  moves.By(range * means).topRows(p).cwiseAbs().rowwise().sum());
+                  fit.MovesBy(range * means).cwiseAbs().rowwise().sum());
 }
 
 /// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
-void TakeOffRounding(const FittedModel& model, const LogSamples& m, const Bins& bins,
-                     const ForceMoves& moves, Index p, Eigen::VectorXd& rest,
-                     Examination& examination) {
+void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& examination) {
+  const auto& [model, m, bins, derivatives, fit, known] = over;
   const double variance = examination.squares / examination.samples;
   if (const double step = HidingStep(m.torque, variance); step > 0) {
     // any error within half a step, at each bin the worst
     rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
     const Eigen::MatrixXd each = Eigen::MatrixXd::Identity(bins.size(), bins.size());
     examination.Add(Source::hidden_steps, Action::widen,
-                    step / 2 * moves.By(each).topRows(p).cwiseAbs().rowwise().sum());
+                    step / 2 * fit.MovesBy(each).cwiseAbs().rowwise().sum());
     return;
   }
   const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
   if (rounding.size() == 0) return;
   rest -= rounding;
-  examination.Add(Source::rounding, Action::shift, moves.By(bins.Means(rounding)).topRows(p));
+  examination.Add(Source::rounding, Action::shift, fit.MovesBy(bins.Means(rounding)));
 }
 
 /// What sizes are measured by: the friction of law and heat, without what a map may hold of gravity.
@@ -268,6 +299,7 @@ void Measure(const FittedModel& model, const Bins& bins, Examination& examinatio
 }  // namespace
 
 void Examination::Add(Source source, Action action, Eigen::VectorXd bias, double size) {
+  bias.conservativeResize(std::ssize(rows));
   causes.push_back(
       {.source = source, .action = action, .rows = rows, .bias = std::move(bias), .size = size});
 }
@@ -315,28 +347,28 @@ Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const Log
   if (!obstacle.empty()) return examination;
 
   // what parameters, assumptions and heat within the steps can do
-  const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
-  const Index p = model->derivatives.cols() - model->jump_spread.size();
   Measure(*model, bins, examination);
-  AddHeldLosses(*model, bins, p, derivatives, examination);
-  const ForceMoves moves(bins, derivatives);
-  const Circumstances known = CircumstancesOf(*model, m, bins);
-  AddAssumptions(fit, *model, bins, known, p, derivatives, moves, examination);
-  AddUndetectedBias(*model, m, bins, known, p, moves, examination);
-  AddOtherUnits(fit, by_noise, m.joint, examination);
+  const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
+  const OverBins over{*model,
+                      m,
+                      bins,
+                      derivatives,
+                      WeighedFit(bins.weight, derivatives),
+                      CircumstancesOf(*model, m, bins)};
+  AddAssumptions(over, fit, by_noise, examination);
 
   // what is known to act on friction, then what changes within segments, then what stays
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
-  TakeOffRounding(*model, m, bins, moves, p, rest, examination);
+  TakeOffRounding(over, rest, examination);
   std::vector<Finding>& table = examination.findings;
-  TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
-  TestWithin(*model, m, bins, derivatives, known, rest, level, table);
+  TestInTurn(Turn::first, bins, over.fit, over.known, rest, level, table);
+  TestWithin(over, rest, level, table);
 
   // what all of that does to the parameters
-  SumMoves(*model, bins, derivatives, p, examination);
-  AddHints(p, examination);
-  AddHiddenMeans(bins, moves, p, examination);
+  SumMoves(over, examination);
+  AddHints(examination);
+  AddHiddenMeans(bins, over.fit, examination);
   return examination;
 }
 

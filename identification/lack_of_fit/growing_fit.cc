@@ -8,6 +8,7 @@
 
 #include "identification/lack_of_fit/orthonormal.h"
 #include "identification/lack_of_fit/significance.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint {
 namespace {
@@ -19,6 +20,10 @@ using Eigen::VectorXd;
 // what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit; why: with 0.013 and 0.03
 // no verdict changes in 50 logs of tests/studies/sensitivity/energy-ml.yaml, and one interval is wider with 0.03
 constexpr double kDistinct = 0.02;
+// what is left of a derivative of norm 1 beside the others, below which it is a mix of them; why: of what rounding leaves; and
+// below which it tells nothing of a feature
+constexpr double kAlike = 1e-13, kApart = 1e-9;
+constexpr double kNoNorm = 1e-300;          // of a column of zeros
 constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
 constexpr double kFewestFree = 8;           // parts, or samples, beyond the columns of a fit
 
@@ -51,45 +56,58 @@ double CarryingParts(const VectorXd& shares) {
   return shares.sum() * shares.sum() / shares.squaredNorm();
 }
 
-/// Columns weighed by roots, of norm 1; a column of zeros stays one.
-MatrixXd Normed(const MatrixXd& columns, const VectorXd& roots) {
-  MatrixXd weighted = roots.asDiagonal() * columns;
-  for (Index j = 0; j < weighted.cols(); ++j) {
-    const double norm = weighted.col(j).norm();
-    if (norm > 0) weighted.col(j) *= 1 / norm;
-  }
-  return weighted;
-}
-
 }  // namespace
 
-GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
-                       const MatrixXd& derivatives, const Selection& place)
+WeighedFit::WeighedFit(const VectorXd& samples, const MatrixXd& derivatives)
+    : weight(samples),
+      root(weight.cwiseSqrt()),
+      norms(Weighed(derivatives).colwise().norm().cwiseMax(kNoNorm)),
+      columns(Normed(derivatives)),
+      apart(Orthonormal(columns, kAlike)) {}
+
+MatrixXd WeighedFit::Normed(const MatrixXd& some) const {
+  MatrixXd weighed = Weighed(some);
+  for (Index j = 0; j < weighed.cols(); ++j) {
+    weighed.col(j) *= 1 / std::max(weighed.col(j).norm(), kNoNorm);
+  }
+  return weighed;
+}
+
+MatrixXd WeighedFit::TakeOff(Eigen::Ref<MatrixXd> weighed) const {
+  const MatrixXd shared = apart.basis.transpose() * weighed;
+  weighed.noalias() -= apart.basis * shared;
+  return shared;
+}
+
+MatrixXd WeighedFit::MovesBy(const MatrixXd& forces) const {
+  const MatrixXd mix = norms.cwiseInverse().asDiagonal() * apart.mix;
+  const MatrixXd shared = apart.basis.transpose() * Weighed(forces);
+  return -mix * shared;
+}
+
+GrowingFit::GrowingFit(WeighedFit fit, const VectorXd& residual, const Selection& place)
     : place_(place),
-      ends_(EndsOf(weight, std::min(kParts, weight.size() / 2))),
-      roots_(weight.cwiseSqrt()),
-      norms_((roots_.asDiagonal() * derivatives).colwise().norm().cwiseMax(1e-300)),
-      columns_(Normed(derivatives, roots_)),
-      residual_(roots_.cwiseProduct(residual)) {
+      ends_(EndsOf(fit.weight, std::min(kParts, residual.size() / 2))),
+      fit_(std::move(fit)),
+      residual_(fit_.root.cwiseProduct(residual)) {
+  fit_.apart.KeepWhile(kApart);
   Refit();
 }
 
 void GrowingFit::LearnNoise(const std::vector<Features>& all) {
   // the fit's columns and all features
-  std::vector<MatrixXd> parts{columns_};
-  Index count = columns_.cols();
-  for (const Features& one : all) {
-    parts.push_back(Normed(one.columns, roots_));
-    count += one.columns.cols();
-  }
+  Index count = fit_.columns.cols();
+  for (const Features& one : all) count += one.columns.cols();
   MatrixXd columns(size(), count);
-  for (Index c = 0; const MatrixXd& part : parts) {
-    columns.middleCols(c, part.cols()) = part;
-    c += part.cols();
+  columns.leftCols(fit_.columns.cols()) = fit_.columns;
+  count = fit_.columns.cols();
+  for (const Features& one : all) {
+    columns.middleCols(count, one.columns.cols()) = fit_.Normed(one.columns);
+    count += one.columns.cols();
   }
 
   // what remains beside them all together is noise
-  const MatrixXd basis = Orthonormal(columns, kDistinct).basis;
+  const MatrixXd basis = Orthonormal(std::move(columns), kDistinct).basis;
   noise_ = FitNoise(residual_ - basis * (basis.transpose() * residual_), place_);
 
   // what all of them took up counts in samples, at most half of them
@@ -146,7 +164,7 @@ GrowingFit::Evidence GrowingFit::ByParts(const MatrixXd& own, const VectorXd& b)
 
   // the parts that carry the features have to outnumber the columns clearly
   const double parts = CarryingParts(shares);
-  const double freedom = parts - static_cast<double>(columns_.cols() + q);
+  const double freedom = parts - static_cast<double>(fit_.columns.cols() + q);
   if (freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
 
   // the score of each part: they scatter as much as the noise makes them
@@ -176,10 +194,9 @@ Finding GrowingFit::Test(const Features& features) const {
   Finding finding;
   finding.period = features.period;
   // what the features have beside the fit
-  MatrixXd columns = Normed(features.columns, roots_);
-  const MatrixXd shared = fit_.basis.transpose() * columns;
-  columns.noalias() -= fit_.basis * shared;
-  const Basis own = Orthonormal(columns, kDistinct);
+  MatrixXd columns = fit_.Normed(features.columns);
+  const MatrixXd shared = fit_.TakeOff(columns);
+  const Basis own = Orthonormal(std::move(columns), kDistinct);
   if (own.basis.cols() == 0) return finding;
 
   // how likely noise alone does that
@@ -196,46 +213,45 @@ Finding GrowingFit::Test(const Features& features) const {
                                        std::log(static_cast<double>(size())) * noise_.variance;
 
   // the parameters give way by what the features share with the fit
-  const Index p = norms_.size();
-  const MatrixXd give = -fit_.mix.topRows(p) * (shared * own.mix);
-  finding.moves = (give * b).cwiseQuotient(norms_.transpose());
+  const VectorXd& norms = fit_.norms;
+  const MatrixXd give = -fit_.apart.mix.topRows(norms.size()) * (shared * own.mix);
+  finding.moves = (give * b).cwiseQuotient(norms);
   finding.move_deviations = (give * evidence.scatter * give.transpose())
                                 .diagonal()
                                 .cwiseMax(0)
                                 .cwiseSqrt()
-                                .cwiseQuotient(norms_.transpose());
+                                .cwiseQuotient(norms);
   return finding;
 }
 
 void GrowingFit::Take(const Features& features) {
-  const Index more = features.columns.cols();
-  columns_.conservativeResize(Eigen::NoChange, columns_.cols() + more);
-  columns_.rightCols(more) = Normed(features.columns, roots_);
+  fit_.columns = ConcatColumns(fit_.columns, fit_.Normed(features.columns));
+  fit_.apart = Orthonormal(fit_.columns, kApart);
   Refit();
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
-  const MatrixXd weighted = roots_.asDiagonal() * columns;
-  const VectorXd squares = weighted.colwise().squaredNorm();
-  const VectorXd held = (fit_.basis.transpose() * weighted).colwise().squaredNorm();
+  const MatrixXd weighed = fit_.Weighed(columns);
+  const VectorXd squares = weighed.colwise().squaredNorm();
+  const VectorXd held = (fit_.apart.basis.transpose() * weighed).colwise().squaredNorm();
   // what the fit leaves of the residual has nothing of its columns
-  const VectorXd products = weighted.transpose() * left_;
+  const VectorXd products = weighed.transpose() * left_;
   const Eigen::ArrayXd beside = (squares - held).array();
   return (beside > kDistinct * kDistinct * squares.array())
       .select(products.array().square() / beside, 0);
 }
 
 double GrowingFit::CoefficientOf(const VectorXd& column) const {
-  const VectorXd weighted = roots_.cwiseProduct(column);
-  const VectorXd beside = weighted - fit_.basis * (fit_.basis.transpose() * weighted);
+  VectorXd beside = fit_.Weighed(column);
+  const double all = beside.squaredNorm();
+  fit_.TakeOff(beside);
   const double square = beside.squaredNorm();
-  const bool distinct = square > kDistinct * kDistinct * weighted.squaredNorm();
-  return distinct ? beside.dot(left_) / square : 0;
+  return square > kDistinct * kDistinct * all ? beside.dot(left_) / square : 0;
 }
 
 void GrowingFit::Refit() {
-  fit_ = Orthonormal(columns_, 1e-9);
-  left_ = residual_ - fit_.basis * (fit_.basis.transpose() * residual_);
+  left_ = residual_;
+  fit_.TakeOff(left_);
 }
 
 }  // namespace warmjoint

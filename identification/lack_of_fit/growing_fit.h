@@ -17,13 +17,41 @@ struct Features {
   double period = 0;        // of those, or time constant, s; 0 where they have none
 };
 
+/// A fit over rows that stand for some samples each, taken apart once for all that is asked about it. Columns are weighed by
+/// the root of the samples.
+struct WeighedFit {
+  /// samples: [m] of each row; derivatives: J [m x p] dF/dx
+  WeighedFit(const Eigen::VectorXd& samples, const Eigen::MatrixXd& derivatives);
+
+  Eigen::VectorXd weight;   // [m] samples
+  Eigen::VectorXd root;     // [m] of that
+  Eigen::VectorXd norms;    // [p] of the weighed derivatives
+  Eigen::MatrixXd columns;  // [m x (p + ...)] weighed, of norm 1
+  Basis apart;              // of the columns
+
+  /// Columns weighed. [m x q]
+  Eigen::MatrixXd Weighed(const Eigen::MatrixXd& some) const { return root.asDiagonal() * some; }
+  /// Columns weighed and made of norm 1, so that units do not count; a column of zeros stays one. [m x q]
+  Eigen::MatrixXd Normed(const Eigen::MatrixXd& some) const;
+  /// Takes off weighed columns what they share with the fit. [m x q]; returns their products with its basis, [r x q].
+  Eigen::MatrixXd TakeOff(Eigen::Ref<Eigen::MatrixXd> weighed) const;
+  /// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is known,
+  /// -(J^T W J)^-1 J^T W f. forces: [m x q]; returns [p x q].
+  Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces) const;
+  /// Whether no parameter is a mix of the others.
+  bool AllApart() const { return apart.basis.cols() == norms.size(); }
+};
+
+/// Rows that all take part.
+inline Selection AllOf(Eigen::Index rows) {
+  return {Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows, true), {}};
+}
+
 /// The fit beside which features are tested.
 class GrowingFit {
  public:
-  /// weight: [m] samples that each row stands for; residual: [m] N.m or N; derivatives: [m x p]
-  /// dF/dx; place: where the m rows stand in time.
-  GrowingFit(const Eigen::VectorXd& weight, const Eigen::VectorXd& residual,
-             const Eigen::MatrixXd& derivatives, const Selection& place);
+  /// fit: where it begins; residual: [m] N.m or N; place: where the m rows stand in time.
+  GrowingFit(WeighedFit fit, const Eigen::VectorXd& residual, const Selection& place);
 
   /// Learns the noise from what all features that will be asked about leave together.
   void LearnNoise(const std::vector<Features>& all);
@@ -40,9 +68,9 @@ class GrowingFit {
   void Take(const Features& features);
 
   /// [m] what the fit leaves of the residual, N.m or N.
-  Eigen::VectorXd Left() const { return left_.cwiseQuotient(roots_); }
+  Eigen::VectorXd Left() const { return left_.cwiseQuotient(fit_.root); }
   /// [m] what the fit takes up of the residual, N.m or N.
-  Eigen::VectorXd Explained() const { return (residual_ - left_).cwiseQuotient(roots_); }
+  Eigen::VectorXd Explained() const { return (residual_ - left_).cwiseQuotient(fit_.root); }
   /// Squares of the weighted residual that each column explains by itself beside the fit.
   /// columns: [m x c]; returns [c], 0 for a column that the fit holds.
   Eigen::VectorXd ExplainedBy(const Eigen::MatrixXd& columns) const;
@@ -67,16 +95,14 @@ class GrowingFit {
   /// How much larger the noise model makes the scatter of coefficients than its parts by
   /// themselves do: at least 1, about 1 where the noise forgets within a part. own: [m x q]
   double AcrossParts(const Eigen::MatrixXd& own) const;
+  /// Finds what the fit leaves of the residual.
   void Refit();
 
   Selection place_;
   std::vector<Eigen::Index> ends_;  // of the parts of the recording, one past the last row
-  Eigen::VectorXd roots_;           // [m] of the weights
-  Eigen::RowVectorXd norms_;        // [p] of the weighted derivatives
-  Eigen::MatrixXd columns_;         // [m x (p + ...)] weighted, of norm 1
-  Eigen::VectorXd residual_;        // [m] weighted
-  Eigen::VectorXd left_;            // [m] weighted
-  Basis fit_;
+  WeighedFit fit_;                  // with the features that joined
+  Eigen::VectorXd residual_;        // [m] weighed
+  Eigen::VectorXd left_;            // [m] weighed
   NoiseModel noise_;
   double taken_ = 0;  // columns that were there when the noise was learned
 };

@@ -71,35 +71,35 @@ double TakeOff(const double* basis, Index m, double* column) {
 
 }  // namespace
 
-Basis Orthonormal(const MatrixXd& columns, double distinct) {
-  // columns in the order in which they join, the basis in the place of those that did; columns = basis R
+Basis Orthonormal(MatrixXd columns, double distinct) {
+  // what is left of columns in the order in which they join, the basis in the place of those that did; columns = basis R
   const Index q = columns.cols(), most = std::min(columns.rows(), q);
-  MatrixXd left = columns, R = MatrixXd::Zero(q, q);
+  MatrixXd R = MatrixXd::Zero(q, q);
   std::vector<Index> order(static_cast<std::size_t>(q));
   std::iota(order.begin(), order.end(), Index{0});
   Lengths lengths(columns);
   Index rank = 0;
   for (; rank < most; ++rank) {
     // the one of which most is left, while that stands out
-    const Index at = lengths.Longest(left, rank);
+    const Index at = lengths.Longest(columns, rank);
     lengths.Swap(at, rank);
-    left.col(at).swap(left.col(rank));
+    columns.col(at).swap(columns.col(rank));
     R.col(at).swap(R.col(rank));
     std::swap(order[static_cast<std::size_t>(at)], order[static_cast<std::size_t>(rank)]);
-    double norm = left.col(rank).norm();
+    double norm = columns.col(rank).norm();
     if (norm < kShort) {
-      const auto basis = left.leftCols(rank);
-      const Eigen::VectorXd again = basis.transpose() * left.col(rank);
-      left.col(rank) -= basis * again;
+      const auto basis = columns.leftCols(rank);
+      const Eigen::VectorXd again = basis.transpose() * columns.col(rank);
+      columns.col(rank) -= basis * again;
       R.col(rank).head(rank) += again;
-      norm = left.col(rank).norm();
+      norm = columns.col(rank).norm();
     }
     if (!(norm > distinct)) break;
     R(rank, rank) = norm;
-    left.col(rank) *= 1 / norm;
+    columns.col(rank) *= 1 / norm;
 
     for (Index j = rank + 1; j < q; ++j) {
-      R(rank, j) = TakeOff(left.col(rank).data(), left.rows(), left.col(j).data());
+      R(rank, j) = TakeOff(columns.col(rank).data(), columns.rows(), columns.col(j).data());
     }
     lengths.TakeOff(R.row(rank).tail(q - rank - 1));
   }
@@ -111,7 +111,16 @@ Basis Orthonormal(const MatrixXd& columns, double distinct) {
     R.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(inverse);
     for (Index j = 0; j < rank; ++j) mix.row(order[static_cast<std::size_t>(j)]) = inverse.row(j);
   }
-  return {left.leftCols(rank), mix};
+  columns.conservativeResize(Eigen::NoChange, rank);
+  return {std::move(columns), std::move(mix), R.diagonal().head(rank)};
+}
+
+void Basis::KeepWhile(double distinct) {
+  const auto end = std::ranges::find_if(lengths, [=](double one) { return !(one > distinct); });
+  const Index rank = end - lengths.begin();
+  basis.conservativeResize(Eigen::NoChange, rank);
+  mix.conservativeResize(Eigen::NoChange, rank);
+  lengths.conservativeResize(rank);
 }
 
 }  // namespace warmjoint

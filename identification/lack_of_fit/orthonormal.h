@@ -7,13 +7,17 @@ namespace warmjoint {
 
 /// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
 struct Basis {
-  Eigen::MatrixXd basis;  // [m x r]
-  Eigen::MatrixXd mix;    // [q x r]
+  Eigen::MatrixXd basis;    // [m x r]
+  Eigen::MatrixXd mix;      // [q x r]
+  Eigen::VectorXd lengths;  // [r] what the column that joined had beside those before it
+
+  /// Leaves those that joined while that was longer than `distinct`.
+  void KeepWhile(double distinct);
 };
 
 /// A QR decomposition with pivots by Gram's and Schmidt's method (Golub and Van Loan, Matrix Computations, 5.2.8), a column of which little is left
 /// freed once more of all before it as it joins. A column joins while what it has beside those before it is longer than `distinct`, the
 /// longest first; of those that are as long up to rounding the first, so that rounding decides nothing. columns: [m x q] of norm 1 at most
-Basis Orthonormal(const Eigen::MatrixXd& columns, double distinct);
+Basis Orthonormal(Eigen::MatrixXd columns, double distinct);
 
 }  // namespace warmjoint

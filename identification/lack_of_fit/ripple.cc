@@ -345,9 +345,10 @@ std::optional<Finding> TestFading(const LackOfFitTest&, const FittedModel& model
   // beside maps whose strength is free
   const Selection& selection = model.selection;
   const MatrixXd maps = Kept(*model.maps, selection);
-  const MatrixXd left = Kept(residual, selection);
+  const VectorXd left = Kept(residual, selection);
   const Features steady{maps}, fading{maps.cwiseProduct(Kept(model.energy, selection))};
-  GrowingFit fit(VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection), selection);
+  GrowingFit fit({VectorXd::Ones(left.size()), Kept(model.derivatives, selection)}, left,
+                 selection);
   fit.LearnNoise({steady, fading});
   fit.Take(steady);
   Finding finding = fit.Test(fading);

@@ -12,7 +12,7 @@
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/held_loss.h"
 #include "identification/lack_of_fit/rounding.h"
-#include "identification/lack_of_fit/undetected_bias.h"
+#include "identification/lack_of_fit/assumptions.h"
 #include "models/foundation/random_stream.h"
 #include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"

@@ -1,13 +1,13 @@
-#include "identification/lack_of_fit/undetected_bias.h"
+#include "identification/lack_of_fit/assumptions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "identification/lack_of_fit/sensitivity.h"
 #include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
+#include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
@@ -19,7 +19,79 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kWarmStart =
+    0.1;                         // of the warmth that the joint reaches; why: cold_start asks that
+constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
+constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
+constexpr double kSureMove = 3;  // deviations from which a move is there; why 3: 1 in 370
+constexpr double kFading = 1.0 / 3;  // of the log: time constant of a drift that dies away
 constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
+
+/// held_losses
+void AddHeldLosses(const OverBins& over, Examination& examination) {
+  if (!over.model.held_loss) return;
+  // the force that held losses leave out is the last column
+  const Index q = over.derivatives.cols() - 1;
+  const WeighedFit without(over.bins.weight, over.derivatives.leftCols(q));
+  const VectorXd bias = without.MovesBy(over.derivatives.rightCols(1));
+
+  // the share of that force in the residual
+  const MatrixXd weighted = over.fit.Weighed(over.derivatives);
+  const VectorXd residual = over.fit.Weighed(over.known.residual);
+  const LeastSquares fit = SolveLeastSquares(weighted, residual);
+  const Index free = over.bins.size() - q - 1;
+  Action action = Action::cover;
+  if (fit.mixed.empty() && free >= 1) {
+    const double variance =
+        (residual - weighted * fit.solution).squaredNorm() / static_cast<double>(free);
+    const double share = fit.solution[q], deviation = std::sqrt(variance * fit.cofactor(q, q));
+    const auto is_at = [&](double value) {
+      return std::abs(share - value) < kSureMove * deviation;
+    };
+    // losses are held over each step, as the fit has them
+    if (1 - share > kSure * deviation && is_at(0)) return;
+    // or they follow the heat: the numbers become theirs; else both are possible
+    if (share > kSure * deviation && is_at(1)) action = Action::shift;
+  }
+  examination.Add(Source::held_losses, action, bias);
+}
+
+/// s t and s (1 - exp(-t/T)), the friction's drift over the log, even and fading. [m x 2]
+MatrixXd Drifts(const Bins& bins) {
+  const Eigen::ArrayXd sign = bins.velocity.array().sign(), t = bins.time.array();
+  MatrixXd drifts(bins.size(), 2);
+  drifts << (sign * t).matrix(),
+      (sign * (1 - (-t / kFading).exp()) / (1 - std::exp(-1 / kFading))).matrix();
+  return drifts;
+}
+
+/// cold_start, slow_drift, dead_band, gaps
+void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
+  const auto& [model, m, bins, derivatives, beside, known] = over;
+  // starts that were not cold, all alike
+  if (known.initial.cols() > 0) {
+    const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
+    const VectorXd force = energy * known.initial.rowwise().sum();
+    examination.Add(Source::cold_start, Action::note, beside.MovesBy(force));
+  }
+
+  // friction that drifts for another reason than its losses
+  const MatrixXd by_drifts = beside.MovesBy(kDrift * examination.friction * Drifts(bins));
+  examination.Add(Source::slow_drift, Action::note, by_drifts.cwiseAbs().rowwise().maxCoeff());
+
+  // a torque sensor that swallows what is small
+  const double band = known.torque.cwiseAbs().minCoeff();
+  const VectorXd swallowed = -band * bins.velocity.array().sign();
+  examination.Add(Source::dead_band, Action::note, beside.MovesBy(swallowed), band);
+
+  // heat that came or went in gaps of the log
+  const Index jumps = model.jump_spread.size(), p = std::ssize(examination.rows);
+  if (jumps == 0 || !fit.jump_samples.empty()) return;
+  const MatrixXd forces = derivatives.middleCols(p, jumps) * model.jump_spread.asDiagonal();
+  const WeighedFit without_jumps(bins.weight, derivatives.leftCols(p));
+  examination.Add(Source::gaps, Action::widen,
+                  without_jumps.MovesBy(forces).cwiseAbs().rowwise().sum());
+}
 
 /// Values between which a factor may lie at all.
 struct Possible {
@@ -38,15 +110,12 @@ double Quantile(double freedom) {
 class OpenFactors {
  public:
   /// residual: [m] means over bins; forces: [m x q] the same
-  OpenFactors(const ForceMoves& fit, const VectorXd& residual, const MatrixXd& forces)
-      : fit_(fit),
-        left_(fit.root().cwiseProduct(residual)),
-        own_(fit.root().asDiagonal() * forces) {
-    left_ -= fit.basis() * (fit.basis().transpose() * left_);
+  OpenFactors(const WeighedFit& fit, const VectorXd& residual, const MatrixXd& forces)
+      : fit_(fit), left_(fit.Weighed(residual)), own_(fit.Weighed(forces)) {
     weighted_ = own_.colwise().squaredNorm();
-    const MatrixXd shared = fit.basis().transpose() * own_;
-    own_.noalias() -= fit.basis() * shared;
-    const Index freedom = left_.size() - fit.basis().cols() - 1;
+    fit.TakeOff(left_);
+    fit.TakeOff(own_);
+    const Index freedom = left_.size() - fit.apart.basis.cols() - 1;
     if (freedom < 1) return;
     white_freedom_ = static_cast<double>(freedom);
     white_quantile_ = Quantile(white_freedom_);
@@ -56,7 +125,7 @@ class OpenFactors {
   Possible Interval(Index i, const Possible& possible) const;
 
  private:
-  const ForceMoves& fit_;
+  const WeighedFit& fit_;
   VectorXd left_;                                  // [m] weighted, of the residual beside the fit
   MatrixXd own_;                                   // [m x q] weighted, of the forces beside the fit
   VectorXd weighted_;                              // [q] squares of the forces
@@ -72,12 +141,12 @@ Possible OpenFactors::Interval(Index i, const Possible& possible) const {
 
   // the force joins the fit for one step of least squares, whose other columns are a basis of the fit's
   const double factor = own.dot(left_) / square;
-  const Index p = fit_.basis().cols();
+  const MatrixXd& basis = fit_.apart.basis;
+  const Index p = basis.cols();
   MatrixXd cofactor = MatrixXd::Identity(p + 1, p + 1);
   cofactor(p, p) = 1 / square;
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(own.size(), true), {}};
-  const Uncertainty known = EstimateCovariance([&] { return ConcatColumns(fit_.basis(), own); },
-                                               cofactor, left_ - factor * own, all);
+  const Uncertainty known = EstimateCovariance([&] { return ConcatColumns(basis, own); }, cofactor,
+                                               left_ - factor * own, AllOf(own.size()));
 
   // as far as noise reaches at that level
   const double quantile =
@@ -104,29 +173,9 @@ VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
   return (moves * factors.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
 }
 
-constexpr double kDegree = std::numbers::pi / 180;  // rad
-constexpr double kClock = 1.01;  // as fast as it should be; why: the slip that is asked about
-
-/// The most that an end of each interval moves. [p]
-Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inference& inference,
-                              const std::vector<size_t>& rows) {
-  Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const FitParameter& parameter = fit.parameters[rows[i]];
-    const ParameterInterval& known = inference.parameters[rows[i]];
-    const double factor = std::pow(way, parameter.way_power) * std::pow(time, parameter.time_power);
-    // the end of the interval that is farther from 0 moves most
-    const double farthest = std::abs(known.value) + known.HalfWidth();
-    moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, known.value);
-  }
-  return moves;
-}
-
-}  // namespace
-
-void AddUndetectedBias(const FittedModel& model, const LogSamples& m, const Bins& bins,
-                       const Circumstances& known, Index p, const ForceMoves& fit,
-                       Examination& examination) {
+/// open_start, open_curve, open_memory, open_drift
+void AddOpen(const OverBins& over, Examination& examination) {
+  const auto& [model, m, bins, derivatives, fit, known] = over;
   // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
   const HeatingForces& heating = known.heating;
   const VectorXd force = known.torque - known.residual;
@@ -136,7 +185,7 @@ void AddUndetectedBias(const FittedModel& model, const LogSamples& m, const Bins
   forces << known.initial, heating.bend, Curve(m, bins), known.late_speeds, heating.drifts,
       force.cwiseProduct(bins.time);
   const OpenFactors open(fit, known.residual, forces);
-  const MatrixXd moves = fit.By(forces).topRows(p);
+  const MatrixXd moves = fit.MovesBy(forces);
 
   // starts that were not cold
   if (starts > 0) {
@@ -167,7 +216,7 @@ void AddUndetectedBias(const FittedModel& model, const LogSamples& m, const Bins
   // and from the last, where the force of the end is taken off
   MatrixXd ends(bins.size(), 2);
   ends << heating.level, force;
-  const MatrixXd at_end = fit.By(ends).topRows(p);
+  const MatrixXd at_end = fit.MovesBy(ends);
   MatrixXd until_last = from_first;
   until_last.leftCols(kCourses).colwise() -= at_end.col(0);
   until_last.col(kCourses) -= at_end.col(1);
@@ -175,6 +224,25 @@ void AddUndetectedBias(const FittedModel& model, const LogSamples& m, const Bins
                   Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors)));
 }
 
+constexpr double kDegree = std::numbers::pi / 180;  // rad
+constexpr double kClock = 1.01;  // as fast as it should be; why: the slip that is asked about
+
+/// The most that an end of each interval moves. [p]
+Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inference& inference,
+                              const std::vector<size_t>& rows) {
+  Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const FitParameter& parameter = fit.parameters[rows[i]];
+    const ParameterInterval& known = inference.parameters[rows[i]];
+    const double factor = std::pow(way, parameter.way_power) * std::pow(time, parameter.time_power);
+    // the end of the interval that is farther from 0 moves most
+    const double farthest = std::abs(known.value) + known.HalfWidth();
+    moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, known.value);
+  }
+  return moves;
+}
+
+/// degrees, clock
 void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
                    Examination& examination) {
   if (joint == JointKind::rotary) {
@@ -183,6 +251,16 @@ void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
   }
   examination.Add(Source::clock, Action::note,
                   FarthestMoves(1, kClock, fit, inference, examination.rows));
+}
+
+}  // namespace
+
+void AddAssumptions(const OverBins& over, const Fit& fit, const Inference& by_noise,
+                    Examination& examination) {
+  AddHeldLosses(over, examination);
+  AddGiven(over, fit, examination);
+  AddOpen(over, examination);
+  AddOtherUnits(fit, by_noise, over.measurements.joint, examination);
 }
 
 }  // namespace warmjoint
