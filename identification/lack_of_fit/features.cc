@@ -141,21 +141,28 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const Growi
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
-  // a column for each place, of the rows that have passed it, by the samples before them
-  MatrixXd after = MatrixXd::Zero(bins.size(), kPlaces - 1);
+  // how many places each row has passed, by the samples before it
+  constexpr Index places = kPlaces - 1;
+  std::vector<Index> passed;
   const double total = bins.weight.sum();
   double before = 0;
-  for (Index c = 0; c < bins.size(); ++c) {
-    const auto passed = static_cast<Index>(before / total * kPlaces);
-    after.row(c).head(std::min<Index>(passed, kPlaces - 1)).setOnes();
-    before += bins.weight[c];
+  for (const double weight : bins.weight) {
+    passed.push_back(std::min(static_cast<Index>(before / total * kPlaces), places));
+    before += weight;
   }
 
   // the one step, of the offset or of the friction, that explains most beside the fit
-  const MatrixXd steps = BothWays(bins, after);
+  const VectorXd offset = VectorXd::Ones(bins.size()), friction = SignOf(bins);
+  VectorXd explained(2 * places);
+  explained << fit.ExplainedBySteps(passed, places, offset),
+      fit.ExplainedBySteps(passed, places, friction);
   Index best = 0;
-  fit.ExplainedBy(steps).maxCoeff(&best);
-  return {steps.col(best), static_cast<int>(steps.cols())};
+  explained.maxCoeff(&best);
+  VectorXd step = best < places ? offset : friction;
+  for (Index i = 0; i < step.size(); ++i) {
+    if (passed[static_cast<size_t>(i)] <= best % places) step[i] = 0;
+  }
+  return {step, static_cast<int>(explained.size())};
 }
 
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {

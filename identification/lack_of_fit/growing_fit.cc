@@ -56,6 +56,14 @@ double CarryingParts(const VectorXd& shares) {
   return shares.sum() * shares.sum() / shares.squaredNorm();
 }
 
+/// Squares of a residual that columns explain beside a fit that leaves nothing of its own in it; 0 for a column that it holds.
+/// squares: of the columns; held: of what the fit has of them; products: with the residual; all [c].
+VectorXd ExplainedBeside(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& held,
+                         const Eigen::ArrayXd& products) {
+  const Eigen::ArrayXd beside = squares - held;
+  return (beside > kDistinct * kDistinct * squares).select(products.square() / beside, 0);
+}
+
 }  // namespace
 
 WeighedFit::WeighedFit(const VectorXd& samples, const MatrixXd& derivatives)
@@ -234,11 +242,26 @@ VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
   const MatrixXd weighed = fit_.Weighed(columns);
   const VectorXd squares = weighed.colwise().squaredNorm();
   const VectorXd held = (fit_.apart.basis.transpose() * weighed).colwise().squaredNorm();
-  // what the fit leaves of the residual has nothing of its columns
-  const VectorXd products = weighed.transpose() * left_;
-  const Eigen::ArrayXd beside = (squares - held).array();
-  return (beside > kDistinct * kDistinct * squares.array())
-      .select(products.array().square() / beside, 0);
+  return ExplainedBeside(squares, held, weighed.transpose() * left_);
+}
+
+VectorXd GrowingFit::ExplainedBySteps(const std::vector<Index>& part, Index places,
+                                      const VectorXd& height) const {
+  // squares, products with what is left, and products with the basis of the rows of each part
+  const VectorXd weighed = fit_.Weighed(height);
+  MatrixXd sums = MatrixXd::Zero(2 + fit_.apart.basis.cols(), places + 1);
+  for (Index i = 0; i < size(); ++i) {
+    auto of_part = sums.col(part[static_cast<size_t>(i)]);
+    of_part[0] += weighed[i] * weighed[i];
+    of_part[1] += weighed[i] * left_[i];
+    of_part.tail(sums.rows() - 2) += weighed[i] * fit_.apart.basis.row(i).transpose();
+  }
+
+  // and of all rows behind each place
+  for (Index k = places; k > 1; --k) sums.col(k - 1) += sums.col(k);
+  const auto behind = sums.rightCols(places);
+  return ExplainedBeside(behind.row(0), behind.bottomRows(sums.rows() - 2).colwise().squaredNorm(),
+                         behind.row(1));
 }
 
 double GrowingFit::CoefficientOf(const VectorXd& column) const {

@@ -74,6 +74,10 @@ class GrowingFit {
   /// Squares of the weighted residual that each column explains by itself beside the fit.
   /// columns: [m x c]; returns [c], 0 for a column that the fit holds.
   Eigen::VectorXd ExplainedBy(const Eigen::MatrixXd& columns) const;
+  /// The same of steps, which are `height` in all rows behind a place. part: [m] places before each row; height: [m];
+  /// returns [places].
+  Eigen::VectorXd ExplainedBySteps(const std::vector<Eigen::Index>& part, Eigen::Index places,
+                                   const Eigen::VectorXd& height) const;
   /// The coefficient of a column beside the fit's, by least squares; 0 for one that the fit holds.
   double CoefficientOf(const Eigen::VectorXd& column) const;
 
