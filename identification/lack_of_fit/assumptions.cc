@@ -24,7 +24,7 @@ constexpr double kWarmStart =
 constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
 constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
 constexpr double kSureMove = 3;  // deviations from which a move is there; why 3: 1 in 370
-constexpr double kFading = 1.0 / 3;  // of the log: time constant of a drift that dies away
+constexpr double kFadesAfter = 1.0 / 3;  // of the log: time constant of a drift that dies away
 constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
 
 /// held_losses
@@ -61,7 +61,7 @@ MatrixXd Drifts(const Bins& bins) {
   const Eigen::ArrayXd sign = bins.velocity.array().sign(), t = bins.time.array();
   MatrixXd drifts(bins.size(), 2);
   drifts << (sign * t).matrix(),
-      (sign * (1 - (-t / kFading).exp()) / (1 - std::exp(-1 / kFading))).matrix();
+      (sign * (1 - (-t / kFadesAfter).exp()) / (1 - std::exp(-1 / kFadesAfter))).matrix();
   return drifts;
 }
 

@@ -23,8 +23,8 @@ struct Bins {
 
   Eigen::Index size() const { return weight.size(); }
 
-  /// Means over each bin, of those samples alone that are kept where that is given. all: [N x c] over all samples;
-  /// keep: [N] or none; returns [m x c].
+  /// Means over each bin, of those samples alone that are kept where that is given. all: [N x c]
+  /// over all samples; keep: [N] or none; returns [m x c].
   Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all,
                         const bool* keep = nullptr) const;
   /// Takes one number of each bin off all of its samples alike. numbers: [m]; all: [N]

@@ -70,8 +70,8 @@ void Enter(std::optional<Finding> made, Finding& row) {
 /// Makes tests one after the other: of those that reject, the features of the largest gain join the
 /// fit, and the others are made again beside it, until none rejects. Too few rows for all features
 /// leave the last tests out: two rows in three are left to tell the noise.
-/// findings: of tests with features; residual: [m] mean tau - F of each bin; begin: the fit by mean dF/dx;
-/// returns what those rejected and the parameters take up, [m] N.m or N.
+/// findings: of tests with features; residual: [m] mean tau - F of each bin; begin: the fit by mean
+/// dF/dx; returns what those rejected and the parameters take up, [m] N.m or N.
 Eigen::VectorXd TestBins(const std::vector<Finding*>& findings, const Bins& bins,
                          const Eigen::VectorXd& residual, const WeighedFit& begin,
                          const Circumstances& known, ErrorLevel& level) {
@@ -129,7 +129,7 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
   return "";
 }
 
-/// Of the parameters, of the jumps at gaps, and of heat within the steps where that matters (held_loss.h), over
+/// Of the parameters, of the jumps at gaps, and of heat within the steps where that matters, over
 /// bins. [m x (p + ...)]
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
   const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);

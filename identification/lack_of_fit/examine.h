@@ -24,7 +24,8 @@ struct Examination {
   double samples = 0;
   double squares = 0;  // of the residual
 
-  /// Adds a row. bias: [p], what follows does not count; size: how far off an assumption was taken to be
+  /// Adds a row. bias: [p], what follows does not count; size: how far off an assumption was taken
+  /// to be
   void Add(Source source, Action action, Eigen::VectorXd bias, double size = 0);
 
   /// Rms over the kept samples of what a finding explains, N.m or N.

@@ -27,10 +27,10 @@ struct FittedModel {
       by_initial_energy;        // [N x s] dF/dE(0) of the recordings where it is taken to be known
   Eigen::VectorXd energy;       // [N] E, N.m or N
   Eigen::VectorXd jump_spread;  // [J] how far E may jump at the gaps, N.m or N
-  std::optional<Eigen::VectorXd> held_loss;  // [N] what (22) leaves out (held_loss.h), N.m or N,
-                                             // where that matters
-  std::optional<Eigen::VectorXd> maps;       // [N] what they give, N.m or N, where there are any
-  std::vector<MapQuantity> mapped;           // what they are over
+  /// [N] ForceOfHeldLoss, N.m or N, where that matters.
+  std::optional<Eigen::VectorXd> held_loss;
+  std::optional<Eigen::VectorXd> maps;  // [N] what they give, N.m or N, where there are any
+  std::vector<MapQuantity> mapped;      // what they are over
 
   std::optional<Thermal> thermal;  // where a warming was estimated
   std::optional<ClosedLoop> loop;  // there: of the law's parameters, with the jumps
@@ -41,5 +41,11 @@ struct FittedModel {
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
                                          const LogSamples& measurements,
                                          const Selection& selection);
+
+/// What (22) leaves out: the force of a friction whose losses follow its heat all the time, less
+/// its force by (22): 8/7 of what (22) with an eighth of each step makes of it. Constant speed over
+/// each step. Returns [N] N.m or N.
+Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& measurements,
+                                const CourseStart& start = {});
 
 }  // namespace warmjoint

@@ -20,9 +20,10 @@ using Eigen::VectorXd;
 // what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit; why: with 0.013 and 0.03
 // no verdict changes in 50 logs of tests/studies/sensitivity/energy-ml.yaml, and one interval is wider with 0.03
 constexpr double kDistinct = 0.02;
-// what is left of a derivative of norm 1 beside the others, below which it is a mix of them; why: of what rounding leaves; and
-// below which it tells nothing of a feature
-constexpr double kAlike = 1e-13, kApart = 1e-9;
+constexpr double kAlike = 1e-13;  // of a derivative of norm 1 beside the others; why: what rounding
+                                  // leaves of one that is a mix of them
+constexpr double kApart = 1e-9;   // the same beside features; why: far above that, and far below
+                                  // what a log tells apart
 constexpr double kNoNorm = 1e-300;          // of a column of zeros
 constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
 constexpr double kFewestFree = 8;           // parts, or samples, beyond the columns of a fit
@@ -56,8 +57,9 @@ double CarryingParts(const VectorXd& shares) {
   return shares.sum() * shares.sum() / shares.squaredNorm();
 }
 
-/// Squares of a residual that columns explain beside a fit that leaves nothing of its own in it; 0 for a column that it holds.
-/// squares: of the columns; held: of what the fit has of them; products: with the residual; all [c].
+/// Squares of a residual that columns explain beside a fit that leaves nothing of its own in it; 0
+/// for a column that it holds. squares: of the columns; held: of what the fit has of them;
+/// products: with the residual; all [c].
 VectorXd ExplainedBeside(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& held,
                          const Eigen::ArrayXd& products) {
   const Eigen::ArrayXd beside = squares - held;

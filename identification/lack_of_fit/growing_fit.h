@@ -17,8 +17,8 @@ struct Features {
   double period = 0;        // of those, or time constant, s; 0 where they have none
 };
 
-/// A fit over rows that stand for some samples each, taken apart once for all that is asked about it. Columns are weighed by
-/// the root of the samples.
+/// A fit over rows that stand for some samples each, taken apart once for all that is asked about
+/// it. Columns are weighed by the root of the samples.
 struct WeighedFit {
   /// samples: [m] of each row; derivatives: J [m x p] dF/dx
   WeighedFit(const Eigen::VectorXd& samples, const Eigen::MatrixXd& derivatives);
@@ -31,12 +31,14 @@ struct WeighedFit {
 
   /// Columns weighed. [m x q]
   Eigen::MatrixXd Weighed(const Eigen::MatrixXd& some) const { return root.asDiagonal() * some; }
-  /// Columns weighed and made of norm 1, so that units do not count; a column of zeros stays one. [m x q]
+  /// Columns weighed and made of norm 1, so that units do not count; a column of zeros stays one.
+  /// [m x q]
   Eigen::MatrixXd Normed(const Eigen::MatrixXd& some) const;
-  /// Takes off weighed columns what they share with the fit. [m x q]; returns their products with its basis, [r x q].
+  /// Takes off weighed columns what they share with the fit. [m x q]; returns their products with
+  /// its basis, [r x q].
   Eigen::MatrixXd TakeOff(Eigen::Ref<Eigen::MatrixXd> weighed) const;
-  /// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is known,
-  /// -(J^T W J)^-1 J^T W f. forces: [m x q]; returns [p x q].
+  /// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is
+  /// known, -(J^T W J)^-1 J^T W f. forces: [m x q]; returns [p x q].
   Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces) const;
   /// Whether no parameter is a mix of the others.
   bool AllApart() const { return apart.basis.cols() == norms.size(); }
@@ -74,8 +76,8 @@ class GrowingFit {
   /// Squares of the weighted residual that each column explains by itself beside the fit.
   /// columns: [m x c]; returns [c], 0 for a column that the fit holds.
   Eigen::VectorXd ExplainedBy(const Eigen::MatrixXd& columns) const;
-  /// The same of steps, which are `height` in all rows behind a place. part: [m] places before each row; height: [m];
-  /// returns [places].
+  /// The same of steps, which are `height` in all rows behind a place. part: [m] places before each
+  /// row; height: [m]; returns [places].
   Eigen::VectorXd ExplainedBySteps(const std::vector<Eigen::Index>& part, Eigen::Index places,
                                    const Eigen::VectorXd& height) const;
   /// The coefficient of a column beside the fit's, by least squares; 0 for one that the fit holds.

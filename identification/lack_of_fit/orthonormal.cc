@@ -72,7 +72,8 @@ double TakeOff(const double* basis, Index m, double* column) {
 }  // namespace
 
 Basis Orthonormal(MatrixXd columns, double distinct) {
-  // what is left of columns in the order in which they join, the basis in the place of those that did; columns = basis R
+  // what is left of columns in the order in which they join, the basis in the place of those that
+  // did; columns = basis R
   const Index q = columns.cols(), most = std::min(columns.rows(), q);
   MatrixXd R = MatrixXd::Zero(q, q);
   std::vector<Index> order(static_cast<std::size_t>(q));

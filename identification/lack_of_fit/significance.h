@@ -19,8 +19,8 @@ struct Finding {
   double explained = 0;  // squares of the residual's samples that it explains, less the noise's
   double gain = 0;       // the same less ln(m) times the noise's variance for each feature, as BIC
       // has it: of two that explain as much, the one with fewer features gains more
-  /// Of a ripple, in the unit of the angle; of what is periodic in time, or the time constant of a memory,
-  /// s; 0: none.
+  /// Of a ripple, in the unit of the angle; of what is periodic in time, or the time constant of a
+  /// memory, s; 0: none.
   double period = 0;
   double lag = 0;         // of the torque behind the velocity, s; 0: none
   double alike = 0;       // share of an angle's part that acts alike in both directions
@@ -44,7 +44,8 @@ class ErrorLevel {
   /// tests: all of the log, those counted that come later.
   explicit ErrorLevel(int tests, double level = kErrorLevel) : remaining_(tests), level_(level) {}
 
-  /// Counts the tests of the log in a finding's probability; whether it is then beyond chance, and explains anything.
+  /// Counts the tests of the log in a finding's probability; whether it is then beyond chance, and
+  /// explains anything.
   bool WouldReject(Finding& finding) const;
 
   /// The same, entered in the finding; the next tests then count as one fewer.

@@ -22,8 +22,9 @@ struct Advice {
   const Fit& fit;
 };
 
-/// When a test looks: at what is known to act on friction first, then at what changes within each segment of
-/// constant speed, at samples, where each test has a turn of its own, and then at bins within them, then at what stays.
+/// When a test looks: at what is known to act on friction first, then at what changes within each
+/// segment of constant speed, at samples, where each test has a turn of its own, and then at bins
+/// within them, then at what stays.
 enum class Turn {
   first,
   fading,

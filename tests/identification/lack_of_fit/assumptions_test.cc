@@ -1,4 +1,6 @@
 // What an answer assumes and a log cannot tell: a cold start, no drift, units, losses between samples, rounding.
+#include "identification/lack_of_fit/assumptions.h"
+
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
 
@@ -10,9 +12,8 @@
 
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/circumstances.h"
-#include "identification/lack_of_fit/held_loss.h"
+#include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/rounding.h"
-#include "identification/lack_of_fit/assumptions.h"
 #include "models/foundation/random_stream.h"
 #include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"
