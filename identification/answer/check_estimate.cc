@@ -127,7 +127,7 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
     if (score(j) > score(most)) most = j;
   }
   const double z = std::abs(step.solution[most]) / known.Deviation(most);
-  if (static_cast<double>(p) * PValueOfStudent(z, known.freedom) >= kErrorLevel) {
+  if (static_cast<double>(p) * PValueOfStudent(z, known.degrees_of_freedom) >= kErrorLevel) {
     return std::nullopt;
   }
 

@@ -161,7 +161,7 @@ std::string NotShown(const Fit& fit, const PreparedLog& log) {
 
 /// Nothing that was tried fits.
 Fit NothingFits(const ModelComparison& comparison, StructureChoice choice) {
-  const Inference& first = comparison.First().told;
+  const Inference& first = comparison.First().inferred;
   const Status status = first.status == Status::ok ? Status::not_identifiable : first.status;
   Fit fit = Refused(kName, status,
                     fmt::format("none of {} structures fits; {} says: {}", choice.trials.size(),
@@ -183,22 +183,22 @@ Fit FitChosen(const IdentifierInput& input) {
   const Structure* only = comparison.OnlyOne();
   std::vector<StructureCandidate> contenders;
   if (!only) contenders = comparison.Compare(blocks);
-  StructureChoice told{"", "", blocks, comparison.Told()};
+  StructureChoice reported{"", "", blocks, comparison.Reported()};
   const Structure* best = comparison.Best();
-  if (!best) return NothingFits(comparison, std::move(told));
+  if (!best) return NothingFits(comparison, std::move(reported));
 
   // by the blocks, or by BIC where none can do without one of them, as one that holds the warm-up
   Structure chosen = *best;
   if (only) {
     chosen = *only;
-    told.reason = fmt::format("chose {}: it outdoes every other structure", chosen.Name());
+    reported.reason = fmt::format("chose {}: it outdoes every other structure", chosen.Name());
   } else if (contenders.empty()) {
-    told.reason = fmt::format("chose {} by BIC: none can do without one of the {} blocks of time",
-                              chosen.Name(), blocks);
+    reported.reason = fmt::format(
+        "chose {} by BIC: none can do without one of the {} blocks of time", chosen.Name(), blocks);
   } else {
     const Choice choice = ChooseStructure(contenders, comparison.rows());
     chosen = comparison.Contending(choice.chosen);
-    told.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
+    reported.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
   }
 
   // on every sample, with the reason before what it says
@@ -209,10 +209,10 @@ Fit FitChosen(const IdentifierInput& input) {
   Fit fit = FitOnAll(chosen, trials.lag, input);
 
   // what a reader is told, and the same structure for other samples
-  told.chosen = chosen.Name();
+  reported.chosen = chosen.Name();
   fit.identifier = kName;
-  fit.summary = fmt::format("{}{}; {}", NotShown(fit, input.log), told.reason, fit.summary);
-  fit.choice = std::move(told);
+  fit.summary = fmt::format("{}{}; {}", NotShown(fit, input.log), reported.reason, fit.summary);
+  fit.choice = std::move(reported);
   fit.structure = [sketch = chosen.Sketch(), lag = trials.lag](const IdentifierInput& other) {
     return FitOnAll(sketch, lag, other);
   };

@@ -66,12 +66,12 @@ bool TakesMoreThanChance(const VectorXd& residual, const VectorXd& share, const 
   // squares about one mean, and about the means of all bins that hold samples
   const double about_mean = residual.squaredNorm() - n * std::pow(residual.mean(), 2);
   const double about_bins = residual.squaredNorm() - means.Taken();
-  const double freedom = means.Filled() - 1;
-  if (freedom < 1 || !(about_bins > 0) || freedom > 0.5 * n) return false;
+  const double degrees_of_freedom = means.Filled() - 1;
+  if (degrees_of_freedom < 1 || !(about_bins > 0) || degrees_of_freedom > 0.5 * n) return false;
 
   // beyond what as many means take of noise alone
-  const double taken = (about_mean - about_bins) / (about_bins / (n - freedom - 1));
-  return taken > freedom + kDeviations * std::sqrt(2 * freedom);
+  const double taken = (about_mean - about_bins) / (about_bins / (n - degrees_of_freedom - 1));
+  return taken > degrees_of_freedom + kDeviations * std::sqrt(2 * degrees_of_freedom);
 }
 
 /// Whether means over bins of place, one set for each direction of motion, take more of a residual
@@ -110,9 +110,9 @@ Trial Try(const Structure& structure, const IdentifierInput& input) {
   if (trial.gives_friction) return trial;
 
   // beyond doubt or perhaps by chance
-  trial.told = Infer(trial.fit);
+  trial.inferred = Infer(trial.fit);
   trial.dropped =
-      trial.told.status == Status::ok ? "gives no friction" : StatusName(trial.told.status);
+      trial.inferred.status == Status::ok ? "gives no friction" : StatusName(trial.inferred.status);
   return trial;
 }
 
@@ -133,7 +133,7 @@ void ModelComparison::Add(const std::vector<Structure>& structures) {
 void ModelComparison::LeaveOut(const std::vector<Structure>& structures, const std::string& why) {
   for (const Structure& structure : structures) {
     trials_.push_back({.structure = structure, .dropped = why});
-    trials_.back().told.status = Status::not_identifiable;
+    trials_.back().inferred.status = Status::not_identifiable;
   }
 }
 
@@ -192,7 +192,7 @@ bool ModelComparison::MayWarm() const {
     if (identifier.name != EnergyMl().name) return false;
     // one without slope, where the joint has one, need not settle for its warming
     const bool too_poor = identifier.options.Get<LawOption>().law->name == Coulomb::name;
-    return too_poor ? trial.gives_friction : trial.told.status != Status::not_identifiable;
+    return too_poor ? trial.gives_friction : trial.inferred.status != Status::not_identifiable;
   });
 }
 
@@ -203,17 +203,17 @@ bool ModelComparison::MayWarmWith(FittedGravity gravity) const {
 
 bool ModelComparison::MayBendAndWarm() const {
   return MayWarm() ||
-         Find(StribeckStructure(FittedWarming::none))->told.status != Status::not_identifiable;
+         Find(StribeckStructure(FittedWarming::none))->inferred.status != Status::not_identifiable;
 }
 
 bool ModelComparison::MayHaveTwoLevels(FittedWarming warming) const {
   const Trial& one = *Find(StribeckStructure(warming));
-  if (one.told.status == Status::ok) return Pushes(one.fit);
+  if (one.inferred.status == Status::ok) return Pushes(one.fit);
 
   // where the curve does not fit: by a linear law, or by two levels without warming
   if (warming == FittedWarming::none) return Pushes(First().fit);
   const Trial* cold = Find(TwoLevelStribeckStructure(FittedWarming::none));
-  return cold && cold->told.status == Status::ok;
+  return cold && cold->inferred.status == Status::ok;
 }
 
 void ModelComparison::DropDominated() {
@@ -271,16 +271,16 @@ std::vector<StructureCandidate> ModelComparison::Compare(int blocks) {
   return contenders;
 }
 
-std::vector<StructureTrial> ModelComparison::Told() const {
-  std::vector<StructureTrial> told;
+std::vector<StructureTrial> ModelComparison::Reported() const {
+  std::vector<StructureTrial> reported;
   for (const Trial& trial : trials_) {
-    StructureTrial& one = told.emplace_back();
+    StructureTrial& one = reported.emplace_back();
     one.name = trial.structure.Name();
     one.parameters = trial.Parameters();
     one.dropped = trial.dropped;
     if (trial.errors) one.rmse = std::sqrt(trial.errors->mean());
   }
-  return told;
+  return reported;
 }
 
 const Trial* ModelComparison::BestTrial() const {

@@ -18,7 +18,7 @@ struct Trial {
   Structure structure;
   Fit fit{};
   bool gives_friction = false;
-  Inference told{};                         // of one that gives no friction: why
+  Inference inferred{};                     // of one that gives no friction: why
   std::string dropped{};                    // why it is no contender; empty for one that is
   bool outdone = false;                     // by another that stands, which is why
   std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
@@ -89,7 +89,7 @@ class ModelComparison {
   /// Rows that are compared.
   double rows() const { return rows_; }
   /// All trials, for a reader.
-  std::vector<StructureTrial> Told() const;
+  std::vector<StructureTrial> Reported() const;
 
  private:
   const Trial* BestTrial() const;

@@ -170,7 +170,7 @@ Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
   known.noise = FitNoise(residual, used);
   known.covariance =
       cofactor * ScatterThrough(known.noise, heat.Transposed(weighted), all) * cofactor;
-  known.freedom = FreedomOfWeights(weights, known.noise, rows.cols());
+  known.degrees_of_freedom = DegreesOfFreedomOfWeights(weights, known.noise, rows.cols());
   return known;
 }
 

@@ -60,8 +60,8 @@ double SquaresWithout(const StribeckProblem& problem) {
 
 /// The drop of |e|^2 / s^2 that a point brings to a law that leaves the squares `without`.
 double Explained(const StribeckProblem& problem, double without, const FitPoint& point) {
-  const auto freedom = static_cast<double>(problem.selection.count() - point.x.size());
-  return ExplainedVariances(without, point.squares, freedom,
+  const auto degrees_of_freedom = static_cast<double>(problem.selection.count() - point.x.size());
+  return ExplainedVariances(without, point.squares, degrees_of_freedom,
                             Kept(problem.measurements.torque, problem.selection));
 }
 

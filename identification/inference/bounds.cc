@@ -82,7 +82,7 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
 
 }  // namespace
 
-void HoldAtBounds(const Inference& told, const LogSamples& measurements, Fit& fit) {
+void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit) {
   // free gravity and maps have weights beside the table, which would have to follow
   const bool free = fit.gravity && fit.gravity->kind == GravityKind::paired;
   if (free || !fit.friction.maps.empty()) return;
@@ -92,7 +92,8 @@ void HoldAtBounds(const Inference& told, const LogSamples& measurements, Fit& fi
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     column += row.estimated;
-    const auto excess = row.role == Role::law ? FindExcess(row, told.parameters[i]) : std::nullopt;
+    const auto excess =
+        row.role == Role::law ? FindExcess(row, by_noise.parameters[i]) : std::nullopt;
     if (!excess) continue;
     if (excess->beyond || !excess->interval95) return;
     held.push_back(column);
@@ -101,7 +102,7 @@ void HoldAtBounds(const Inference& told, const LogSamples& measurements, Fit& fi
   }
 
   // the others as the covariance has them with these held
-  const Eigen::MatrixXd& covariance = told.known.covariance;
+  const Eigen::MatrixXd& covariance = by_noise.known.covariance;
   const Eigen::Map<const Eigen::VectorXd> gap(gaps.data(), static_cast<Eigen::Index>(gaps.size()));
   const Eigen::VectorXd before = TorqueOf(fit, measurements);
   Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);

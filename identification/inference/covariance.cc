@@ -16,7 +16,8 @@ Uncertainty OfWeighted(const Eigen::MatrixXd& jacobian, const ErrorModel& errors
   const Eigen::MatrixXd scatter =
       ScatterThrough(known.noise, errors.weights.asDiagonal() * jacobian, used);
   known.covariance = errors.cofactor * scatter * errors.cofactor;
-  known.freedom = FreedomOfWeights(errors.weights, known.noise, jacobian.cols());
+  known.degrees_of_freedom =
+      DegreesOfFreedomOfWeights(errors.weights, known.noise, jacobian.cols());
   return known;
 }
 
@@ -29,7 +30,8 @@ Uncertainty OfSquares(const Fit& fit, const Eigen::VectorXd& residual,
     Uncertainty exact;
     exact.noise.variance = exact.noise.innovation = RoundingVariance(fit.torque);
     exact.covariance = exact.noise.variance * errors.cofactor;
-    exact.freedom = std::max(static_cast<double>(residual.size() - errors.cofactor.rows()), 1.0);
+    exact.degrees_of_freedom =
+        std::max(static_cast<double>(residual.size() - errors.cofactor.rows()), 1.0);
     return exact;
   }
   Uncertainty known =
@@ -41,7 +43,7 @@ Uncertainty OfSquares(const Fit& fit, const Eigen::VectorXd& residual,
   return known;
 }
 
-/// Of whitened rows: what colour is left of them counts, too. The freedom is that of noise of the
+/// Of whitened rows: what colour is left of them counts, too. The degrees of freedom are those of noise of the
 /// colour that was taken off, since from the same samples that colour is known.
 Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   const auto rows = [&] { return whitening.Of(Kept(fit.jacobian(), fit.used)); };
@@ -49,8 +51,8 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   known.noise = whitening.noise();
   const auto samples = static_cast<double>(whitening.size());
   const auto count = static_cast<double>(fit.errors.cofactor.rows());
-  known.freedom =
-      std::min(known.freedom, std::max(samples / known.noise.variance_inflation - count, 1.0));
+  known.degrees_of_freedom = std::min(
+      known.degrees_of_freedom, std::max(samples / known.noise.variance_inflation - count, 1.0));
   return known;
 }
 
@@ -82,7 +84,8 @@ Uncertainty CovarianceOf(const Fit& fit) {
   return known;
 }
 
-double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise, Eigen::Index d) {
+double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
+                                 Eigen::Index d) {
   const double sum = weights.sum();
   const double effective = sum * sum / weights.squaredNorm();
   return std::max(effective / noise.variance_inflation - static_cast<double>(d), 1.0);

@@ -11,6 +11,7 @@ Uncertainty CovarianceOf(const Fit& fit);
 
 /// Degrees of freedom of the noise's variance that n weighted samples leave beside d parameters: at
 /// least 1. (sum w)^2 / sum w^2 of them count. weights: [n].
-double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise, Eigen::Index d);
+double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
+                                 Eigen::Index d);
 
 }  // namespace warmjoint

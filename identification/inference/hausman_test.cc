@@ -24,7 +24,7 @@ double Rms(const Eigen::VectorXd& values) {
 }  // namespace
 
 std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOfRows& whitened,
-                                             double freedom) {
+                                             double degrees_of_freedom) {
   Disagreement most;
   for (Eigen::Index j = 0; j < plain.x.size(); ++j) {
     // the difference from an efficient fit has the difference of both variances (Hausman)
@@ -36,7 +36,8 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
   }
   if (!(most.deviations > 0)) return std::nullopt;
   // of the largest of p differences (Bonferroni)
-  const double p = static_cast<double>(plain.x.size()) * PValueOfStudent(most.deviations, freedom);
+  const double p =
+      static_cast<double>(plain.x.size()) * PValueOfStudent(most.deviations, degrees_of_freedom);
   if (p >= PValueOfNormal(kBeyondDoubt)) return std::nullopt;
   most.differences = whitened.x - plain.x;
   return most;

@@ -27,9 +27,9 @@ struct Disagreement {
 /// there is (Hausman 1978). Structure pulls them apart, since they weigh its slow and its fast part
 /// differently. Returns where they differ beyond doubt: by what noise does to any of p parameters
 /// less often than five deviations of a normal variable; nothing where noise may do it. The variance
-/// counts as a tenth of the plain one's at least. freedom: of the plain fit's variance.
+/// counts as a tenth of the plain one's at least. degrees_of_freedom: of the plain fit's variance.
 std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOfRows& whitened,
-                                             double freedom);
+                                             double degrees_of_freedom);
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
 /// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by

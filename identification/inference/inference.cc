@@ -51,7 +51,7 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
   for (const FitParameter& parameter : fit.parameters) {
     ParameterInterval one{parameter.value, {}, {}, 0};
     if (parameter.estimated) {
-      const double quantile = StudentQuantile(known.Freedom(column), kIntervalLevel);
+      const double quantile = StudentQuantile(known.DegreesOfFreedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
       if (parameter.has_interval) one = KnownWithin(parameter, deviation, quantile);
     }
@@ -108,8 +108,8 @@ Inference Infer(const Fit& fit) {
 
 Fit AtBounds(Fit fit, const LogSamples& measurements) {
   if (fit.refusal || IsRefused(fit.causes) || !LeavesBounds(fit.parameters)) return fit;
-  const Inference told = Apply(ByNoise(fit), fit.causes);
-  if (told.status == Status::ok) HoldAtBounds(told, measurements, fit);
+  const Inference by_noise = Apply(ByNoise(fit), fit.causes);
+  if (by_noise.status == Status::ok) HoldAtBounds(by_noise, measurements, fit);
   return fit;
 }
 

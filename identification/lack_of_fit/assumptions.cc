@@ -102,8 +102,9 @@ struct Possible {
 };
 
 /// Deviations of a factor at the level of one test among all that the log faces.
-double Quantile(double freedom) {
-  return StudentQuantile(freedom, 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size()));
+double Quantile(double degrees_of_freedom) {
+  return StudentQuantile(degrees_of_freedom,
+                         1 - kErrorLevel / static_cast<double>(LackOfFitTests().size()));
 }
 
 /// What the tests of the log leave open of the factors of forces, each by itself beside the fit.
@@ -115,10 +116,10 @@ class OpenFactors {
     weighted_ = own_.colwise().squaredNorm();
     fit.TakeOff(left_);
     fit.TakeOff(own_);
-    const Index freedom = left_.size() - fit.apart.basis.cols() - 1;
-    if (freedom < 1) return;
-    white_freedom_ = static_cast<double>(freedom);
-    white_quantile_ = Quantile(white_freedom_);
+    const Index degrees_of_freedom = left_.size() - fit.apart.basis.cols() - 1;
+    if (degrees_of_freedom < 1) return;
+    white_degrees_of_freedom_ = static_cast<double>(degrees_of_freedom);
+    white_quantile_ = Quantile(white_degrees_of_freedom_);
   }
 
   /// Both ends of the i-th one's interval at their level.
@@ -126,10 +127,11 @@ class OpenFactors {
 
  private:
   const WeighedFit& fit_;
-  VectorXd left_;                                  // [m] weighted, of the residual beside the fit
-  MatrixXd own_;                                   // [m x q] weighted, of the forces beside the fit
-  VectorXd weighted_;                              // [q] squares of the forces
-  double white_freedom_ = 0, white_quantile_ = 0;  // of most forces: where what they leave is white
+  VectorXd left_;      // [m] weighted, of the residual beside the fit
+  MatrixXd own_;       // [m x q] weighted, of the forces beside the fit
+  VectorXd weighted_;  // [q] squares of the forces
+  double white_degrees_of_freedom_ = 0,
+         white_quantile_ = 0;  // of most forces: where what they leave is white
 };
 
 Possible OpenFactors::Interval(Index i, const Possible& possible) const {
@@ -149,8 +151,9 @@ Possible OpenFactors::Interval(Index i, const Possible& possible) const {
                                                left_ - factor * own, AllOf(own.size()));
 
   // as far as noise reaches at that level
-  const double quantile =
-      known.freedom == white_freedom_ ? white_quantile_ : Quantile(known.freedom);
+  const double quantile = known.degrees_of_freedom == white_degrees_of_freedom_
+                              ? white_quantile_
+                              : Quantile(known.degrees_of_freedom);
   const double reach = quantile * known.Deviation(p);
   const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
   return {within(factor - reach), within(factor + reach)};

@@ -174,11 +174,11 @@ GrowingFit::Evidence GrowingFit::ByParts(const MatrixXd& own, const VectorXd& b)
 
   // the parts that carry the features have to outnumber the columns clearly
   const double parts = CarryingParts(shares);
-  const double freedom = parts - static_cast<double>(fit_.columns.cols() + q);
-  if (freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
+  const double degrees_of_freedom = parts - static_cast<double>(fit_.columns.cols() + q);
+  if (degrees_of_freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
 
   // the score of each part: they scatter as much as the noise makes them
-  MatrixXd scatter = parts / freedom * scores.transpose() * scores;
+  MatrixXd scatter = parts / degrees_of_freedom * scores.transpose() * scores;
   const double p = HotellingPValue(b, scatter, parts);
   if (noise_.order() == 0 || p > kWorthACloserLook) return {scatter, p};
 

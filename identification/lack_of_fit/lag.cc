@@ -120,9 +120,9 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
   // a lag leaves a share of what was before, not of what comes: the test has one side
   const double share = fit.CoefficientOf(decay.columns);
   if (share <= 0 || finding.explained <= 0) finding.p = 1;
-  if (!level.Rejects(finding)) return finding;
   // the area under what is left, summed over the samples
   finding.lag = share * model.step / (1 - std::exp(-model.step / lags[best]));
+  if (!level.Rejects(finding)) return finding;
 
   // taken off the residual
   fit.Take(decay);

@@ -37,11 +37,11 @@ SeenLag LookForLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
   // the share of the drop, and how sure it is
   const Eigen::Map<const Eigen::VectorXd> x(drops.data(), seen.runs), y(begins.data(), seen.runs);
   seen.share = x.dot(y) / x.squaredNorm();
-  const double freedom = seen.runs - 1;
+  const double degrees_of_freedom = seen.runs - 1;
   const double deviation =
-      std::sqrt((y - seen.share * x).squaredNorm() / freedom / x.squaredNorm());
+      std::sqrt((y - seen.share * x).squaredNorm() / degrees_of_freedom / x.squaredNorm());
   const double t = seen.share / deviation;
-  seen.p = std::isnan(t) ? 1 : std::min(1.0, kLagsTried * PValueOfStudent(t, freedom));
+  seen.p = std::isnan(t) ? 1 : std::min(1.0, kLagsTried * PValueOfStudent(t, degrees_of_freedom));
   return seen;
 }
 

@@ -275,7 +275,7 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(maps.x.size(), maps.x.size());
-  const double reach = StudentQuantile(known.freedom, kIntervalLevel);
+  const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
   const MeanRows means(maps.maps, kept);
   const std::optional<MeanRows> finer_means =
       finer ? std::optional<MeanRows>(std::in_place, finer->twice.maps, kept) : std::nullopt;
@@ -355,7 +355,7 @@ Eigen::RowVectorXd MeanOver(const std::vector<Index>& group, const Law& law, con
 std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
                                               const Uncertainty& known, const MapPoints& kept) {
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
-  const double reach = StudentQuantile(known.freedom, kIntervalLevel);
+  const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
   std::vector<FrictionAtSpeed> all;
   for (const int direction : {1, -1}) {
     const std::vector<Index> way = Towards(direction, kept);

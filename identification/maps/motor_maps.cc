@@ -20,8 +20,9 @@ namespace {
 /// amplitude cos(multiple motor angle - phase), the mean of the map over its other axes.
 struct MotorHarmonic {
   int multiple = 0;
-  double amplitude = 0;     // N.m or N
-  double significance = 0;  // z^T cov(z)^-1 z, z = (cosine, sine part): chi-square of 2 freedoms
+  double amplitude = 0;  // N.m or N
+  double significance =
+      0;  // z^T cov(z)^-1 z, z = (cosine, sine part): chi-square of 2 degrees of freedom
 };
 
 constexpr int kAngles = 256;
@@ -75,7 +76,7 @@ std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::M
 }
 
 /// The harmonics that stand out of the noise and are at least a fifth of the strongest, strongest
-/// first. A chi-square of 2 freedoms exceeds 23 by chance once in 100 000 times.
+/// first. A chi-square of 2 degrees of freedom exceeds 23 by chance once in 100 000 times.
 std::vector<MotorHarmonic> DominantHarmonics(std::vector<MotorHarmonic> harmonics) {
   std::erase_if(harmonics, [](const MotorHarmonic& h) { return !(h.significance > kChance); });
   std::stable_sort(harmonics.begin(), harmonics.end(),

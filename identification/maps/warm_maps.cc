@@ -83,9 +83,9 @@ class Visibility {
   Visibility(double cold, Eigen::VectorXd torque)
       : cold_(cold), torque_(std::move(torque)), samples_(static_cast<double>(torque_.size())) {}
 
-  /// squares: what is left; freedom: samples less parameters.
-  double Of(double squares, double freedom) const {
-    return ExplainedVariances(cold_, squares, freedom, torque_);
+  /// squares: what is left; degrees_of_freedom: samples less parameters.
+  double Of(double squares, double degrees_of_freedom) const {
+    return ExplainedVariances(cold_, squares, degrees_of_freedom, torque_);
   }
   /// After a round that leaves so many squares.
   void Follow(double squares) {

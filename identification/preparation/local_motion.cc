@@ -73,11 +73,11 @@ bool IsEven(const VectorXd& time, const SampleRange& piece, double step) {
 /// All windows of one width.
 struct Scale {
   Index half_width;
-  double gain;            // of an evenly sampled window
-  double freedom;         // samples less coefficients
-  VectorXd velocity;      // [N]
-  VectorXd acceleration;  // [N]
-  VectorXd squares;       // [N] that the polynomial leaves; infinite where a window does not fit in
+  double gain;                // of an evenly sampled window
+  double degrees_of_freedom;  // samples less coefficients
+  VectorXd velocity;          // [N]
+  VectorXd acceleration;      // [N]
+  VectorXd squares;  // [N] that the polynomial leaves; infinite where a window does not fit in
 };
 
 Scale ScaleOf(const Measurements& m, const std::vector<SampleRange>& pieces, const Series& series,
@@ -202,7 +202,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
     // squares of a polynomial that follows the motion, beyond which chance rarely goes
     const double most = noise * noise *
                         boost::math::quantile(boost::math::complement(
-                            boost::math::chi_squared(scale->freedom), kByChance));
+                            boost::math::chi_squared(scale->degrees_of_freedom), kByChance));
     // the first window to pass is the widest, and it stays
     for (Index i = 0; i < m.size(); ++i) {
       if (motion.known[i] || !(scale->squares[i] <= most)) continue;

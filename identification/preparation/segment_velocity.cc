@@ -54,18 +54,18 @@ std::vector<Steady> SteadySegments(const Measurements& m, const Selection& selec
 
 Pooled Pool(const std::vector<Steady>& all) {
   Pooled pooled;
-  double freedom = 0, velocity_squares = 0, position_squares = 0;
+  double degrees_of_freedom = 0, velocity_squares = 0, position_squares = 0;
   // one noise for all segments: what their lines leave, over the samples less two for each line
   for (const Steady& one : all) {
     const double samples = one.velocity.samples;
     pooled.count += samples;
-    freedom += samples - 2;
+    degrees_of_freedom += samples - 2;
     velocity_squares += (samples - 2) * std::pow(one.velocity.deviation, 2);
     position_squares += (samples - 2) * std::pow(one.position.deviation, 2);
     pooled.mean_speed += samples * std::abs(one.velocity.value);
   }
-  pooled.velocity_noise = std::sqrt(velocity_squares / freedom);
-  pooled.position_noise = std::sqrt(position_squares / freedom);
+  pooled.velocity_noise = std::sqrt(velocity_squares / degrees_of_freedom);
+  pooled.position_noise = std::sqrt(position_squares / degrees_of_freedom);
   pooled.mean_speed /= pooled.count;
   // spread of the speeds among the segments, weighted by samples
   for (const Steady& one : all) {

@@ -24,7 +24,7 @@ using FiguresOf =
 struct FigureErrors {
   Eigen::MatrixXd covariance;  // [q x q] by noise
   Eigen::VectorXd widened;  // [q] how much farther their intervals reach by what the verdict found
-  bool told = true;         // whether every parameter that matters has an interval
+  bool has_intervals = true;  // whether every parameter that matters has an interval
 };
 
 /// An estimated row of the table: its place there, among the estimated ones, and among those of its role.
@@ -104,7 +104,7 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
   Eigen::MatrixXd by_value = Eigen::MatrixXd::Zero(slopes.rows(), std::ssize(inference.parameters));
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
     const ParameterInterval& known = inference.parameters[at.row];
-    errors.told = errors.told && known.interval95;
+    errors.has_intervals = errors.has_intervals && known.interval95;
     // causes change the value, not its coordinate
     by_value.col(static_cast<Eigen::Index>(at.row)) =
         slopes.col(at.column) / ValueByCoordinate(fit.parameters[at.row], known.value);
@@ -149,15 +149,15 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   // when, and a row for each stage
   std::vector<EstimatedParameter> state;
   if (m.further_starts.empty()) state.push_back({"time", m.time[m.size() - 1], "s", {}, {}});
-  const double reach = StudentQuantile(inference.known.freedom, kIntervalLevel);
+  const double reach = StudentQuantile(inference.known.degrees_of_freedom, kIntervalLevel);
   for (int stage = 0; stage < (friction.second_thermal ? 2 : 1); ++stage) {
     EstimatedParameter one{
         stage == 0 ? "energy" : "second_energy", end[stage], m.torque_unit, {}, {}};
     // from the fit where its table does not hold all that E depends on, else from the parameters
     const double deviation =
         fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
-    const bool told = fit.end_energy_std ? HasIntervals(inference) : errors.told;
-    if (told && std::isfinite(deviation)) {
+    const bool has_interval = fit.end_energy_std ? HasIntervals(inference) : errors.has_intervals;
+    if (has_interval && std::isfinite(deviation)) {
       one.std = deviation;
       const double half = reach * deviation + errors.widened[stage];
       one.interval95 = {{end[stage] - half, end[stage] + half}};

@@ -66,7 +66,7 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   const double cooling = -std::expm1(-h / fitted.time_constant);
   if (known_gain.interval95 && known_tau.interval95) {
     const Eigen::Matrix2d covariance = HeatCovariance(fit, inference, gain_row, tau_row);
-    const double quantile = StudentQuantile(inference.known.freedom, kIntervalLevel);
+    const double quantile = StudentQuantile(inference.known.degrees_of_freedom, kIntervalLevel);
     // ke = k (1 - te) by k and by ln tau
     const Eigen::Vector2d by_gain(cooling, -fitted.gain * by_pole);
     gain.std = std::sqrt(by_gain.dot(covariance * by_gain));

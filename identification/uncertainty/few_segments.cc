@@ -129,8 +129,8 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
 
   // Of white noise the variance of parameter j is a sum of squares e^T P e, P over the segments with
   // P_gh = [g = h] b_g^T b_g - u_g^T C u_h, b_g column j of B and u_g that of X_g^T B.
-  known.freedoms.setOnes(p);
-  known.freedom = 1;
+  known.each_degrees_of_freedom.setOnes(p);
+  known.degrees_of_freedom = 1;
   // as few segments as parameters tell no scatter
   if (static_cast<Index>(shares.size()) <= p) return;
   const VectorXd before = known.covariance.diagonal();
@@ -147,7 +147,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
       P(g, g) += shares[static_cast<size_t>(g)].own(j, j);
     }
     if (P.trace() > kNone * cofactor(j, j)) {
-      known.freedoms[j] = FreedomOf(P, cofactor(j, j));
+      known.each_degrees_of_freedom[j] = FreedomOf(P, cofactor(j, j));
       continue;
     }
     // the segments say nothing of this one: its error stays
@@ -157,7 +157,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
     covariance(j, j) = before[j];
   }
   known.covariance = covariance;
-  known.freedom = known.freedoms.minCoeff();
+  known.degrees_of_freedom = known.each_degrees_of_freedom.minCoeff();
 }
 
 }  // namespace warmjoint

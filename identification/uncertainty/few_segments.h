@@ -16,7 +16,7 @@ bool HasFewSegments(const Selection& selection, Eigen::Index p);
 /// they are not few.
 double FewestFreedom(const Selection& selection, Eigen::Index p);
 
-/// Replaces covariance and freedom by those of errors that have anything in common within a segment
+/// Replaces covariance and degrees of freedom by those of errors that have anything in common within a segment
 /// and nothing from one to the next:
 ///
 ///     C (sum over segments g of s_g s_g^T) C,   s_g = X_g^T (I - X_g C X_g^T)^(-1/2) r_g,

@@ -156,7 +156,7 @@ Uncertainty PenalisedCovariance(
   }
   result.covariance = std::move(by_noise);
   // independent samples less effective parameters
-  result.freedom = std::max(n / noise.variance_inflation - hat.trace(), 1.0);
+  result.degrees_of_freedom = std::max(n / noise.variance_inflation - hat.trace(), 1.0);
   return result;
 }
 

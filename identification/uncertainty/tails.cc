@@ -30,17 +30,18 @@ double ZOf(double p) {
   return std::numbers::sqrt2 * boost::math::erfc_inv(p, Policy());
 }
 
-double PValueOfStudent(double t, double freedom) {
-  if (std::isnan(t) || std::isnan(freedom)) return 1;
-  assert(freedom > 0);
+double PValueOfStudent(double t, double degrees_of_freedom) {
+  if (std::isnan(t) || std::isnan(degrees_of_freedom)) return 1;
+  assert(degrees_of_freedom > 0);
   if (std::isinf(t)) return 0;
-  const boost::math::students_t_distribution<double, Policy> student(freedom);
+  const boost::math::students_t_distribution<double, Policy> student(degrees_of_freedom);
   return 2 * cdf(complement(student, std::abs(t)));
 }
 
-double StudentQuantile(double freedom, double level) {
+double StudentQuantile(double degrees_of_freedom, double level) {
   assert(level > 0 && level < 1);
-  const boost::math::students_t_distribution<double, Policy> student(freedom > 1 ? freedom : 1);
+  const boost::math::students_t_distribution<double, Policy> student(
+      degrees_of_freedom > 1 ? degrees_of_freedom : 1);
   return quantile(complement(student, (1 - level) / 2));
 }
 

@@ -22,12 +22,12 @@ double PValueOfNormal(double z);
 /// The z >= 0 with PValueOfNormal(z) = p. p: 0 to 1; 0 gives infinity.
 double ZOf(double p);
 
-/// P(|T| >= |t|) of Student's t; 0 to 1. freedom > 0.
-double PValueOfStudent(double t, double freedom);
+/// P(|T| >= |t|) of Student's t; 0 to 1. degrees_of_freedom > 0.
+double PValueOfStudent(double t, double degrees_of_freedom);
 
 /// P(|T| <= quantile) = level: value +- quantile * std holds the truth in that share of the cases.
-/// freedom: samples less parameters; below 1 counts as 1. level: above 0, below 1.
-double StudentQuantile(double freedom, double level);
+/// degrees_of_freedom: samples less parameters; below 1 counts as 1. level: above 0, below 1.
+double StudentQuantile(double degrees_of_freedom, double level);
 
 /// P(F >= f) of Fisher's F; 0 to 1. f >= 0, may be infinite; m, n > 0: degrees of freedom of
 /// numerator and denominator.

@@ -72,8 +72,8 @@ Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
 
   // white and even: (J^T R J) C is s^2 times the identity
   if (result.noise.order() == 0 && result.uneven == 0) {
-    result.freedom = n - d;
-    result.covariance = residual.squaredNorm() / result.freedom * cofactor;
+    result.degrees_of_freedom = n - d;
+    result.covariance = residual.squaredNorm() / result.degrees_of_freedom * cofactor;
     return result;
   }
 
@@ -86,8 +86,8 @@ Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
   // white but uneven: each row by its own residual
   if (result.noise.order() == 0) {
     rows = residual.asDiagonal() * rows;
-    result.freedom = n - d;
-    result.covariance = n / result.freedom * spread(rows.transpose() * rows);
+    result.degrees_of_freedom = n - d;
+    result.covariance = n / result.degrees_of_freedom * spread(rows.transpose() * rows);
     return result;
   }
 
@@ -99,7 +99,7 @@ Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
   }
   const Eigen::MatrixXd scatter = ScatterThrough(result.noise, rows, selection);
   const double taken = std::min((cofactor * scatter).trace() / result.noise.variance, 0.5 * n);
-  result.freedom = std::max(n / result.noise.variance_inflation - d, 1.0);
+  result.degrees_of_freedom = std::max(n / result.noise.variance_inflation - d, 1.0);
   result.covariance = n / (n - taken) * spread(scatter);
   return result;
 }
@@ -115,9 +115,10 @@ bool IsRounding(double squares, const Eigen::VectorXd& torque) {
   return squares <= static_cast<double>(torque.size()) * RoundingVariance(torque);
 }
 
-double ExplainedVariances(double without, double with, double freedom,
+double ExplainedVariances(double without, double with, double degrees_of_freedom,
                           const Eigen::VectorXd& torque) {
-  return IsRounding(without, torque) ? 0 : (without - with) / with * std::max(freedom, 1.0);
+  return IsRounding(without, torque) ? 0
+                                     : (without - with) / with * std::max(degrees_of_freedom, 1.0);
 }
 
 std::string ColourOf(const NoiseModel& noise) {

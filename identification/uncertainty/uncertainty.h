@@ -11,16 +11,19 @@
 namespace warmjoint {
 
 struct Uncertainty {
-  Eigen::MatrixXd covariance;  // [d x d] of the parameters
-  double freedom = 1;          // degrees of freedom of the noise's variance
-  Eigen::VectorXd freedoms;    // [d] of the variance of each parameter, where they differ; or empty
+  Eigen::MatrixXd covariance;     // [d x d] of the parameters
+  double degrees_of_freedom = 1;  // degrees of freedom of the noise's variance
+  Eigen::VectorXd
+      each_degrees_of_freedom;  // [d] of the variance of each parameter, where they differ; or empty
   NoiseModel noise;
   double uneven = 0;  // deviations by which the noise's variance changes; 0 where it may be even
 
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
   /// Degrees of freedom of that.
-  double Freedom(Eigen::Index i) const { return freedoms.size() > 0 ? freedoms[i] : freedom; }
+  double DegreesOfFreedom(Eigen::Index i) const {
+    return each_degrees_of_freedom.size() > 0 ? each_degrees_of_freedom[i] : degrees_of_freedom;
+  }
 };
 
 /// Covariance of x = argmin |y - f(x)|^2 for stationary noise: C (J^T R J) C, C = (J^T J)^-1, with
@@ -56,8 +59,8 @@ double RoundingVariance(const Eigen::VectorXd& torque);
 bool IsRounding(double squares, const Eigen::VectorXd& torque);
 
 /// Drop of the squares by something that a fit has and another has not, in variances of the noise that is left with it;
-/// 0 where rounding was all that there was to explain. freedom: samples less parameters
-double ExplainedVariances(double without, double with, double freedom,
+/// 0 where rounding was all that there was to explain. degrees_of_freedom: samples less parameters
+double ExplainedVariances(double without, double with, double degrees_of_freedom,
                           const Eigen::VectorXd& torque);
 
 /// A half sentence on the colour of the noise, "" for white: "; noise is coloured (correlation 0.90

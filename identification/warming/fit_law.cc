@@ -145,8 +145,9 @@ void Whiten(LawFit& law) {
 
   // back to the plain fit where whitening changes too much, or leaves the bounds
   const Uncertainty known = law.problem.CovarianceOf(plain, left);
-  law.unwhitened = FindDisagreement({plain.x, known.covariance},
-                                    {white.x, innovation * white.cofactor}, known.freedom);
+  law.unwhitened =
+      FindDisagreement({plain.x, known.covariance}, {white.x, innovation * white.cofactor},
+                       known.degrees_of_freedom);
   const Law& nominal = law.problem.task().law;
   if (law.unwhitened || LeavesBounds(LawParameters(nominal, white.law(), law.measurements()))) {
     return;
@@ -232,8 +233,8 @@ std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
   // variance of the noise, and how much wider few segments make an interval
   const Selection& selection = law.input().selection;
   const Eigen::Index p = fit.x.size();
-  const auto freedom = static_cast<double>(selection.count() - p);
-  const double explained = ExplainedVariances(law.nominal_squares, fit.squares, freedom,
+  const auto degrees_of_freedom = static_cast<double>(selection.count() - p);
+  const double explained = ExplainedVariances(law.nominal_squares, fit.squares, degrees_of_freedom,
                                               Kept(law.measurements().torque, selection));
   const double longest = law.scanned.longest / kScannedBeyond;
   if (!fit.converged) {
@@ -242,7 +243,8 @@ std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
   }
   const double reach = StudentQuantile(FewestFreedom(selection, p), kIntervalLevel) /
                        StudentQuantile(kInfinity, kIntervalLevel);
-  const double deviation = fit.Deviation(fit.layout.log_time_constant(), fit.squares / freedom);
+  const double deviation =
+      fit.Deviation(fit.layout.log_time_constant(), fit.squares / degrees_of_freedom);
   return UnidentifiableWarming({explained, reach * deviation, fit.thermal().time_constant,
                                 law.scanned.shortest, law.scanned.longest, longest});
 }

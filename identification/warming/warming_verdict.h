@@ -9,7 +9,7 @@
 namespace warmjoint {
 
 /// The drop of |e|^2 / s^2 that warming must bring to count as seen: by chance it exceeds 20 about
-/// once in 5000 recordings, a chi-square of 2 freedoms at the best of about 5 independent time
+/// once in 5000 recordings, a chi-square of 2 degrees of freedom at the best of about 5 independent time
 /// constants.
 inline constexpr double kVisibleWarming = 20;
 

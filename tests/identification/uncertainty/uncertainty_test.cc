@@ -72,7 +72,7 @@ Eigen::Vector2d CoverageUneven(double pole) {
     const Eigen::VectorXd x = cofactor * (A.transpose() * y);
     const Uncertainty known = EstimateCovariance(A, cofactor, y - A * x, all, 20 * A.col(1));
     EXPECT_GT(known.uneven, 0);
-    const double reach = StudentQuantile(known.freedom, kIntervalLevel);
+    const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
     for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
   }
   return covered / 500;
@@ -97,7 +97,7 @@ TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {
   const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
   const Uncertainty known = EstimateCovariance(A, cofactor, residual, all);
   EXPECT_EQ(known.noise.order(), 0);
-  EXPECT_EQ(known.freedom, 398);
+  EXPECT_EQ(known.degrees_of_freedom, 398);
   EXPECT_EQ(known.covariance, residual.squaredNorm() / 398 * cofactor);
   EXPECT_EQ(ColourOf(known.noise), "");
 }
@@ -138,7 +138,8 @@ Eigen::Array2d CoverageOfSegments(int count, double in_common) {
     Uncertainty known = EstimateCovariance(A, cofactor, residual, selection);
     CountSegments(A, cofactor, residual, selection, known);
     for (int j = 0; j < 2; ++j) {
-      const double reach = StudentQuantile(known.Freedom(j), kIntervalLevel) * known.Deviation(j);
+      const double reach =
+          StudentQuantile(known.DegreesOfFreedom(j), kIntervalLevel) * known.Deviation(j);
       held[j] += (std::abs(x[j]) <= reach) / static_cast<double>(kFits);
     }
   }
