@@ -130,11 +130,10 @@ std::string ExplainFeedingItself(double time, std::string_view remedy) {
       remedy);
 }
 
-std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
-                                    FittedGravity gravity) {
+std::string RemedyForNonDissipative(std::string_view law, FittedGravity gravity) {
   const bool none = gravity == FittedGravity::none;
   // levels of their own for both directions
-  const std::string levels = fmt::format("try --identifier {} --set law=asymmetric", identifier);
+  const std::string levels = "try --identifier energy-ml --set law=asymmetric";
   if (law != "asymmetric") {
     return none ? levels : fmt::format("{} --gravity {}", levels, NameOf(gravity));
   }
@@ -144,12 +143,13 @@ std::string RemedyForNonDissipative(std::string_view identifier, std::string_vie
   return "is the sign of the torque reversed (--scale torque=-1)?";
 }
 
-std::string ExplainStructure(std::string_view name, double deviations, bool widens) {
+std::string ExplainStructure(std::string_view name, double deviations, Action action) {
+  const bool drops = action == Action::drop_intervals;
   return fmt::format(
       "{}: treating its slow part as noise would change {} by {:.2g} standard errors{}",
-      widens ? "the residual is not only noise"
-             : "no intervals are given, since the residual holds structure and not only noise",
-      name, deviations, widens ? "; intervals were widened to cover this" : "");
+      drops ? "no intervals are given, since the residual holds structure and not only noise"
+            : "the residual is not only noise",
+      name, deviations, drops ? "" : "; intervals were widened to cover this");
 }
 
 std::string ExplainTurns(double at_turns, double at_constant_speeds, const std::string& unit) {
@@ -195,25 +195,26 @@ std::string ExplainUnexpectedStart(double found, double expected, double deviati
       found, expected, deviation);
 }
 
-std::string ExplainHeldLosses(double step, double change, bool shifted) {
+std::string ExplainHeldLosses(double step, double change, Action action) {
   return fmt::format(
       "Eq. (22) takes the losses as constant within each step of {:.3g} s; losses that change with "
       "the heat within a step change thermal_time_constant by {:.2g} s{}",
       step, change,
-      shifted ? ", and describe the log better: the numbers given are theirs"
-              : ": the intervals cover both; log faster");
+      action == Action::shift ? ", and describe the log better: the numbers given are theirs"
+                              : ": the intervals cover both; log faster");
 }
 
 std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
-                        bool estimated) {
+                        Action action) {
   const double first = time[gaps[0].behind - 1];
   const double longest = std::ranges::max_element(gaps, {}, &LogGap::length)->length;
   const std::string where =
       gaps.size() == 1 ? fmt::format("a gap of {:.4g} s", longest)
                        : fmt::format("{} gaps of up to {:.4g} s, the first", gaps.size(), longest);
   return fmt::format("{} at {:.6g} s: the losses during that time are unknown{}", where, first,
-                     estimated ? " and are estimated, too"
-                               : ", and intervals were widened to cover this; record without gaps");
+                     action == Action::widen
+                         ? ", and intervals were widened to cover this; record without gaps"
+                         : " and are estimated, too");
 }
 
 std::string ExplainImitated(const std::vector<std::string>& names) {
@@ -300,14 +301,15 @@ std::string ExplainHints(const std::vector<std::string>& quantities, const Moved
 }
 
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
-                            bool hides) {
+                            Action action) {
+  const bool shifts = action == Action::shift;
   return fmt::format(
       "the torque comes in steps of {:.3g} {}, which its noise does not even out: {} {} by {:.2g} "
       "{}; log the torque in finer steps",
       step, unit,
-      hides ? "intervals were widened to cover what they hide, that of"
-            : "the numbers given are free of what they do,",
-      moved.parameter.name + (hides ? "" : " changed"), moved.change, moved.parameter.unit);
+      shifts ? "the numbers given are free of what they do,"
+             : "intervals were widened to cover what they hide, that of",
+      moved.parameter.name + (shifts ? " changed" : ""), moved.change, moved.parameter.unit);
 }
 
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,

@@ -42,12 +42,12 @@ std::string ExplainRiseFromRest(const Fit& fit);
 /// Of a fitted friction that pushes at a time, s.
 std::string ExplainFeedingItself(double time, std::string_view remedy);
 /// What to try then, which the fit does not hold already: another law, else gravity, else the torque's sign.
-/// identifier: one that can do both; law: of the fit; gravity: its option.
-std::string RemedyForNonDissipative(std::string_view identifier, std::string_view law,
+/// law: of the fit; gravity: its option.
+std::string RemedyForNonDissipative(std::string_view law,
                                     FittedGravity gravity = FittedGravity::none);
-/// Of structure in the residual that intervals were widened for, or that leaves none. name: of the
+/// Of structure in the residual that intervals were widened for, or that leaves none (drop_intervals). name: of the
 /// parameter that changes by most standard errors, `deviations`, where it counts as noise
-std::string ExplainStructure(std::string_view name, double deviations, bool widens);
+std::string ExplainStructure(std::string_view name, double deviations, Action action);
 /// Of a law that misses what happens at turns. Residuals, rms in `unit`
 std::string ExplainTurns(double at_turns, double at_constant_speeds, const std::string& unit);
 
@@ -75,12 +75,12 @@ inline constexpr const char* kCoversWarmStart =
 std::string ExplainColdStart(const MovedParameter& moved, double begins, std::string_view remedy);
 /// Of a log that contradicts what was expected of E(0), with its standard deviation, N.m or N.
 std::string ExplainUnexpectedStart(double found, double expected, double deviation);
-/// Of losses that may follow the heat within a step of the log, s. change: of thermal_time_constant, s;
-/// shifted: whether it has the change
-std::string ExplainHeldLosses(double step, double change, bool shifted);
-/// Of gaps in the log whose losses are estimated, or which intervals cover. time: [N] s
+/// Of losses that may follow the heat within a step of the log, s. change: of thermal_time_constant, s, which has it (shift)
+/// or an interval that covers it
+std::string ExplainHeldLosses(double step, double change, Action action);
+/// Of gaps in the log whose losses are estimated, or which intervals cover (widen). time: [N] s
 std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
-                        bool estimated);
+                        Action action);
 
 // of maps
 inline constexpr const char* kMapHoldsGravity =
@@ -120,9 +120,9 @@ std::string ExplainTooMuchTogether(double share, double most);
 std::string ExplainWidened(double largest, bool without_warming);
 /// Of hints, and the parameter that they move farthest.
 std::string ExplainHints(const std::vector<std::string>& quantities, const MovedParameter& moved);
-/// Of a torque in steps, whose effect was taken off or hides. step: in `unit`
+/// Of a torque in steps, whose effect was taken off (shift) or hides. step: in `unit`
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
-                            bool hides);
+                            Action action);
 /// Of a fit to few samples, and of one that the torque's mean beats. fit_share: Fit, %
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
                               bool any_motion);

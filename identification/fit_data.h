@@ -12,6 +12,11 @@
 
 namespace warmjoint {
 
+/// Rows that all take part.
+inline Selection AllOf(Eigen::Index rows) {
+  return {Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows, true), {}};
+}
+
 /// The rows of `given` that the selection keeps. given: [N] or [N x d], an expression is evaluated once; returns
 /// [n] or [n x d].
 template <typename Columns>

@@ -289,7 +289,7 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
   }
   if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
     return Refusal{Status::inadequate_model,
-                   ExplainFeedingItself(m.time[i], RemedyForNonDissipative("energy-ml", ""))};
+                   ExplainFeedingItself(m.time[i], RemedyForNonDissipative(""))};
   }
   return std::nullopt;
 }

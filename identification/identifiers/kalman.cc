@@ -264,9 +264,8 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
     return Refusal{Status::not_identifiable, *why};
   }
   if (response.feeds_itself) {
-    return Refusal{Status::inadequate_model,
-                   ExplainFeedingItself(m.time[*response.feeds_itself],
-                                        RemedyForNonDissipative("energy-ml", ""))};
+    return Refusal{Status::inadequate_model, ExplainFeedingItself(m.time[*response.feeds_itself],
+                                                                  RemedyForNonDissipative(""))};
   }
   return std::nullopt;
 }

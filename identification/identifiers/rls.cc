@@ -163,13 +163,13 @@ Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     if (used.keep[i]) weighted.row(i) = weights[row++] * rows.row(i);
   }
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows.rows(), true), {}};
 
   // the noise of all samples comes through the heat
   Uncertainty known;
   known.noise = FitNoise(residual, used);
-  known.covariance =
-      cofactor * ScatterThrough(known.noise, heat.Transposed(weighted), all) * cofactor;
+  known.covariance = cofactor *
+                     ScatterThrough(known.noise, heat.Transposed(weighted), AllOf(rows.rows())) *
+                     cofactor;
   known.degrees_of_freedom = DegreesOfFreedomOfWeights(weights, known.noise, rows.cols());
   return known;
 }

@@ -93,9 +93,9 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
-  fit.causes.push_back(Voids(Status::inadequate_model,
-                             ExplainFeedingItself(m.time[predicted.feeds_itself],
-                                                  RemedyForNonDissipative("energy-ml", without))));
+  fit.causes.push_back(Voids(
+      Status::inadequate_model,
+      ExplainFeedingItself(m.time[predicted.feeds_itself], RemedyForNonDissipative(without))));
 }
 
 /// What the law leaves without warming; 0 where no warming is asked for. (N.m)^2 or N^2

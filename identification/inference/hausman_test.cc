@@ -51,10 +51,13 @@ void AddStructure(const Disagreement& structure, const Eigen::VectorXd& friction
 
   // how far the structure moves the fitted torque, beside the size of the friction
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
-  const bool relevant = !(moved < kDefaultRelevance * Rms(friction));
-  if (!relevant) fit.errors.structure = structure.differences;
-  const std::string sentence = ExplainStructure(name, structure.deviations, !relevant);
-  fit.causes.push_back(relevant ? DropsIntervals(sentence) : Remark(sentence));
+  if (!(moved < kDefaultRelevance * Rms(friction))) {
+    fit.causes.push_back(
+        DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals)));
+    return;
+  }
+  fit.errors.structure = structure.differences;
+  fit.causes.push_back(Remark(ExplainStructure(name, structure.deviations, Action::note)));
 }
 
 }  // namespace warmjoint

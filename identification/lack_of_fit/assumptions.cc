@@ -130,8 +130,8 @@ class OpenFactors {
   VectorXd left_;      // [m] weighted, of the residual beside the fit
   MatrixXd own_;       // [m x q] weighted, of the forces beside the fit
   VectorXd weighted_;  // [q] squares of the forces
-  double white_degrees_of_freedom_ = 0,
-         white_quantile_ = 0;  // of most forces: where what they leave is white
+  // of most forces: where what they leave is white
+  double white_degrees_of_freedom_ = 0, white_quantile_ = 0;
 };
 
 Possible OpenFactors::Interval(Index i, const Possible& possible) const {

@@ -177,18 +177,17 @@ void ExplainLog(const Examined& of, Examination& examination) {
   const LogSamples& m = of.input.measurements;
   if (Cause* const row = Row(Source::held_losses, examination)) {
     const auto tau = std::ranges::find(row->rows, *of.fit.RowOf(Role::heat, 1));
-    row->sentence = ExplainHeldLosses(MedianStep(m.time), row->bias[tau - row->rows.begin()],
-                                      row->action == Action::shift);
+    row->sentence =
+        ExplainHeldLosses(MedianStep(m.time), row->bias[tau - row->rows.begin()], row->action);
   }
   if (Cause* const row = Row(Source::gaps, examination)) {
-    row->sentence = ExplainGaps(FindGaps(m), m.time, false);
+    row->sentence = ExplainGaps(FindGaps(m), m.time, row->action);
   }
   for (const Source source : {Source::rounding, Source::hidden_steps}) {
     Cause* const row = Row(source, examination);
     const auto moved = row ? FarthestBeyond(*row, of) : std::nullopt;
     if (!moved) continue;
-    row->sentence =
-        ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, source == Source::hidden_steps);
+    row->sentence = ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, row->action);
   }
   Cause* const hints = Row(Source::hints, examination);
   const auto moved = hints ? FarthestBeyond(*hints, of) : std::nullopt;

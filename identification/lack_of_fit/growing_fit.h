@@ -44,11 +44,6 @@ struct WeighedFit {
   bool AllApart() const { return apart.basis.cols() == norms.size(); }
 };
 
-/// Rows that all take part.
-inline Selection AllOf(Eigen::Index rows) {
-  return {Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows, true), {}};
-}
-
 /// The fit beside which features are tested.
 class GrowingFit {
  public:

@@ -104,8 +104,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
   if (!LookForLag(*plain.rows, torque, left).IsSeen()) return nullptr;
 
   // its own colour, or that of white noise behind the lag, where it surely has one
-  Selection grid;
-  grid.keep.setConstant(measured.size(), true);
+  const Selection grid = AllOf(measured.size());
   const NoiseModel noise = FitNoise(measured - plain.rows->FittedTo(measured, torque), grid);
   if (!IsSurelyColoured(noise, measured.size())) return plain.rows;
   const double step = runs->Step();

@@ -266,10 +266,10 @@ std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& resp
   }
   if (!response.feeds_itself) return std::nullopt;
   const FittedGravity gravity = law.input().options.OrDefault<GravityOption>().gravity;
-  return Refusal{Status::inadequate_model,
-                 ExplainFeedingItself(
-                     law.measurements().time[*response.feeds_itself],
-                     RemedyForNonDissipative("energy-ml", law.problem.task().law.name, gravity))};
+  return Refusal{
+      Status::inadequate_model,
+      ExplainFeedingItself(law.measurements().time[*response.feeds_itself],
+                           RemedyForNonDissipative(law.problem.task().law.name, gravity))};
 }
 
 std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
@@ -423,7 +423,8 @@ void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                   const LogSamples& measurements, Fit& fit) {
   std::vector<LogGap> within = gaps;
   std::erase_if(within, IsStart);
-  if (!within.empty()) fit.causes.push_back(Remark(ExplainGaps(within, measurements.time, true)));
+  if (!within.empty())
+    fit.causes.push_back(Remark(ExplainGaps(within, measurements.time, Action::note)));
   if (warm.initial.is_expected() && !measurements.further_starts.empty()) {
     fit.causes.push_back(Remark(kOthersBeginCold));
   }

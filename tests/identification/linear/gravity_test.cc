@@ -149,13 +149,13 @@ TEST(FitGravity, IsHeldOutTogetherWithFriction) {
 }
 
 TEST(RemedyForNonDissipative, NamesWhatTheFitDoesNotHold) {
-  EXPECT_EQ(RemedyForNonDissipative("energy-ml", "viscous_coulomb", FittedGravity::none),
+  EXPECT_EQ(RemedyForNonDissipative("viscous_coulomb", FittedGravity::none),
             "try --identifier energy-ml --set law=asymmetric");
-  EXPECT_THAT(RemedyForNonDissipative("energy-ml", "viscous_coulomb", FittedGravity::sincos),
+  EXPECT_THAT(RemedyForNonDissipative("viscous_coulomb", FittedGravity::sincos),
               HasSubstr("law=asymmetric --gravity sincos"));
-  EXPECT_THAT(RemedyForNonDissipative("energy-ml", "asymmetric", FittedGravity::none),
+  EXPECT_THAT(RemedyForNonDissipative("asymmetric", FittedGravity::none),
               HasSubstr("--gravity paired"));
-  EXPECT_THAT(RemedyForNonDissipative("energy-ml", "asymmetric", FittedGravity::paired),
+  EXPECT_THAT(RemedyForNonDissipative("asymmetric", FittedGravity::paired),
               ::testing::Not(HasSubstr("try")));
 }
 

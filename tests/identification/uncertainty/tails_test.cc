@@ -62,7 +62,7 @@ TEST(PValueOfF, AgreesWithClosedForms) {
   for (const double f : {0.1, 1.0, 4.0, 30.0}) {
     EXPECT_CLOSE(PValueOfF(f, 2, 28), std::pow(1 + 2 * f / 28, -14));
     EXPECT_CLOSE(PValueOfF(f, 6, 2), 1 - std::pow(1 + 2 / (6 * f), -3));
-    // one numerator degrees_of_freedom: t squared
+    // one numerator degree of freedom: t squared
     EXPECT_CLOSE(PValueOfF(f, 1, 9), PValueOfStudent(std::sqrt(f), 9));
   }
   EXPECT_EQ(PValueOfF(0, 3, 5), 1);

@@ -74,7 +74,7 @@ TEST(RandomStream, BelowIsUniform) {
   double chi_square = 0;
   const double expected = kDraws / 7.0;
   for (int n : count) chi_square += (n - expected) * (n - expected) / expected;
-  // 6 degrees of degrees_of_freedom: exceeded with probability 1e-6
+  // 6 degrees of freedom: exceeded with probability 1e-6
   EXPECT_LT(chi_square, 38.3);
 }
 
