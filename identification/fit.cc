@@ -10,8 +10,8 @@ std::vector<double> Fit::Values(Role role) const {
   return values;
 }
 
-CourseStart Fit::Start() const {
-  CourseStart start;
+ThermalStart Fit::Start() const {
+  ThermalStart start;
   start.energy = initial_energy;
   // each jump at the sample where it happens
   const std::vector<double> jumps = Values(Role::jump);

@@ -141,7 +141,7 @@ struct Fit {
   std::function<Fit(const IdentifierInput&)> structure;
 
   /// The heat that the log began with: E(0), and the jumps of E.
-  CourseStart Start() const;
+  ThermalStart Start() const;
   /// Residual over the kept samples. [n] N.m or N
   Eigen::VectorXd residual() const { return torque - fitted; }
   /// The table's row of the which-th parameter with a role; nothing where there are fewer.

@@ -78,7 +78,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
 }
 
 HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
-  const CourseStart cold;
+  const ThermalStart cold;
   const LogView& seen = SeenByModel(fit.inertia, identifier.view, other);
   if (auto metrics = Evaluate(fit, seen.measurements, seen.selection, cold)) {
     return {std::move(metrics), ""};

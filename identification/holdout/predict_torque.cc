@@ -1,14 +1,14 @@
 #include "identification/holdout/predict_torque.h"
 
 #include "identification/fit_data.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/physical_bounds.h"
 #include "models/foundation/low_pass.h"
 
 namespace warmjoint {
 
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& m, Selection asked,
-                               const CourseStart& start) {
+                               const ThermalStart& start) {
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
   // friction, and inertia where the log has an acceleration
   predicted.torque = predicted.friction.force;
@@ -35,7 +35,7 @@ TorqueModel ModelOf(const Fit& fit) {
 }
 
 std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
-                                const CourseStart& start) {
+                                const ThermalStart& start) {
   if (!GivesFriction(fit)) return std::nullopt;
   const Friction& friction = fit.friction;
   const TorquePrediction predicted =

@@ -29,7 +29,7 @@ struct TorquePrediction {
 /// Along the motion from its first sample on, from `start`. Inertia acts where the log has an
 /// acceleration (PreparedLog::moving). asked: samples that are to be compared.
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& measurements,
-                               Selection asked, const CourseStart& start);
+                               Selection asked, const ThermalStart& start);
 
 /// What the fit knows of the torque, its lag on the way into the log too.
 TorqueModel ModelOf(const Fit& fit);
@@ -39,6 +39,6 @@ TorqueModel ModelOf(const Fit& fit);
 /// runs from the first sample on, from `start`. Nothing where the fit gives no
 /// friction or no sample is left.
 std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
-                                const CourseStart& start);
+                                const ThermalStart& start);
 
 }  // namespace warmjoint

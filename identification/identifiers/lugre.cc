@@ -1,7 +1,7 @@
 // Identifier `lugre`: the LuGre law, its bristle included.
 //
 // (kv, kc, ks, vs, sigma0, sigma1, M) = argmin sum ((tau - F - M a) / s)^2, F the LuGre law, or
-// the one with a level for each direction (kc+, kc- and kr for kc and ks), over the recorded motion (bristle_course.h). Starts, stops and turns take part beside the samples
+// the one with a level for each direction (kc+, kc- and kr for kc and ks), over the recorded motion (bristle_state.h). Starts, stops and turns take part beside the samples
 // kept, since they alone show the bristle (lugre_data.h); M, which acts there too, is estimated
 // beside the law, and so is how far the bristle is bent as each recording begins. s is the rms of the residual, one value for the samples kept and one for the
 // others, larger for outliers (Huber's weights), from three passes. Starts from the Stribeck curve

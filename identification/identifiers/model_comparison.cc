@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "identification/fit_data.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -149,7 +149,7 @@ std::optional<double> ModelComparison::LagOfBest(const IdentifierInput& all) con
   const Fit& fit = best->fit;
 
   // jumps of E stand at rows: back to the samples with which those begin
-  CourseStart start = fit.Start();
+  ThermalStart start = fit.Start();
   for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
   return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
 }

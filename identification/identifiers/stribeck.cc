@@ -16,7 +16,7 @@
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"

@@ -177,7 +177,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
 }
 
 std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
-                            const CourseStart& start, const IdentifierInput& input) {
+                            const ThermalStart& start, const IdentifierInput& input) {
   const LogSamples& m = input.measurements;
   if (m.acceleration || !structure.CanEstimateLag()) return std::nullopt;
 

@@ -6,7 +6,7 @@
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/physical_bounds.h"
 
 namespace warmjoint {

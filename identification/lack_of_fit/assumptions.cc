@@ -184,7 +184,7 @@ void AddOpen(const OverBins& over, Examination& examination) {
   const HeatingForces& heating = known.heating;
   const VectorXd force = known.torque - known.residual;
   const Index starts = known.initial.cols(), late = known.late_speeds.cols();
-  const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kCourses;
+  const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kDrifts;
   MatrixXd forces(bins.size(), gain + 1);
   forces << known.initial, heating.bend, Curve(m, bins), known.late_speeds, heating.drifts,
       force.cwiseProduct(bins.time);
@@ -214,16 +214,16 @@ void AddOpen(const OverBins& over, Examination& examination) {
   note(Source::open_memory, memory, late, friction / fastest);
 
   // friction, or a sensor, that drifts for another reason than its losses: as seen from the first moment
-  VectorXd factors(kCourses + 1);
-  factors << FarEnds(open, drift, kCourses, friction), FarEnds(open, gain, 1, 1);
-  const MatrixXd from_first = moves.rightCols(kCourses + 1);
+  VectorXd factors(kDrifts + 1);
+  factors << FarEnds(open, drift, kDrifts, friction), FarEnds(open, gain, 1, 1);
+  const MatrixXd from_first = moves.rightCols(kDrifts + 1);
   // and from the last, where the force of the end is taken off
   MatrixXd ends(bins.size(), 2);
   ends << heating.level, force;
   const MatrixXd at_end = fit.MovesBy(ends);
   MatrixXd until_last = from_first;
-  until_last.leftCols(kCourses).colwise() -= at_end.col(0);
-  until_last.col(kCourses) -= at_end.col(1);
+  until_last.leftCols(kDrifts).colwise() -= at_end.col(0);
+  until_last.col(kDrifts) -= at_end.col(1);
   examination.Add(Source::open_drift, Action::note,
                   Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors)));
 }

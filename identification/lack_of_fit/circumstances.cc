@@ -109,8 +109,8 @@ HeatingForces HeatingForcesOf(const FittedModel& model, const LogSamples& m, con
   const double share = 1 / (m.time[m.size() - 1] - m.time[0]);
   const ArrayXd t = (m.time.array() - m.time[0]) * share;
   const MatrixXd all = Along(model, m, bins, t, Decay(model, t, 1 / kSlowest));
-  return {all.leftCols(kCourses), all.col(kCourses), all.col(kCourses + 1),
-          all.middleCols(kCourses + 2, model.thermal ? 1 : 0)};
+  return {all.leftCols(kDrifts), all.col(kDrifts), all.col(kDrifts + 1),
+          all.middleCols(kDrifts + 2, model.thermal ? 1 : 0)};
 }
 
 namespace {

@@ -12,13 +12,13 @@
 
 namespace warmjoint {
 
-/// Courses that a drift of the friction may take: evenly, and dying away with three time constants; why: these span what
+/// Shapes that a drift of the friction may have: evenly, and dying away with three time constants; why: these span what
 /// is neither even nor over before the warming.
-inline constexpr Eigen::Index kCourses = 4;
+inline constexpr Eigen::Index kDrifts = 4;
 
 /// dF/dc of forces c f beside the fit's with what their losses change of E, means over bins. s: sign(v).
 struct HeatingForces {
-  Eigen::MatrixXd drifts;  // [m x kCourses] of s d(t), 0 at first and 1 at the end
+  Eigen::MatrixXd drifts;  // [m x kDrifts] of s d(t), 0 at first and 1 at the end
   Eigen::VectorXd level;   // [m] of s
   Eigen::VectorXd bend;    // [m] of s v^2
   Eigen::MatrixXd slope;   // [m x 1] of v E, E of the fit; [m x 0] where it knows no warming

@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include "identification/forward/closed_loop.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/gravity.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
@@ -27,31 +27,31 @@ Eigen::VectorXd Repeated(const Eigen::VectorXd& column) {
 }
 
 /// The same motion with kOfEachStep samples for each, at its speed throughout. [N kOfEachStep]
-JointCourse FinerCourse(const JointCourse& course, double gear) {
-  const Eigen::Index n = course.time.size();
+JointTrajectory FinerTrajectory(const JointTrajectory& trajectory, double gear) {
+  const Eigen::Index n = trajectory.time.size();
   // a sample lasts until the next one, the last as long as the one before it
   Eigen::VectorXd since(n * kOfEachStep);  // s, since the sample
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index step = std::min(i, n - 2);
-    const double h = course.time[step + 1] - course.time[step];
+    const double h = trajectory.time[step + 1] - trajectory.time[step];
     for (Eigen::Index k = 0; k < kOfEachStep; ++k) {
       since[i * kOfEachStep + k] = h * static_cast<double>(k) / static_cast<double>(kOfEachStep);
     }
   }
 
   // every column holds over the step, but for time and positions, which go on
-  JointCourse finer;
+  JointTrajectory finer;
   for (const auto column :
-       {&JointCourse::time, &JointCourse::velocity, &JointCourse::position,
-        &JointCourse::motor_position, &JointCourse::load, &JointCourse::ambient_rise,
-        &JointCourse::level, &JointCourse::torque}) {
-    finer.*column = Repeated(course.*column);
+       {&JointTrajectory::time, &JointTrajectory::velocity, &JointTrajectory::position,
+        &JointTrajectory::motor_position, &JointTrajectory::load, &JointTrajectory::ambient_rise,
+        &JointTrajectory::level, &JointTrajectory::torque}) {
+    finer.*column = Repeated(trajectory.*column);
   }
   const Eigen::VectorXd way = since.cwiseProduct(finer.velocity);
   finer.time += since;
   if (finer.position.size() > 0) finer.position += way;
   if (finer.motor_position.size() > 0) finer.motor_position += gear * way;
-  for (const Eigen::Index start : course.starts) finer.starts.push_back(start * kOfEachStep);
+  for (const Eigen::Index start : trajectory.starts) finer.starts.push_back(start * kOfEachStep);
   return finer;
 }
 
@@ -114,13 +114,13 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
 }
 
 /// The motion, with a bristle bent at each start as the fit tells, else as the torque does.
-JointCourse CourseFor(const Fit& fit, const LogSamples& m) {
-  JointCourse course = CourseOf(m, BristleStart::torque);
+JointTrajectory TrajectoryFor(const Fit& fit, const LogSamples& m) {
+  JointTrajectory trajectory = TrajectoryOf(m, BristleStart::torque);
   const std::vector<SampleRange> recordings = m.Recordings();
   for (size_t r = 0; r < fit.first_friction.size(); ++r) {
-    course.torque[recordings[r].first] = fit.first_friction[r];
+    trajectory.torque[recordings[r].first] = fit.first_friction[r];
   }
-  return course;
+  return trajectory;
 }
 
 /// Where E of a fit jumps along its log: at gaps, for the losses that nobody logged, and at further starts, for the heat
@@ -218,7 +218,8 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (fit.inertia) model.torque -= *fit.inertia * *m.acceleration;
   if (fit.inertia_torque.size() > 0) model.torque -= fit.inertia_torque;
   if (fit.torque_lag) model.torque -= fit.torque_lag->adds;
-  const Prediction prediction = AlongMotion(fit.friction).Predict(CourseFor(fit, m), fit.Start());
+  const Prediction prediction =
+      AlongMotion(fit.friction).Predict(TrajectoryFor(fit, m), fit.Start());
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
   if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);
@@ -242,15 +243,15 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
 }
 
 Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& measurements,
-                                const CourseStart& start) {
+                                const ThermalStart& start) {
   const AlongMotion model(friction);
-  const JointCourse course = CourseOf(measurements);
-  // E jumps at the same moments of the finer course
-  CourseStart finer_start = start;
+  const JointTrajectory trajectory = TrajectoryOf(measurements);
+  // E jumps at the same moments of the finer trajectory
+  ThermalStart finer_start = start;
   for (EnergyJump& jump : finer_start.jumps) jump.sample *= kOfEachStep;
   const Eigen::VectorXd fine =
-      model.Predict(FinerCourse(course, measurements.gear), finer_start).force;
-  const Eigen::VectorXd held = model.Predict(course, start).force;
+      model.Predict(FinerTrajectory(trajectory, measurements.gear), finer_start).force;
+  const Eigen::VectorXd held = model.Predict(trajectory, start).force;
 
   // an eighth of each step leaves an eighth of the error: 8/7 of the difference is all
   Eigen::VectorXd difference(held.size());

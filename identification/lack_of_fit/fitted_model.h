@@ -46,6 +46,6 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
 /// its force by (22): 8/7 of what (22) with an eighth of each step makes of it. Constant speed over
 /// each step. Returns [N] N.m or N.
 Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& measurements,
-                                const CourseStart& start = {});
+                                const ThermalStart& start = {});
 
 }  // namespace warmjoint

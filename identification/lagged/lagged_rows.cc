@@ -29,7 +29,7 @@ LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
     }
   }
 
-  // the course of d as the whitened rows hold it, of length 1 in each run
+  // the response to d as the whitened rows hold it, of length 1 in each run
   across_ = whitening_ ? whitening_->Of(dying_).col(0) : dying_;
   length_.resize(runs_->run_count());
   for (Index r = 0; r < length_.size(); ++r) {
@@ -57,7 +57,7 @@ void LaggedRows::Apply(Rows& rows) const {
   Lag(rows);
   if (whitening_) whitening_->Apply(rows);
 
-  // take off what any d explains: the part along its course
+  // take off what any d explains: the part along its response
   for (const KeptRun& run : runs_->runs) {
     const auto across = across_.segment(run.begin, run.size());
     auto part = rows.middleRows(run.begin, run.size());
@@ -86,7 +86,7 @@ MatrixXd LaggedRows::Lagged(const MatrixXd& rows) const {
 MatrixXd LaggedRows::InitialStates(const MatrixXd& rows) const {
   const MatrixXd white = whitening_ ? whitening_->Of(rows) : rows;
 
-  // least squares of each run on the whitened course of d
+  // least squares of each run on the whitened response to d
   MatrixXd held(runs_->run_count(), rows.cols());
   for (Index r = 0; r < held.rows(); ++r) {
     const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];

@@ -145,15 +145,15 @@ Index Settling(const NoiseModel& noise, Index most) {
   return std::max(last, noise.order());
 }
 
-/// Courses of n samples each of stationary noise of that colour, in N.m or N, [n x courses]. What drives it is uniform:
+/// Series of n samples each of stationary noise of that colour, in N.m or N, [n x series]. What drives it is uniform:
 /// its covariances are the model's, its higher moments are not.
-Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index courses, StartStream& stream) {
+Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index series, StartStream& stream) {
   const Index p = noise.order();
   // half the width of a uniform distribution with the variance of the innovations
   const double half = std::sqrt(3 * (p == 0 ? noise.variance : noise.innovation));
   Eigen::VectorXd drawn(Settling(noise, n) + n);
-  Eigen::MatrixXd all(n, courses);
-  for (auto course : all.colwise()) {
+  Eigen::MatrixXd all(n, series);
+  for (auto one : all.colwise()) {
     // the model's recursion, begun early enough to have settled
     for (Index i = 0; i < drawn.size(); ++i) {
       drawn[i] = stream.Uniform(-half, half);
@@ -161,7 +161,7 @@ Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index courses, Start
         drawn[i] -= noise.coefficients[k] * drawn[i - 1 - k];
       }
     }
-    course = drawn.tail(n);
+    one = drawn.tail(n);
   }
   return all;
 }

@@ -7,7 +7,7 @@
 #include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/inference/inference.h"
 #include "identification/maps/warm_maps.h"
 #include "identification/physical_bounds.h"
@@ -128,7 +128,7 @@ Fit FitOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
     choice = ChooseAndFit(input, task);
   }
   if (!choice) return Refused(task.identifier, Unsolvable());
-  // the fit with its errors, given that course of the energy
+  // the fit with its errors, given that trajectory of the energy
   Fit fit = AsFit(input, task, choice->fit, MapCovariance(choice->problem, choice->fit));
   return warm ? Complete(*warm, rounds, m, std::move(fit)) : fit;
 }

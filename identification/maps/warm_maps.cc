@@ -14,7 +14,7 @@
 #include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/holes.h"

@@ -13,14 +13,14 @@
 #include "identification/linear/least_squares.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/bristle_course.h"
+#include "models/friction/bristle_state.h"
 
 namespace warmjoint {
 namespace {
 
 /// F + M a over all samples, and the loads s with which the R recordings begin.
 template <typename T>
-struct LugreCourse {
+struct LugreResponse {
   std::vector<T> torque;  // [N] N.m or N
   std::vector<T> loads;   // [R] N.m or N
 };
@@ -33,12 +33,12 @@ struct LugreRun {
   /// load: s at its first sample; p: of the law's table.
   LugreRun(const MotionPieces& motion, Eigen::Index first, Eigen::Index end,
            const std::array<T, L::parameters.size()>& p, const T& begin) {
-    BristleCourse<L, T> course(p.data());
-    course.BeginLoaded(motion.velocity(first), begin);
+    BristleState<L, T> bristle(p.data());
+    bristle.BeginLoaded(motion.velocity(first), begin);
     for (Eigen::Index i = first; i < end; ++i) {
-      for (const MotionPiece& piece : motion.Before(i)) course.Follow(piece, 0, 0);
-      force.push_back(course.Force(motion.velocity(i), 0));
-      load.push_back(course.load());
+      for (const MotionPiece& piece : motion.Before(i)) bristle.Follow(piece, 0, 0);
+      force.push_back(bristle.Force(motion.velocity(i), 0));
+      load.push_back(bristle.load());
     }
   }
 };
@@ -49,14 +49,14 @@ template <typename L, typename T>
 std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first,
                       const std::array<T, L::parameters.size()>& p, const LugreRun<L, T>& run) {
   constexpr double kForgotten = 1e-9;
-  BristleCourse<L, T> course(p.data());
-  course.BeginLoaded(motion.velocity(first), T(1));
+  BristleState<L, T> bristle(p.data());
+  bristle.BeginLoaded(motion.velocity(first), T(1));
   std::vector<T> by_load;
   for (size_t k = 0; k < run.force.size(); ++k) {
     const Eigen::Index i = first + static_cast<Eigen::Index>(k);
-    for (const MotionPiece& piece : motion.Before(i)) course.Follow(piece, 0, 0);
-    by_load.push_back(course.Force(motion.velocity(i), 0) - run.force[k]);
-    if (course.load() - run.load[k] < T(kForgotten)) break;
+    for (const MotionPiece& piece : motion.Before(i)) bristle.Follow(piece, 0, 0);
+    by_load.push_back(bristle.Force(motion.velocity(i), 0) - run.force[k]);
+    if (bristle.load() - run.load[k] < T(kForgotten)) break;
   }
   return by_load;
 }
@@ -71,12 +71,12 @@ std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first,
 /// none of them tells. Derivatives by x go through s0, so that a covariance from them knows that it
 /// was estimated, too.
 template <typename L, typename T>
-LugreCourse<T> FollowLugre(const LugreProblem& problem, const T* x) {
+LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
   const Eigen::Index n = problem.motion.size();
   const auto p = ValuesOf<L>(x);
   const T& inertia = x[LayoutOf<L>().inertia()];
-  LugreCourse<T> course;
-  course.torque.reserve(static_cast<size_t>(n));
+  LugreResponse<T> response;
+  response.torque.reserve(static_cast<size_t>(n));
   Eigen::Index row = 0;  // of the used samples
   for (Eigen::Index first = 0, end = 0; first < n; first = end) {
     end = problem.EndOfRecording(first);
@@ -87,22 +87,22 @@ LugreCourse<T> FollowLugre(const LugreProblem& problem, const T* x) {
     T told(0), weight(static_cast<double>(n) / problem.torque.squaredNorm());
     for (Eigen::Index i = first; i < end; ++i) {
       const auto k = static_cast<size_t>(i - first);
-      course.torque.push_back(run.force[k] + inertia * problem.acceleration[i]);
+      response.torque.push_back(run.force[k] + inertia * problem.acceleration[i]);
       if (!problem.used.keep[i]) continue;
       const double deviation = problem.deviation[row++];
       if (k >= by_load.size()) continue;
       const T weighted = by_load[k] / (deviation * deviation);
-      told += weighted * (problem.torque[i] - course.torque.back());
+      told += weighted * (problem.torque[i] - response.torque.back());
       weight += weighted * by_load[k];
     }
 
     // from the load that suits them
-    course.loads.push_back(told / weight);
+    response.loads.push_back(told / weight);
     for (size_t k = 0; k < by_load.size(); ++k) {
-      course.torque[static_cast<size_t>(first) + k] += by_load[k] * course.loads.back();
+      response.torque[static_cast<size_t>(first) + k] += by_load[k] * response.loads.back();
     }
   }
-  return course;
+  return response;
 }
 
 constexpr int kDistances = 16;  // of the grids

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "identification/fit.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
@@ -18,7 +18,7 @@ namespace {
 
 /// Some figures of a friction and the start of its log. [q]
 using FiguresOf =
-    std::function<Eigen::VectorXd(const Friction& friction, const CourseStart& start)>;
+    std::function<Eigen::VectorXd(const Friction& friction, const ThermalStart& start)>;
 
 /// Their errors.
 struct FigureErrors {
@@ -52,7 +52,7 @@ std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
 
 /// Friction and start with one row of the table at another value.
 void Set(const FitParameter& row, size_t jump, double value, Friction& friction,
-         CourseStart& start) {
+         ThermalStart& start) {
   if (row.role == Role::law) friction.parameters[row.name] = value;
   if (row.role == Role::start) start.energy = value;
   if (row.role == Role::jump) start.jumps[jump].change = value;
@@ -87,7 +87,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 
     // the figures on both sides
     Friction above = friction, below = friction;
-    CourseStart above_start = fit.Start(), below_start = fit.Start();
+    ThermalStart above_start = fit.Start(), below_start = fit.Start();
     Set(row, at.jump, value + step, above, above_start);
     Set(row, at.jump, value - step, below, below_start);
     slopes.col(at.column) =
@@ -130,8 +130,8 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   if (!friction.thermal) return {};
 
   // E of both stages at the end of the log: by the fit's own recursion, or along the motion
-  const auto end_of = [&](const Friction& one, const CourseStart& start) {
-    const FrictionState end = AlongMotion(one).Predict(CourseOf(m), start).end;
+  const auto end_of = [&](const Friction& one, const ThermalStart& start) {
+    const FrictionState end = AlongMotion(one).Predict(TrajectoryOf(m), start).end;
     return Eigen::VectorXd(Eigen::Vector2d(end.energy, end.second_energy));
   };
   Eigen::VectorXd end;

@@ -5,8 +5,8 @@
 
 namespace warmjoint {
 
-CourseStart StartOf(const Estimate& estimate, const LogSamples& measurements) {
-  CourseStart start;
+ThermalStart StartOf(const Estimate& estimate, const LogSamples& measurements) {
+  ThermalStart start;
   start.energy = ValueOf(Role::start, estimate).value_or(0);
   // each gap and each further recording has its own, 0 where none was estimated
   const std::vector<LogGap> gaps = Merged(FindGaps(measurements), FurtherStarts(measurements));

@@ -10,6 +10,6 @@ namespace warmjoint {
 /// E(0) of each recording and the jumps of E at gaps (gaps.h), as far as the estimate has them. What is
 /// not estimated is 0.
 /// measurements: those that the estimate was fitted to.
-CourseStart StartOf(const Estimate& estimate, const LogSamples& measurements);
+ThermalStart StartOf(const Estimate& estimate, const LogSamples& measurements);
 
 }  // namespace warmjoint

@@ -23,11 +23,11 @@ struct Sample {
 template <typename L>
 class LawAlong {
  public:
-  LawAlong(const JointFriction& joint, const JointCourse& course)
-      : joint_(joint), course_(course) {}
+  LawAlong(const JointFriction& joint, const JointTrajectory& trajectory)
+      : joint_(joint), trajectory_(trajectory) {}
 
   Sample operator()(Index i, const JointPlace& place) {
-    const double v = course_.velocity[i];
+    const double v = trajectory_.velocity[i];
     if (v == 0) return {};
     const double force = ForceAt(v, i, place);
     return {force, LossAt(i, place, force), FeedsItself(v, force)};
@@ -38,38 +38,39 @@ class LawAlong {
 
  private:
   double ForceAt(double v, Index i, const JointPlace& place) const {
-    return joint_.SlidingForceBy<L>(v, place) + Sign(v) * At(course_.level, i);
+    return joint_.SlidingForceBy<L>(v, place) + Sign(v) * At(trajectory_.level, i);
   }
 
   /// Until the next sample, W. force: at the sample, N.m or N.
   double LossAt(Index i, const JointPlace& place, double force) const {
-    if (course_.mean_speed.size() == 0) return Loss(course_.velocity[i], force);
-    const double v = course_.loss_velocity[i];
-    return Loss(course_.mean_speed[i], v == course_.velocity[i] ? force : ForceAt(v, i, place));
+    if (trajectory_.mean_speed.size() == 0) return Loss(trajectory_.velocity[i], force);
+    const double v = trajectory_.loss_velocity[i];
+    return Loss(trajectory_.mean_speed[i],
+                v == trajectory_.velocity[i] ? force : ForceAt(v, i, place));
   }
 
   const JointFriction& joint_;
-  const JointCourse& course_;
+  const JointTrajectory& trajectory_;
 };
 
 /// A law whose own bristle follows the motion.
 template <LawWithBristle L>
 class LawAlong<L> {
  public:
-  LawAlong(const JointFriction& joint, const JointCourse& course)
+  LawAlong(const JointFriction& joint, const JointTrajectory& trajectory)
       : joint_(joint),
-        course_(course),
-        pieces_(course.time, course.velocity, course.starts),
+        trajectory_(trajectory),
+        pieces_(trajectory.time, trajectory.velocity, trajectory.starts),
         state_(joint.values().data()) {}
 
   Sample operator()(Index i, const JointPlace& place) {
-    const double v = course_.velocity[i], extra = At(course_.level, i);
+    const double v = trajectory_.velocity[i], extra = At(trajectory_.level, i);
     const int side = v < 0 ? -1 : 1;
     const double added = joint_.AddedLevel(side, std::abs(v), place) + extra;
 
     // a recording begins with the bristle bent by its first torque, where it is given, or sliding
-    if (pieces_.Begins(i) && course_.torque.size() > 0) {
-      state_.BeginBent(v, added, course_.torque[i]);
+    if (pieces_.Begins(i) && trajectory_.torque.size() > 0) {
+      state_.BeginBent(v, added, trajectory_.torque[i]);
     } else if (pieces_.Begins(i)) {
       state_.BeginSliding(v, added);
     } else {
@@ -93,8 +94,8 @@ class LawAlong<L> {
     for (const MotionPiece& piece : pieces_.Before(i)) {
       // what joins the level at either sample, and linearly in between
       const auto added = [&](Index k, const JointPlace& at) {
-        return joint_.AddedLevel(piece.side, std::abs(course_.velocity[k]), at) +
-               At(course_.level, k);
+        return joint_.AddedLevel(piece.side, std::abs(trajectory_.velocity[k]), at) +
+               At(trajectory_.level, k);
       };
       const double from = added(i - 1, before_), to = added(i, place);
       const auto between = [from, to](double share) { return from + (to - from) * share; };
@@ -103,23 +104,24 @@ class LawAlong<L> {
   }
 
   const JointFriction& joint_;
-  const JointCourse& course_;
+  const JointTrajectory& trajectory_;
   MotionPieces pieces_;
-  BristleCourse<L> state_;
+  BristleState<L> state_;
   JointPlace before_;  // at the sample before
 };
 
 /// Heat over the interval that follows each sample.
 class HeatAlong {
  public:
-  HeatAlong(const Friction& friction, const JointCourse& course) {
-    const Index n = course.velocity.size();
+  HeatAlong(const Friction& friction, const JointTrajectory& trajectory) {
+    const Index n = trajectory.velocity.size();
     if (!friction.thermal || n < 2) {
       intervals_ = {{1}, std::vector<int>(static_cast<size_t>(n), 0), 1};
       heats_.resize(1);
       return;
     }
-    intervals_ = course.step > 0 ? EvenIntervals(n, course.step) : FindIntervals(course.time);
+    intervals_ =
+        trajectory.step > 0 ? EvenIntervals(n, trajectory.step) : FindIntervals(trajectory.time);
     for (const double h : intervals_.length) heats_.push_back(DiscretiseHeat(friction, h));
   }
 
@@ -132,28 +134,28 @@ class HeatAlong {
   std::vector<Heat> heats_;
 };
 
-JointPlace PlaceAt(const JointCourse& course, Index i, double energy) {
-  JointPlace place{At(course.position, i), energy, At(course.load, i)};
-  if (course.motor_position.size() > 0) place.motor_position = course.motor_position[i];
+JointPlace PlaceAt(const JointTrajectory& trajectory, Index i, double energy) {
+  JointPlace place{At(trajectory.position, i), energy, At(trajectory.load, i)};
+  if (trajectory.motor_position.size() > 0) place.motor_position = trajectory.motor_position[i];
   return place;
 }
 
 template <typename L>
-Prediction Run(const Friction& friction, const JointFriction& joint, const JointCourse& course,
-               const CourseStart& start) {
-  const Index n = course.velocity.size();
+Prediction Run(const Friction& friction, const JointFriction& joint,
+               const JointTrajectory& trajectory, const ThermalStart& start) {
+  const Index n = trajectory.velocity.size();
   Prediction result{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), {}, n, {}};
-  LawAlong<L> law(joint, course);
+  LawAlong<L> law(joint, trajectory);
   if (law.kHasBristle) result.bristle.resize(n);
-  const HeatAlong heat(friction, course);
+  const HeatAlong heat(friction, trajectory);
 
   FrictionState& state = result.end;
   state = {0, start.energy, start.second_energy};
-  auto cold = course.starts.begin();
+  auto cold = trajectory.starts.begin();
   auto jump = start.jumps.begin();
   for (Index i = 0; i < n; ++i) {
     // the joint may be cold again, or its heat be changed by a jump
-    if (cold != course.starts.end() && *cold == i) {
+    if (cold != trajectory.starts.end() && *cold == i) {
       state.energy = state.second_energy = 0;
       ++cold;
     }
@@ -161,7 +163,7 @@ Prediction Run(const Friction& friction, const JointFriction& joint, const Joint
 
     // friction at this sample, with the heat that it begins with
     const double energy = state.energy + state.second_energy;
-    const Sample sample = law(i, PlaceAt(course, i, energy));
+    const Sample sample = law(i, PlaceAt(trajectory, i, energy));
     result.force[i] = sample.force;
     result.loss[i] = sample.loss;
     result.energy[i] = energy;
@@ -171,14 +173,15 @@ Prediction Run(const Friction& friction, const JointFriction& joint, const Joint
     // hold the loss until the next sample
     if (i + 1 == n) break;
     const Heat& hold = heat.After(i);
-    const Heating by{sample.loss, At(course.ambient_rise, i), course.velocity[i]};
+    const Heating by{sample.loss, At(trajectory.ambient_rise, i), trajectory.velocity[i]};
     state.energy = hold.First(state.energy, by);
     state.second_energy = hold.Second(state.second_energy, by);
   }
 
   // what the joint remembers at the end
   state.bristle = law.bristle();
-  if (L::pre_sliding == PreSliding::breakaway && n > 0) state.slip = Sign(course.velocity[n - 1]);
+  if (L::pre_sliding == PreSliding::breakaway && n > 0)
+    state.slip = Sign(trajectory.velocity[n - 1]);
   return result;
 }
 
@@ -186,9 +189,10 @@ Prediction Run(const Friction& friction, const JointFriction& joint, const Joint
 
 AlongMotion::AlongMotion(const Friction& friction) : friction_(friction), joint_(friction) {}
 
-Prediction AlongMotion::Predict(const JointCourse& course, const CourseStart& start) const {
+Prediction AlongMotion::Predict(const JointTrajectory& trajectory,
+                                const ThermalStart& start) const {
   return ForLawNamed(AllLaws{}, friction_.law,
-                     [&]<typename L>() { return Run<L>(friction_, joint_, course, start); });
+                     [&]<typename L>() { return Run<L>(friction_, joint_, trajectory, start); });
 }
 
 }  // namespace warmjoint

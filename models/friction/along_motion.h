@@ -12,14 +12,14 @@ namespace warmjoint {
 ///   F = Fn(v) + b E v + sign(v) (E + A + c |load|) + maps                           (20)
 ///   W = |F v|, or the mean speed times F at the loss velocity where both are given  (19)
 /// and carry at rest what the motion does not tell, for which F is 0. The bristle of others follows
-/// the motion (BristleCourse), and they lose what it does not store.
+/// the motion (BristleState), and they lose what it does not store.
 /// E1 and E2 take the exact step of Heat, Eq. (22), over each interval.
 class AlongMotion {
  public:
   /// friction: checked (CheckFriction), or one with all values of its law, within bounds or not.
   explicit AlongMotion(const Friction& friction);
 
-  Prediction Predict(const JointCourse& course, const CourseStart& start = {}) const;
+  Prediction Predict(const JointTrajectory& trajectory, const ThermalStart& start = {}) const;
 
   /// The friction at one place, as JointFriction tells it.
   const JointFriction& joint() const { return joint_; }

@@ -1,8 +1,7 @@
-#include "models/friction/bristle_course.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "models/friction/bristle_state.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {

@@ -70,7 +70,7 @@ void CheckColumn(const Eigen::VectorXd& column, const char* name, Eigen::Index n
   if (!column.allFinite()) Refuse({"motion"}, "{} holds what is no number", name);
 }
 
-void CheckMotion(const JointCourse& motion) {
+void CheckMotion(const JointTrajectory& motion) {
   const Eigen::Index n = motion.time.size();
   // time and velocity are the least that a motion needs
   if (n == 0 || motion.velocity.size() == 0) {
@@ -163,7 +163,7 @@ FrictionStep FrictionModel::Step(const FrictionState& state, const JointMotion& 
   return state_->joint.Step(state, motion);
 }
 
-Prediction FrictionModel::Along(const JointCourse& motion, const CourseStart& start) const {
+Prediction FrictionModel::Along(const JointTrajectory& motion, const ThermalStart& start) const {
   CheckMotion(motion);
   return state_->along.Predict(motion, start);
 }

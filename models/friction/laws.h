@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "models/friction/bristle_course.h"
+#include "models/friction/bristle_state.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/sign.h"
 
@@ -292,7 +292,7 @@ concept LawAtAnySpeed = requires {
   L::level_at_any_speed;
 };
 
-/// Whether a law brings a bristle of its own, by BristleOf, which follows a motion as BristleCourse does.
+/// Whether a law brings a bristle of its own, by BristleOf, which follows a motion as BristleState does.
 template <typename L>
 concept LawWithBristle = requires(const double* p) {
   L::BristleOf(p);

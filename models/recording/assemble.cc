@@ -94,7 +94,7 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
 }
 
 /// Number of samples, time and torque. is_assumed: nobody says the unit of time.
-void CheckCourse(const RawColumns& raw, bool is_assumed, Measurements& measurements) {
+void CheckSamples(const RawColumns& raw, bool is_assumed, Measurements& measurements) {
   const Eigen::Index n = measurements.size();
   if (n < 3) {
     const std::string left_out = fmt::format("{}", fmt::join(measurements.notes, "; "));
@@ -295,7 +295,7 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
 
   // all of it at once: at least three samples, in order, with a torque that changes
   std::ranges::move(raw.notes, std::back_inserter(measurements.notes));
-  CheckCourse(raw, is_assumed, measurements);
+  CheckSamples(raw, is_assumed, measurements);
   if (measurements.position.size() == 0 && measurements.velocity.size() == 0) {
     Refuse({raw.file}, "has neither a position nor a velocity with numbers; one is needed");
   }

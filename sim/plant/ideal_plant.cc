@@ -16,7 +16,7 @@ struct SampledPlan {
   Eigen::VectorXd velocity;      // [N] rad/s or m/s
   Eigen::VectorXd position;      // [N] rad or m
   Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
-  /// [N] rad/s or m/s, as of JointCourse; empty where speeds change at samples alone
+  /// [N] rad/s or m/s, as of JointTrajectory; empty where speeds change at samples alone
   Eigen::VectorXd mean_speed{}, loss_velocity{};
 };
 
@@ -145,7 +145,7 @@ class IdealPlant : public Plant {
     const double rate = parts * scenario_.sampling.rate;
     SampledPlan samples = Sample(rate, key);
     Prediction friction = AlongMotion(FrictionOfPlant())
-                              .Predict(CourseOf(samples, 1 / rate), {scenario_.initial_energy});
+                              .Predict(TrajectoryOf(samples, 1 / rate), {scenario_.initial_energy});
     RefusePush(samples, friction);
 
     // of which samples are stored
@@ -219,28 +219,28 @@ class IdealPlant : public Plant {
   }
 
   /// step: between the samples, s.
-  JointCourse CourseOf(const SampledPlan& samples, double step) const {
+  JointTrajectory TrajectoryOf(const SampledPlan& samples, double step) const {
     const Disturbances& disturbances = scenario_.disturbances;
     // the motion, and what else friction follows
-    JointCourse course{samples.time, samples.velocity, samples.position};
-    course.step = step;
-    course.mean_speed = samples.mean_speed;
-    course.loss_velocity = samples.loss_velocity;
-    course.load = TransmittedLoad(samples);
-    course.ambient_rise = samples.time.unaryExpr(
+    JointTrajectory trajectory{samples.time, samples.velocity, samples.position};
+    trajectory.step = step;
+    trajectory.mean_speed = samples.mean_speed;
+    trajectory.loss_velocity = samples.loss_velocity;
+    trajectory.load = TransmittedLoad(samples);
+    trajectory.ambient_rise = samples.time.unaryExpr(
         [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });
 
     // what moves its level
     const AmbientDrift& drift = disturbances.ambient_drift;
     if (drift.amplitude != 0) {
-      course.level =
+      trajectory.level =
           drift.amplitude * (2 * std::numbers::pi / drift.period * samples.time.array()).sin();
     }
     if (disturbances.load_change.load != 0) {
       const Eigen::VectorXd growth = disturbances.load_change.gain * Load(samples.time).cwiseAbs();
-      course.level = course.level.size() > 0 ? course.level + growth : growth;
+      trajectory.level = trajectory.level.size() > 0 ? trajectory.level + growth : growth;
     }
-    return course;
+    return trajectory;
   }
 
   /// Load of the scenario and gravity, [N] N.m or N.

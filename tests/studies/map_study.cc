@@ -20,7 +20,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"

@@ -37,10 +37,10 @@ inline Eigen::VectorXd ToVector(const nlohmann::json& list) {
 /// A recording of generate.py, without noise.
 struct GoldenMotion {
   Friction friction;
-  JointCourse course;       // evenly sampled
-  Eigen::VectorXd force;    // [N] N.m
-  Eigen::VectorXd energy;   // [N] E of all stages, N.m
-  Eigen::VectorXd bristle;  // [N] N.m; empty where the law has none
+  JointTrajectory trajectory;  // evenly sampled
+  Eigen::VectorXd force;       // [N] N.m
+  Eigen::VectorXd energy;      // [N] E of all stages, N.m
+  Eigen::VectorXd bristle;     // [N] N.m; empty where the law has none
   double initial_energy = 0;
 };
 
@@ -52,14 +52,14 @@ inline GoldenMotion ReadGoldenMotion(const std::string& name) {
   };
   GoldenMotion motion;
   motion.friction = FrictionFrom({Tree(golden.at("friction")), name});
-  JointCourse& course = motion.course;
-  course.velocity = column("velocity");
-  course.step = golden.at("step");
-  const Eigen::Index n = course.velocity.size();
-  course.time = Eigen::VectorXd::LinSpaced(n, 0, course.step * static_cast<double>(n - 1));
-  course.position = column("position");
-  course.load = column("load");
-  course.ambient_rise = column("ambient_rise");
+  JointTrajectory& trajectory = motion.trajectory;
+  trajectory.velocity = column("velocity");
+  trajectory.step = golden.at("step");
+  const Eigen::Index n = trajectory.velocity.size();
+  trajectory.time = Eigen::VectorXd::LinSpaced(n, 0, trajectory.step * static_cast<double>(n - 1));
+  trajectory.position = column("position");
+  trajectory.load = column("load");
+  trajectory.ambient_rise = column("ambient_rise");
   motion.force = column("force");
   motion.energy = column("energy");
   motion.bristle = column("bristle");

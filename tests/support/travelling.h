@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {

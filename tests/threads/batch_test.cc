@@ -92,7 +92,7 @@ TEST(PluginBatch, ContinuesBitForBitOnAnyNumberOfThreads) {
 
 TEST(PluginThreads, ShareAModelAndMoveAsAlone) {
   const Model m = Motor();
-  const auto course = [&](int seed) {
+  const auto trajectory = [&](int seed) {
     const Data d(mj_makeData(m.get()));
     for (int i = 0; i < kHalf; ++i) {
       d->ctrl[1] = 20 * std::sin(0.01 * i + seed);
@@ -105,10 +105,10 @@ TEST(PluginThreads, ShareAModelAndMoveAsAlone) {
   {
     std::vector<std::jthread> running;
     for (int k = 0; k < threads; ++k) {
-      running.emplace_back([&, k] { together[static_cast<size_t>(k)] = course(k); });
+      running.emplace_back([&, k] { together[static_cast<size_t>(k)] = trajectory(k); });
     }
   }
-  for (int k = 0; k < threads; ++k) EXPECT_EQ(together[static_cast<size_t>(k)], course(k)) << k;
+  for (int k = 0; k < threads; ++k) EXPECT_EQ(together[static_cast<size_t>(k)], trajectory(k)) << k;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "identification/find_parameter.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/seen_samples.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
@@ -82,7 +82,7 @@ FitView WithoutFit(const LogSamples& measurements, const Selection& selection,
   view.motor_angle = MotorAngle(measurements);
 
   // the motion as the prediction needs it, with the heat that it starts from
-  view.course = CourseOf(measurements);
+  view.trajectory = TrajectoryOf(measurements);
   view.start = StartOf(estimate, measurements);
   return view;
 }
@@ -120,7 +120,7 @@ FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
     const FrictionSpread spread = SpreadOf(estimate);
     view.energy_std = SpreadOfPrediction(
         spread, *estimate.friction, [&](const Friction& friction) -> Eigen::VectorXd {
-          return AlongMotion(friction).Predict(view.course, view.start).energy;
+          return AlongMotion(friction).Predict(view.trajectory, view.start).energy;
         });
   }
   return view;
@@ -158,8 +158,8 @@ JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps) {
 }
 
 JointPlace PlaceAt(const FitView& view, Eigen::Index i) {
-  const double load = view.course.load.size() > 0 ? view.course.load[i] : 0;
-  return {view.position[i], view.energy[i], load, view.course.motor_position[i]};
+  const double load = view.trajectory.load.size() > 0 ? view.trajectory.load[i] : 0;
+  return {view.position[i], view.energy[i], load, view.trajectory.motor_position[i]};
 }
 
 Eigen::Index WarmestSample(const FitView& view) {

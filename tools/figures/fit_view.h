@@ -29,8 +29,8 @@ struct FitView {
       rigid;  // torque_unit, gravity and inertia as far as the estimate has them; else 0
   /// Motor angle, rad, 0 ... 2 pi; empty where neither it nor a gear is known.
   Eigen::VectorXd motor_angle;
-  JointCourse course;  // what the forward model reads of the recording
-  CourseStart start;   // what the estimate says of its heat at first and at gaps
+  JointTrajectory trajectory;  // what the forward model reads of the recording
+  ThermalStart start;          // what the estimate says of its heat at first and at gaps
 
   // with a friction in the estimate alone
   bool has_fit = false;

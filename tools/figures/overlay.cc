@@ -60,7 +60,7 @@ Plot WarmUps(const Fits& fits) {
   const FitView& first = *fits.front().second;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const FitView& fit = *fits[i].second;
-    // an estimate without warming has no course
+    // an estimate without warming has no energy
     if (!fit.warms()) continue;
     times.push_back(fit.time / TimeUnit(first));
     energies.push_back(fit.energy);

@@ -1,4 +1,4 @@
-// The course of an identifier that iterates.
+// The trace of an identifier that iterates.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kFewSteps = 12;  // up to which every iteration gets a mark
 
 /// One number over the iterations.
-Plot CourseOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hue hue,
+Plot CurvesOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hue hue,
               const std::string& label) {
   Plot plot;
   plot.series.push_back({"", hue, Line{iteration, values, 2}});
@@ -29,11 +29,11 @@ Plot CourseOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, H
   return plot;
 }
 
-/// The final interval as a band behind the course.
+/// The final interval as a band behind the trace.
 void AddInterval(Plot& plot, const EstimatedParameter& parameter, Hue hue) {
   if (!parameter.interval95) return;
   const auto [lower, upper] = *parameter.interval95;
-  // the interval as a band behind the course, over all iterations
+  // the interval as a band behind the trace, over all iterations
   const Eigen::Vector2d across(plot.x.lower, plot.x.upper);
   plot.series.insert(plot.series.begin(), Series{"final 95 % interval", hue,
                                                  Band{across, Eigen::Vector2d::Constant(lower),
@@ -102,16 +102,16 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     // numbers without a dimension have the unit 1
     const bool has_unit = parameter && parameter->unit != "1";
     const std::string unit = has_unit ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
-    Plot plot = CourseOf(iteration, values, hue, SymbolOf(name) + unit);
+    Plot plot = CurvesOf(iteration, values, hue, SymbolOf(name) + unit);
     if (parameter) AddInterval(plot, *parameter, hue);
     AddPanel(figure, NameWithSymbol(name), plot, kRow);
     figure.finding += fmt::format(" {} {} to {},", name, SignificantText(values[0]),
                                   SignificantText(values[steps - 1]));
   }
   // last how the error of the fit falls
-  Plot course = CourseOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
-  course.y = MagnitudeAxis(course.y.label, {rmse});
-  AddPanel(figure, "Root mean square error of the fit", course, kRow);
+  Plot trace = CurvesOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
+  trace.y = MagnitudeAxis(trace.y.label, {rmse});
+  AddPanel(figure, "Root mean square error of the fit", trace, kRow);
   figure.finding.back() = '.';
   return figure;
 }

@@ -95,7 +95,7 @@ WarmStart StartOf(const StoredModel& stored, const std::string& file, const std:
   return begin;
 }
 
-Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
+Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const ThermalStart& start) {
   // with an inertia any motion can be compared, else constant speeds only
   const LogView& view = ViewOf(stored, log);
   const LogSamples& m = view.measurements;

@@ -35,7 +35,7 @@ RecordingSource AsIdentified(const StoredModel& stored, RecordingSource recordin
 
 /// How warm the joint is at the first sample.
 struct WarmStart {
-  CourseStart start;
+  ThermalStart start;
   std::optional<CarriedHeat> follows;  // where an earlier recording says so
 };
 
@@ -55,7 +55,7 @@ struct Predicted {
 
 /// Along the log, whose heat begins with `start`. Throws BadInput where the log is in another unit
 /// than friction for MuJoCo is, or no sample is left to compare.
-Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start);
+Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const ThermalStart& start);
 
 /// {identifier, status, metrics{n, rmse, mae, fit}, state_end{energy, second_energy}}
 nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predicted);

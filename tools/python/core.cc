@@ -121,7 +121,7 @@ Estimate EstimateOf(nb::handle given) {
 /// energies: E1 and E2 at the first sample, N.m or N; empty: cold.
 nb::dict PredictInPython(nb::handle estimate, const Log& log, const std::vector<double>& energies) {
   const StoredModel stored = StoredModelOf(EstimateOf(estimate), "estimate");
-  CourseStart start;
+  ThermalStart start;
   if (!energies.empty()) start.energy = energies[0];
   if (energies.size() > 1) start.second_energy = energies[1];
   const Predicted predicted =

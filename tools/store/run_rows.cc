@@ -69,7 +69,7 @@ void InsertResult(Inserts& inserts, const Result& result) {
   }
   inserts.result.exec();
 
-  // how the identifier came to its answer, where it has a course
+  // how the identifier came to its answer, where it iterates
   if (result.trace.values.empty()) return;
   BindFrom(Anew(inserts.trace), 1, result.variant, result.realization, result.identifier,
            fmt::format("{}", fmt::join(result.trace.columns, ",")));

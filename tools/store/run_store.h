@@ -21,7 +21,7 @@
 
 namespace warmjoint {
 
-/// The course of an iterative identifier, for pictures: single precision, one row an iteration.
+/// The trace of an iterative identifier, for pictures: single precision, one row an iteration.
 struct TraceTable {
   std::vector<std::string> columns;  // iteration, rmse, npe_continuous, npe_discrete, parameters
   std::vector<float> values;         // [rows x columns], row after row; NaN where unknown

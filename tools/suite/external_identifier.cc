@@ -13,7 +13,7 @@
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/excerpt.h"
@@ -302,7 +302,7 @@ void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
 }
 
 std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const LogSamples& measurements,
-                                       const Selection& selection, const CourseStart& start) {
+                                       const Selection& selection, const ThermalStart& start) {
   if (!estimate.friction || selection.count() == 0) return std::nullopt;
   const Eigen::VectorXd force =
       PredictFriction(*estimate.friction, measurements, start, BristleStart::torque).force;

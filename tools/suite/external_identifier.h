@@ -40,7 +40,7 @@ void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
 /// Figures of an estimate's friction, started as it says, along a log; none where it has no friction or the selection
 /// keeps no sample.
 std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const LogSamples& measurements,
-                                       const Selection& selection, const CourseStart& start);
+                                       const Selection& selection, const ThermalStart& start);
 
 /// A function of the caller's in place of a command: the same judging of the same answer.
 PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,

@@ -56,14 +56,14 @@ struct EnergyJump {
 };
 
 /// What a joint remembers as a motion begins, and what else is known of E.
-struct CourseStart {
+struct ThermalStart {
   double energy = 0;                // E1, N.m or N
   double second_energy = 0;         // E2, N.m or N
   std::vector<EnergyJump> jumps{};  // of E1, their samples ascending
 };
 
 /// What a joint does and meets at N samples. A column that is empty is 0 throughout.
-struct JointCourse {
+struct JointTrajectory {
   Eigen::VectorXd time;              // [N] s, strictly increasing
   Eigen::VectorXd velocity;          // [N] rad/s or m/s
   Eigen::VectorXd position{};        // [N] rad or m
@@ -122,7 +122,7 @@ class FrictionModel {
 
   /// Friction and heat along a motion that is known. Throws BadInput for columns of unlike length and time that does not
   /// increase.
-  Prediction Along(const JointCourse& motion, const CourseStart& start = {}) const;
+  Prediction Along(const JointTrajectory& motion, const ThermalStart& start = {}) const;
 
  private:
   struct State;

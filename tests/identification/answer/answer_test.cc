@@ -6,7 +6,7 @@
 
 #include "identification/answer/check_estimate.h"
 #include "identification/answer/identify.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -132,7 +132,7 @@ PreparedLog Beginning(const std::vector<double>& energies, double noise) {
     const std::uint64_t day = recordings.size() + 1;
     const Eigen::VectorXd velocity = test::AlternatingSpeeds(1800, day);
     Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, noise, day);
-    CourseStart start;
+    ThermalStart start;
     start.energy = energy;
     m.torque += PredictFriction(test::TableOne(), LogSamples(m), start).force -
                 PredictFriction(test::TableOne(), LogSamples(m)).force;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
@@ -111,9 +111,9 @@ TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
       ClosedLoop(time, v, LawColumns(*FindLaw("viscous_coulomb"), v), {6}).WithJumps({2, 8});
   const LoopResponse response =
       loop.Simulate(Eigen::Vector2d(5, 15), *friction.thermal, -0.5, Eigen::Vector2d(0.3, -0.2));
-  JointCourse course{time, v};
-  course.starts = {6};
-  const Prediction p = AlongMotion(friction).Predict(course, {-0.5, 0, {{2, 0.3}, {8, -0.2}}});
+  JointTrajectory trajectory{time, v};
+  trajectory.starts = {6};
+  const Prediction p = AlongMotion(friction).Predict(trajectory, {-0.5, 0, {{2, 0.3}, {8, -0.2}}});
   // lambda E + feedback g against te E + ke W: rounding of ten steps
   ExpectNear(response.force, p.force, 1e-14);
   ExpectNear(response.loss, p.loss, 1e-14);

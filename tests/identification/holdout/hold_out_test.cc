@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "identification/fit_parameters.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"

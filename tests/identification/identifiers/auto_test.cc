@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/condense.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"

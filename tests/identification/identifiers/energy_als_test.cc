@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 

@@ -13,7 +13,7 @@ namespace {
 /// The recording of a law, as a log.
 Measurements GoldenLog(const std::string& law) {
   const test::GoldenMotion golden = test::ReadGoldenMotion(law);
-  Measurements m = test::Record(golden.course.step, golden.course.velocity, golden.force);
+  Measurements m = test::Record(golden.trajectory.step, golden.trajectory.velocity, golden.force);
   m.source = law;
   return m;
 }

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/select.h"

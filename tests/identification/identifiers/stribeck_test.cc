@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"

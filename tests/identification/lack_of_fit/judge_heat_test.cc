@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/forward/thermal_filter.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"

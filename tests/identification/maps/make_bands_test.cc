@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/maps/holes.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"

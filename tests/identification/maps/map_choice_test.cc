@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "identification/answer/identify.h"
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/map_options.h"

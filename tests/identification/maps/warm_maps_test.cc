@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/report/end_state.h"
 #include "identification/warming/expected_start.h"
 #include "identification/warming/gaps.h"

@@ -37,35 +37,35 @@ Friction SomeFriction(const Law& law) {
 bool HasBristle(const Law& law) { return law.pre_sliding == PreSliding::bristle; }
 
 /// To and fro with rests, at uneven times. [kSamples]
-JointCourse SomeCourse() {
-  JointCourse course;
-  course.time.resize(kSamples);
-  course.velocity.resize(kSamples);
+JointTrajectory SomeTrajectory() {
+  JointTrajectory trajectory;
+  trajectory.time.resize(kSamples);
+  trajectory.velocity.resize(kSamples);
   RandomStream random({3, 0}, Stream::test);
   double time = 0;
   for (Index i = 0; i < kSamples; ++i) {
-    course.time[i] = time += random.Uniform(0.2, 1.5);
+    trajectory.time[i] = time += random.Uniform(0.2, 1.5);
     const bool rests = i / 17 % 4 == 3;
-    course.velocity[i] = rests ? 0 : (i / 17 % 2 ? -1 : 1) * random.Uniform(0.1, 1.2);
+    trajectory.velocity[i] = rests ? 0 : (i / 17 % 2 ? -1 : 1) * random.Uniform(0.1, 1.2);
   }
-  return course;
+  return trajectory;
 }
 
 /// The same with all that a joint can meet.
-JointCourse RichCourse() {
-  JointCourse course = SomeCourse();
-  course.position.resize(kSamples);
-  course.motor_position.resize(kSamples);
-  course.load.resize(kSamples);
-  course.ambient_rise.resize(kSamples);
+JointTrajectory RichTrajectory() {
+  JointTrajectory trajectory = SomeTrajectory();
+  trajectory.position.resize(kSamples);
+  trajectory.motor_position.resize(kSamples);
+  trajectory.load.resize(kSamples);
+  trajectory.ambient_rise.resize(kSamples);
   RandomStream random({4, 0}, Stream::test);
   for (Index i = 0; i < kSamples; ++i) {
-    course.position[i] = random.Uniform(-2, 2);
-    course.motor_position[i] = random.Uniform(-20, 20);
-    course.load[i] = random.Uniform(-4, 4);
-    course.ambient_rise[i] = random.Uniform(-10, 10);
+    trajectory.position[i] = random.Uniform(-2, 2);
+    trajectory.motor_position[i] = random.Uniform(-20, 20);
+    trajectory.load[i] = random.Uniform(-4, 4);
+    trajectory.ambient_rise[i] = random.Uniform(-10, 10);
   }
-  return course;
+  return trajectory;
 }
 
 /// All that a friction can have, beside its law.
@@ -106,19 +106,21 @@ Friction Warm(double kv, double kc, double k, double tau) {
   return {"viscous_coulomb", {{"viscous", kv}, {"coulomb", kc}}, Thermal{k, tau}};
 }
 
-JointCourse EvenCourse(double step, const Eigen::VectorXd& velocity) {
-  JointCourse course{Eigen::VectorXd::LinSpaced(velocity.size(), 0,
-                                                step * static_cast<double>(velocity.size() - 1)),
-                     velocity};
-  course.step = step;
-  return course;
+JointTrajectory EvenTrajectory(double step, const Eigen::VectorXd& velocity) {
+  JointTrajectory trajectory{
+      Eigen::VectorXd::LinSpaced(velocity.size(), 0,
+                                 step * static_cast<double>(velocity.size() - 1)),
+      velocity};
+  trajectory.step = step;
+  return trajectory;
 }
 
 TEST(AlongMotion, RunsThroughRestsAndReversalsAsTheGoldenLoop) {
   const auto& golden = test::Golden()["closed_sim"];
   const Thermal thermal = Continuous({golden["ke"], golden["te"]}, 1.0);
   const AlongMotion model(Warm(golden["kv"], golden["kc"], thermal.gain, thermal.time_constant));
-  const Prediction p = model.Predict(EvenCourse(1, test::ToVector(golden["v"])), {golden["E0"]});
+  const Prediction p =
+      model.Predict(EvenTrajectory(1, test::ToVector(golden["v"])), {golden["E0"]});
   // closed forms hold to 1e-12 relative (golden/README); the largest value sets the scale
   ExpectClose(p.force, test::ToVector(golden["F"]));
   ExpectClose(p.loss, test::ToVector(golden["W"]));
@@ -129,8 +131,8 @@ TEST(AlongMotion, RunsThroughRestsAndReversalsAsTheGoldenLoop) {
 TEST(AlongMotion, WarmsAtConstantSpeedAsTheGoldenClosedForm) {
   const auto& golden = test::Golden()["constant_speed"];
   const double v = golden["v"];
-  const Prediction p =
-      AlongMotion(Warm(5, 15, -3, 600)).Predict(EvenCourse(1, Eigen::VectorXd::Constant(3601, v)));
+  const Prediction p = AlongMotion(Warm(5, 15, -3, 600))
+                           .Predict(EvenTrajectory(1, Eigen::VectorXd::Constant(3601, v)));
   for (size_t i = 0; i < golden["k"].size(); ++i) {
     // a recursion of n steps rounds n times
     const int step = golden["k"][i];
@@ -140,26 +142,26 @@ TEST(AlongMotion, WarmsAtConstantSpeedAsTheGoldenClosedForm) {
 }
 
 TEST(AlongMotion, IsEquations19To22BitForBitForLawsWithoutABristle) {
-  const JointCourse course = SomeCourse();
+  const JointTrajectory trajectory = SomeTrajectory();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
     Friction friction = SomeFriction(law);
     friction.thermal = Thermal{-0.8, 40};
-    const Prediction p = AlongMotion(friction).Predict(course, {-0.3});
+    const Prediction p = AlongMotion(friction).Predict(trajectory, {-0.3});
     EXPECT_EQ(p.bristle.size(), 0);
 
     // the loop as the paper writes it
     const std::vector<double> values = LawValues(friction);
     double energy = -0.3;
     for (Index i = 0; i < kSamples; ++i) {
-      const double v = course.velocity[i];
+      const double v = trajectory.velocity[i];
       const double force = law.force(v, values.data()) + Sign(v) * energy;
       const double loss = std::abs(force * v);
       ASSERT_EQ(p.force[i], force) << law.name << i;
       ASSERT_EQ(p.energy[i], energy) << law.name << i;
       ASSERT_EQ(p.loss[i], loss) << law.name << i;
       if (i + 1 == kSamples) break;
-      const double h = course.time[i + 1] - course.time[i];
+      const double h = trajectory.time[i + 1] - trajectory.time[i];
       energy = std::exp(-h / 40) * energy + -0.8 * -std::expm1(-h / 40) * loss;
     }
   }
@@ -167,23 +169,23 @@ TEST(AlongMotion, IsEquations19To22BitForBitForLawsWithoutABristle) {
 
 TEST(AlongMotion, IsThePluginsKernelBitForBitWhereAJointSlides) {
   // with maps, load, surroundings, two stages and a slope over E
-  const JointCourse course = RichCourse();
+  const JointTrajectory trajectory = RichTrajectory();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
     const Friction friction = Rich(SomeFriction(law));
-    const Prediction p = AlongMotion(friction).Predict(course, {-0.3, 0.1});
+    const Prediction p = AlongMotion(friction).Predict(trajectory, {-0.3, 0.1});
     const JointFriction joint(friction);
     double first = -0.3, second = 0.1;
     for (Index i = 0; i < kSamples; ++i) {
-      const double v = course.velocity[i];
-      const JointPlace place{course.position[i], first + second, course.load[i],
-                             course.motor_position[i]};
+      const double v = trajectory.velocity[i];
+      const JointPlace place{trajectory.position[i], first + second, trajectory.load[i],
+                             trajectory.motor_position[i]};
       const double force = v == 0 ? 0 : joint.SlidingForce(v, place);
       ASSERT_EQ(p.force[i], force) << law.name << i;
       ASSERT_EQ(p.energy[i], first + second) << law.name << i;
       if (i + 1 == kSamples) break;
-      const Heat heat = DiscretiseHeat(friction, course.time[i + 1] - course.time[i]);
-      first = heat.First(first, {p.loss[i], course.ambient_rise[i]});
+      const Heat heat = DiscretiseHeat(friction, trajectory.time[i + 1] - trajectory.time[i]);
+      first = heat.First(first, {p.loss[i], trajectory.ambient_rise[i]});
       second = heat.Second(second, {p.loss[i]});
     }
     EXPECT_EQ(p.end.energy, first);
@@ -192,17 +194,18 @@ TEST(AlongMotion, IsThePluginsKernelBitForBitWhereAJointSlides) {
 }
 
 /// What the plugin's kernel makes of a motion in one direction, from a bristle that has yielded.
-/// course: even, its gear that of the friction.
-Prediction Stepped(const Friction& friction, const JointCourse& course) {
+/// trajectory: even, its gear that of the friction.
+Prediction Stepped(const Friction& friction, const JointTrajectory& trajectory) {
   JointFriction joint(friction);
-  joint.SetTimestep(course.step);
-  const Index n = course.time.size();
+  joint.SetTimestep(trajectory.step);
+  const Index n = trajectory.time.size();
   Prediction p{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), {}, n, {}};
   FrictionState state{1e6, 0, 0, 1};
   for (Index i = 0; i < n; ++i) {
     // of an inertia so large that the chosen bristle yields at once
-    const FrictionStep step = joint.Step(state, {course.position[i], course.velocity[i], 1e9,
-                                                 course.load[i], course.ambient_rise[i]});
+    const FrictionStep step =
+        joint.Step(state, {trajectory.position[i], trajectory.velocity[i], 1e9, trajectory.load[i],
+                           trajectory.ambient_rise[i]});
     p.force[i] = step.force;
     p.loss[i] = step.loss;
     p.energy[i] = state.energy + state.second_energy;
@@ -211,32 +214,34 @@ Prediction Stepped(const Friction& friction, const JointCourse& course) {
   return p;
 }
 
-JointCourse OneDirection() {
-  JointCourse course = RichCourse();
-  course.step = 0.5;
-  course.time = Eigen::VectorXd::LinSpaced(kSamples, 0, 0.5 * (kSamples - 1));
-  course.velocity = course.velocity.array().abs() + 0.1;
-  course.motor_position.resize(0);
-  return course;
+JointTrajectory OneDirection() {
+  JointTrajectory trajectory = RichTrajectory();
+  trajectory.step = 0.5;
+  trajectory.time = Eigen::VectorXd::LinSpaced(kSamples, 0, 0.5 * (kSamples - 1));
+  trajectory.velocity = trajectory.velocity.array().abs() + 0.1;
+  trajectory.motor_position.resize(0);
+  return trajectory;
 }
 
 TEST(AlongMotion, IsTheStepOfThePluginBitForBitAtCoulombFriction) {
   Friction friction{"coulomb", {{"coulomb", 6}}, Thermal{-0.8, 40}};
   friction.second_thermal = Thermal{-0.2, 9};
   friction.level_per_temperature = -0.02;
-  const JointCourse course = OneDirection();
-  const Prediction p = AlongMotion(friction).Predict(course), stepped = Stepped(friction, course);
+  const JointTrajectory trajectory = OneDirection();
+  const Prediction p = AlongMotion(friction).Predict(trajectory),
+                   stepped = Stepped(friction, trajectory);
   EXPECT_EQ(Difference(p.force, stepped.force), "");
   EXPECT_EQ(Difference(p.loss, stepped.loss), "");
   EXPECT_EQ(Difference(p.energy, stepped.energy), "");
 }
 
 TEST(AlongMotion, IsTheStepOfThePluginWhereTheirSumsRoundApart) {
-  const JointCourse course = OneDirection();
+  const JointTrajectory trajectory = OneDirection();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
     const Friction friction = Rich(SomeFriction(law));
-    const Prediction p = AlongMotion(friction).Predict(course), stepped = Stepped(friction, course);
+    const Prediction p = AlongMotion(friction).Predict(trajectory),
+                     stepped = Stepped(friction, trajectory);
     // kv v + (g + E) against (kv v + g) + E, some roundings a step, which the loop damps
     ExpectClose(p.force, stepped.force, 1e-14);
     ExpectClose(p.loss, stepped.loss, 1e-14);
@@ -258,10 +263,10 @@ TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
       ++laws;
       Friction friction = SomeFriction(*FindLaw(L::name));
       friction.load_gain = 0.15;
-      JointCourse course = EvenCourse(0.01, Eigen::VectorXd::Constant(60, 0.05));
-      course.velocity[0] = -0.05;
-      course.load = Eigen::VectorXd::Constant(60, -3);
-      const Prediction p = AlongMotion(friction).Predict(course);
+      JointTrajectory trajectory = EvenTrajectory(0.01, Eigen::VectorXd::Constant(60, 0.05));
+      trajectory.velocity[0] = -0.05;
+      trajectory.load = Eigen::VectorXd::Constant(60, -3);
+      const Prediction p = AlongMotion(friction).Predict(trajectory);
       JointFriction joint(friction);
       joint.SetTimestep(0.01);
       FrictionState state{p.bristle[1]};
@@ -288,8 +293,8 @@ TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {
     friction.second_thermal = Thermal{-0.5, 2};
     const Measurements m =
         test::RecordBristle(friction, test::TurningMotion(60, 3), 60, 100, 0, 0, 3);
-    const JointCourse course{m.time, m.velocity};
-    const Prediction p = AlongMotion(friction).Predict(course);
+    const JointTrajectory trajectory{m.time, m.velocity};
+    const Prediction p = AlongMotion(friction).Predict(trajectory);
     const double root = std::sqrt(static_cast<double>(m.size()));
     const double error = (p.force - m.torque).norm() / root;
 
@@ -312,11 +317,12 @@ TEST(AlongMotion, LosesInABristleWhatItDoesNotStore) {
   // work done less load^2 / (2 sigma0), over a motion within the elastic range and beyond
   const Friction friction{"dahl", {{"coulomb", 4}, {"bristle_stiffness", 100}}, {}};
   const Index n = 20001;
-  JointCourse course{Eigen::VectorXd::LinSpaced(n, 0, 20), Eigen::VectorXd(n)};
-  course.velocity = (0.1 * course.time.array()).sin() * (3 * course.time.array()).cos() * 0.2;
-  const Prediction p = AlongMotion(friction).Predict(course);
+  JointTrajectory trajectory{Eigen::VectorXd::LinSpaced(n, 0, 20), Eigen::VectorXd(n)};
+  trajectory.velocity =
+      (0.1 * trajectory.time.array()).sin() * (3 * trajectory.time.array()).cos() * 0.2;
+  const Prediction p = AlongMotion(friction).Predict(trajectory);
   const double h = 1e-3;
-  const Eigen::ArrayXd power = p.force.array() * course.velocity.array();
+  const Eigen::ArrayXd power = p.force.array() * trajectory.velocity.array();
   const auto integral = [h](const Eigen::ArrayXd& y) {
     return h * (y.sum() - 0.5 * (y[0] + y[y.size() - 1]));
   };
@@ -329,10 +335,10 @@ TEST(AlongMotion, LosesInABristleWhatItDoesNotStore) {
 
 TEST(AlongMotion, BendsTheBristleAsTheTorqueTells) {
   Friction friction{"dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, {}};
-  JointCourse course = EvenCourse(0.01, Eigen::VectorXd::Constant(101, 0.001));
-  EXPECT_NEAR(AlongMotion(friction).Predict(course).force[0], 15, 1e-12);
-  course.torque = Eigen::VectorXd::Constant(101, 3);
-  const Prediction bent = AlongMotion(friction).Predict(course);
+  JointTrajectory trajectory = EvenTrajectory(0.01, Eigen::VectorXd::Constant(101, 0.001));
+  EXPECT_NEAR(AlongMotion(friction).Predict(trajectory).force[0], 15, 1e-12);
+  trajectory.torque = Eigen::VectorXd::Constant(101, 3);
+  const Prediction bent = AlongMotion(friction).Predict(trajectory);
   EXPECT_NEAR(bent.force[0], 3, 1e-12);
   // ds/dx = sigma0 (1 - s / 15), 1 mrad on; rounding of a hundred steps
   EXPECT_NEAR(bent.force[100], 15 - 12 * std::exp(-2000 * 0.001 / 15), 1e-12);
@@ -342,9 +348,9 @@ TEST(AlongMotion, LowersTheLevelThatABristleBendsAgainstAsItWarms) {
   // at one speed, long slid: F = kc + E, and W = F |v|, whatever the stiffness
   const Friction dahl{"dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, Thermal{-3, 60}};
   const Friction coulomb{"coulomb", {{"coulomb", 15}}, Thermal{-3, 60}};
-  const JointCourse course = EvenCourse(0.1, Eigen::VectorXd::Constant(6000, 0.4));
-  const Prediction bristle = AlongMotion(dahl).Predict(course);
-  const Prediction steady = AlongMotion(coulomb).Predict(course);
+  const JointTrajectory trajectory = EvenTrajectory(0.1, Eigen::VectorXd::Constant(6000, 0.4));
+  const Prediction bristle = AlongMotion(dahl).Predict(trajectory);
+  const Prediction steady = AlongMotion(coulomb).Predict(trajectory);
   // s trails its level by dE/dx / sigma0 times it: 15 3 0.4 15 / 60 / 0.4 / 2000 N.m at first
   EXPECT_LT((bristle.force - steady.force).cwiseAbs().maxCoeff(), 0.15);
   EXPECT_NEAR(bristle.force[5999], steady.force[5999], 1e-9);
@@ -353,11 +359,11 @@ TEST(AlongMotion, LowersTheLevelThatABristleBendsAgainstAsItWarms) {
 
 TEST(AlongMotion, JumpsWhereItIsToldAndCoolsFromThere) {
   const Friction friction = Warm(5, 15, -3, 600);
-  JointCourse course = EvenCourse(1, Eigen::VectorXd::Zero(10));
-  CourseStart start;
+  JointTrajectory trajectory = EvenTrajectory(1, Eigen::VectorXd::Zero(10));
+  ThermalStart start;
   start.energy = -8;
   start.jumps = {{3, 2}, {7, -1}};
-  const Prediction p = AlongMotion(friction).Predict(course, start);
+  const Prediction p = AlongMotion(friction).Predict(trajectory, start);
   const auto after = [](int steps) { return std::exp(-steps / 600.0); };
   // closed forms
   EXPECT_NEAR(p.energy[2], -8 * after(2), 1e-14);
@@ -370,9 +376,9 @@ TEST(AlongMotion, IsColdAgainWhereAnotherRecordingBegins) {
     Friction friction = SomeFriction(*FindLaw(law));
     friction.thermal = Thermal{-0.8, 40};
     friction.second_thermal = Thermal{-0.2, 9};
-    JointCourse once = SomeCourse();
+    JointTrajectory once = SomeTrajectory();
     const Prediction first = AlongMotion(friction).Predict(once);
-    JointCourse twice = once;
+    JointTrajectory twice = once;
     twice.time.resize(2 * kSamples);
     twice.velocity.resize(2 * kSamples);
     twice.time << once.time, once.time.array() + once.time[kSamples - 1];
@@ -388,9 +394,9 @@ TEST(AlongMotion, IsColdAgainWhereAnotherRecordingBegins) {
 
 TEST(AlongMotion, AddsWhatElseJoinsTheLevelToForceAndLossAlone) {
   Friction friction{"coulomb", {{"coulomb", 5}}, {}};
-  JointCourse course = EvenCourse(1, Eigen::Vector3d(0.5, -0.5, 0));
-  course.level = Eigen::Vector3d(1, 2, 3);
-  const Prediction p = AlongMotion(friction).Predict(course, {-1});
+  JointTrajectory trajectory = EvenTrajectory(1, Eigen::Vector3d(0.5, -0.5, 0));
+  trajectory.level = Eigen::Vector3d(1, 2, 3);
+  const Prediction p = AlongMotion(friction).Predict(trajectory, {-1});
   EXPECT_EQ(p.force, Eigen::Vector3d(5, -6, 0));
   EXPECT_EQ(p.loss, Eigen::Vector3d(2.5, 3, 0));
   EXPECT_EQ(p.energy, Eigen::Vector3d::Constant(-1));
@@ -399,13 +405,13 @@ TEST(AlongMotion, AddsWhatElseJoinsTheLevelToForceAndLossAlone) {
 TEST(AlongMotion, ChangesTheSlopeWithTheHeat) {
   Friction friction = Warm(5, 15, -3, 600);
   friction.viscous_per_energy = 0.5;
-  const JointCourse course = EvenCourse(1, Eigen::Vector2d(0.5, -0.5));
+  const JointTrajectory trajectory = EvenTrajectory(1, Eigen::Vector2d(0.5, -0.5));
   // slope 5 - 0.5 4 = 3, level 15 - 4
-  EXPECT_NEAR(AlongMotion(friction).Predict(course, {-4}).force[0], 1.5 + 11, 1e-14);
+  EXPECT_NEAR(AlongMotion(friction).Predict(trajectory, {-4}).force[0], 1.5 + 11, 1e-14);
   friction.law = "lugre";
   friction.parameters = test::LuGreJoint().parameters;
   friction.parameters["static"] = 15;
-  EXPECT_NEAR(AlongMotion(friction).Predict(course, {-4}).force[0], 1.5 + 11, 1e-14);
+  EXPECT_NEAR(AlongMotion(friction).Predict(trajectory, {-4}).force[0], 1.5 + 11, 1e-14);
 }
 
 TEST(AlongMotion, TellsTheFirstSampleWhereFrictionFeedsItself) {
@@ -413,17 +419,18 @@ TEST(AlongMotion, TellsTheFirstSampleWhereFrictionFeedsItself) {
   Eigen::VectorXd velocity(4000);
   velocity << Eigen::VectorXd::Constant(3000, 2.0), Eigen::VectorXd::Constant(1000, 0.05);
   Friction friction = Warm(5, 15, -3, 600);
-  EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, velocity)).feeds_itself, 3000);
+  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, velocity)).feeds_itself, 3000);
   friction.law = "lugre";
   friction.parameters = test::LuGreJoint().parameters;
   friction.parameters["static"] = 15;
-  EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, velocity)).feeds_itself, 3000);
+  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, velocity)).feeds_itself, 3000);
 }
 
 TEST(AlongMotion, RemembersTheSideThatABrokenJointSlidesTo) {
   Friction friction = SomeFriction(*FindLaw("stiction"));
-  EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, Eigen::Vector2d(0.5, -0.5))).end.slip, -1);
-  EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, Eigen::Vector2d(0.5, 0))).end.slip, 0);
+  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, Eigen::Vector2d(0.5, -0.5))).end.slip,
+            -1);
+  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, Eigen::Vector2d(0.5, 0))).end.slip, 0);
 }
 
 }  // namespace

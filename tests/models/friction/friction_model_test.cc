@@ -32,7 +32,7 @@ TEST(FrictionModel, TakesLoadAmbientPositionAndStartsOfAMotion) {
   kernel.centres = {1};
   kernel.width = 0.5;
   friction.maps = {{{{MapQuantity::position, kernel}}, KernelKind::plain, {2}}};
-  JointCourse motion{Eigen::Vector3d(0, 60, 120), Eigen::Vector3d::Constant(0.5)};
+  JointTrajectory motion{Eigen::Vector3d(0, 60, 120), Eigen::Vector3d::Constant(0.5)};
   motion.position = Eigen::Vector3d(1, 1, 1.5);
   motion.load = Eigen::Vector3d(0, -20, 0);
   motion.ambient_rise = Eigen::Vector3d::Constant(10);
@@ -67,11 +67,11 @@ TEST(FrictionModel, StepsAsThePluginDoes) {
 
 TEST(FrictionModel, RefusesWhatIsNoMotionAndNoFriction) {
   const FrictionModel model(TableOne());
-  const JointCourse unlike{Eigen::Vector2d(0, 1), Eigen::VectorXd::Ones(1)};
+  const JointTrajectory unlike{Eigen::Vector2d(0, 1), Eigen::VectorXd::Ones(1)};
   EXPECT_THROW(model.Along(unlike), BadInput);
-  const JointCourse still{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)};
+  const JointTrajectory still{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)};
   EXPECT_THROW(model.Along(still), BadInput);
-  JointCourse begins{Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)};
+  JointTrajectory begins{Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)};
   begins.starts = {2};
   EXPECT_THROW(model.Along(begins), BadInput);
   EXPECT_THROW(FrictionModel(TableOne(), 0), BadInput);

@@ -23,7 +23,7 @@ TEST(GoldenMotion, IsWhatTheForwardModelGivesForLawsThatSlideSteadily) {
                            "asymmetric_stribeck", "everything"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     const Prediction p =
-        AlongMotion(golden.friction).Predict(golden.course, {golden.initial_energy});
+        AlongMotion(golden.friction).Predict(golden.trajectory, {golden.initial_energy});
     // both follow the same equations: rounding of 600 steps at 20 N.m; kernels to 1e-12
     EXPECT_LT(Largest(p.force - golden.force), 2e-12) << name;
     EXPECT_LT(Largest(p.energy - golden.energy), 2e-12) << name;
@@ -34,8 +34,8 @@ TEST(GoldenMotion, IsWhatTheForwardModelGivesForLawsThatSlideSteadily) {
 double ErrorOfEvery(const test::GoldenMotion& golden, Index every) {
   const Index n = (golden.force.size() + every - 1) / every;
   const auto taken = Eigen::seqN(0, n, every);
-  JointCourse course{golden.course.time(taken), golden.course.velocity(taken)};
-  const Prediction p = AlongMotion(golden.friction).Predict(course);
+  JointTrajectory trajectory{golden.trajectory.time(taken), golden.trajectory.velocity(taken)};
+  const Prediction p = AlongMotion(golden.friction).Predict(trajectory);
   return Largest(p.force - Eigen::VectorXd(golden.force(taken)));
 }
 
@@ -55,7 +55,7 @@ TEST(GoldenMotion, IsWhatTheForwardModelTendsToForLawsWithABristle) {
 TEST(GoldenMotion, BendsTheBristleOfTheForwardModelFromRest) {
   for (const char* name : {"dahl", "lugre", "asymmetric_lugre"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
-    const Prediction p = AlongMotion(golden.friction).Predict(golden.course);
+    const Prediction p = AlongMotion(golden.friction).Predict(golden.trajectory);
     EXPECT_EQ(p.bristle[0], 0) << name;
     EXPECT_LT(Largest(p.bristle - golden.bristle), 0.002 * Largest(golden.bristle)) << name;
   }
@@ -71,7 +71,7 @@ TEST(GoldenMotion, IsWhatThePluginsKernelStepsTo) {
     joint.SetTimestep(h);
     FrictionState state;
     double worst = 0, worst_energy = 0;
-    const Eigen::VectorXd& v = golden.course.velocity;
+    const Eigen::VectorXd& v = golden.trajectory.velocity;
     for (Index i = 0; i + 1 < v.size(); ++i) {
       worst_energy = std::max(worst_energy, std::abs(state.energy - golden.energy[i]));
       for (Index k = 0; k < kParts; ++k) {
@@ -95,17 +95,18 @@ TEST(GoldenMotion, IsWhatThePluginsKernelSlidesAt) {
                            "asymmetric_stribeck", "everything"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     JointFriction joint(golden.friction);
-    joint.SetTimestep(golden.course.step);
+    joint.SetTimestep(golden.trajectory.step);
     FrictionState state{0, golden.initial_energy};
-    const JointCourse& course = golden.course;
+    const JointTrajectory& trajectory = golden.trajectory;
     const auto at = [](const Eigen::VectorXd& column, Index i) {
       return column.size() > 0 ? column[i] : 0;
     };
     for (Index i = 0; i < golden.force.size(); ++i) {
-      const double v = course.velocity[i];
+      const double v = trajectory.velocity[i];
       if (v == 0) state.bristle = 0;
-      const FrictionStep step = joint.Step(
-          state, {at(course.position, i), v, 1e6, at(course.load, i), at(course.ambient_rise, i)});
+      const FrictionStep step =
+          joint.Step(state, {at(trajectory.position, i), v, 1e6, at(trajectory.load, i),
+                             at(trajectory.ambient_rise, i)});
       ASSERT_NEAR(step.force, golden.force[i], 2e-12) << name << " at " << i;
       ASSERT_NEAR(state.energy + state.second_energy, golden.energy[i], 2e-12) << name << i;
       state = step.next;

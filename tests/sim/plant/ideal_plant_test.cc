@@ -178,10 +178,10 @@ TEST(IdealPlant, LogsTheGoldenRecordingOfEveryLawThatSlidesSteadily) {
     scenario.motion.speed_list = plan.at("speeds").get<std::vector<double>>();
     scenario.motion.hold = plan.at("hold");
     scenario.noise.torque = 0;
-    scenario.sampling.rate = 1 / golden.course.step;
-    scenario.duration = golden.course.step * static_cast<double>(golden.force.size());
+    scenario.sampling.rate = 1 / golden.trajectory.step;
+    scenario.duration = golden.trajectory.step * static_cast<double>(golden.force.size());
     const Simulation recording = MakePlant(scenario)->Run(0);
-    EXPECT_EQ(recording.measurements.velocity, golden.course.velocity) << name;
+    EXPECT_EQ(recording.measurements.velocity, golden.trajectory.velocity) << name;
     // the same equations: rounding of 600 steps at 20 N.m
     EXPECT_LT((recording.measurements.torque - golden.force).cwiseAbs().maxCoeff(), 2e-12) << name;
     EXPECT_LT((recording.truth.energy - golden.energy).cwiseAbs().maxCoeff(), 2e-12) << name;

@@ -111,14 +111,14 @@ constexpr char kDcMotor[] =
 std::vector<double> Course(const std::string& section, double h) {
   const Model m = MustCompile(LinkXml(section, fmt::format(R"(timestep="{}" gravity="0 0 0")", h)));
   const Data d(mj_makeData(m.get()));
-  std::vector<double> course;
+  std::vector<double> trajectory;
   const long stride = std::lround(0.01 / h);
   for (long i = 0; i < 200 * stride; ++i) {
     d->qfrc_applied[0] = 6 * std::sin(2 * static_cast<double>(i) * h);
     mj_step(m.get(), d.get());
-    if (i % stride == stride - 1) course.push_back(d->qvel[0]);
+    if (i % stride == stride - 1) trajectory.push_back(d->qvel[0]);
   }
-  return course;
+  return trajectory;
 }
 
 TEST(PluginLugre, MovesAsTheDcMotorsLugreDoesUpToTheErrorOfTheStep) {

@@ -4,7 +4,7 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/recording.h>
 
-#include "identification/forward/log_course.h"
+#include "identification/forward/log_trajectory.h"
 #include "models/foundation/random_stream.h"
 #include "tools/figures/fit_view.h"
 

@@ -16,7 +16,7 @@
 namespace warmjoint::figures {
 namespace {
 
-using Curve = QuartileCurve IdentifierCourse::*;
+using Curve = QuartileCurve IdentifierCurves::*;
 
 bool Iterates(const QuartileCurve& curve) { return curve.x.size() > 1; }
 
@@ -28,8 +28,8 @@ Eigen::VectorXd Shown(const Axis& axis, const Eigen::VectorXd& x, const Eigen::V
 /// The axis over the iterations of all identifiers.
 Axis AxisOf(const ErrorByIteration& data) {
   std::vector<Eigen::VectorXd> iterations;
-  for (const IdentifierCourse& course : data.identifiers) {
-    if (Iterates(course.npe)) iterations.push_back(course.npe.x);
+  for (const IdentifierCurves& curves : data.identifiers) {
+    if (Iterates(curves.npe)) iterations.push_back(curves.npe.x);
   }
   const auto [first, last] = RangeOf(iterations);
   if (!std::isfinite(last)) return {"iteration", 0, 1, Scale::linear, {{0, "–"}}};
@@ -43,8 +43,8 @@ Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::s
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
   for (std::size_t i = 0; i < data.identifiers.size(); ++i) {
-    const IdentifierCourse& course = data.identifiers[i];
-    const QuartileCurve& c = course.*curve;
+    const IdentifierCurves& curves = data.identifiers[i];
+    const QuartileCurve& c = curves.*curve;
     if (c.x.size() == 0) continue;
     QuartileCurve wide = c;
     if (!Iterates(c)) {
@@ -54,11 +54,11 @@ Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::s
       wide.median = Eigen::Vector2d::Constant(c.median[0]);
       wide.q75 = Eigen::Vector2d::Constant(c.q75[0]);
     }
-    const Hue hue = IdentifierHue(course.identifier);
+    const Hue hue = IdentifierHue(curves.identifier);
     // quartiles as bands, medians as lines over all of them
     plot.series.push_back({"", hue, Band{wide.x, factor * wide.q25, factor * wide.q75}});
     lines.push_back(
-        {course.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(data.identifiers, i)}});
+        {curves.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(data.identifiers, i)}});
     // the axis has to reach every quartile
     for (const Eigen::VectorXd& values : {wide.q25, wide.median, wide.q75}) {
       shown.push_back(Shown(plot.x, wide.x, factor * values));
@@ -80,10 +80,10 @@ void AddLevel(Plot& plot, const std::string& label, double value) {
 std::string Finding(const ErrorByIteration& data) {
   std::string text = "Median NPE after the last iteration: ";
   // where each identifier ends
-  for (const IdentifierCourse& course : data.identifiers) {
-    if (course.npe.median.size() == 0) continue;
-    const double last = course.npe.median[course.npe.median.size() - 1];
-    text += fmt::format("{} {} %, ", course.label, SignificantText(100 * last));
+  for (const IdentifierCurves& curves : data.identifiers) {
+    if (curves.npe.median.size() == 0) continue;
+    const double last = curves.npe.median[curves.npe.median.size() - 1];
+    text += fmt::format("{} {} %, ", curves.label, SignificantText(100 * last));
   }
   // beside what no unbiased identifier can undercut
   if (data.cramer_rao) {
@@ -119,32 +119,32 @@ double MedianNormOf(const Eigen::MatrixXd& covariance) {
   return norms[kDraws / 2];
 }
 
-/// The final values as a course of one iteration, 0.
+/// The final values as curves of one iteration, 0.
 QuartileCurve Level(const Eigen::VectorXd& values) {
   return QuartilesOf(Eigen::VectorXd::Zero(1), values);
 }
 
-IdentifierCourse CourseOf(const RunRow& row) {
-  IdentifierCourse course{row.label, row.identifier, {}, {}};
-  if (row.course.iteration.size() > 0) {
-    course.npe = QuartilesOf(row.course.iteration, row.course.npe);
-    course.rmse = QuartilesOf(row.course.iteration, row.course.rmse);
+IdentifierCurves CurvesOf(const RunRow& row) {
+  IdentifierCurves curves{row.label, row.identifier, {}, {}};
+  if (row.trace.iteration.size() > 0) {
+    curves.npe = QuartilesOf(row.trace.iteration, row.trace.npe);
+    curves.rmse = QuartilesOf(row.trace.iteration, row.trace.rmse);
   } else if (row.npe.array().isFinite().any()) {
-    course.npe = Level(row.npe);
-    course.rmse = Level(row.rmse);
+    curves.npe = Level(row.npe);
+    curves.rmse = Level(row.rmse);
   }
-  return course;
+  return curves;
 }
 
 }  // namespace
 
 Figure MakeErrorByIteration(const ErrorByIteration& data) {
   // errors of the parameters beside their bound
-  Plot npe = Draw(data, &IdentifierCourse::npe, 100, "NPE, continuous (%)");
+  Plot npe = Draw(data, &IdentifierCurves::npe, 100, "NPE, continuous (%)");
   if (data.cramer_rao) AddLevel(npe, "median at the Cramér-Rao bound", 100 * *data.cramer_rao);
   // errors of the fit beside the noise of the torque
   Plot rmse =
-      Draw(data, &IdentifierCourse::rmse, 1, fmt::format("RMSE ({})", UnitText(data.torque_unit)));
+      Draw(data, &IdentifierCurves::rmse, 1, fmt::format("RMSE ({})", UnitText(data.torque_unit)));
   if (data.noise) AddLevel(rmse, "noise", *data.noise);
 
   return RowOfPlots(
@@ -152,16 +152,16 @@ Figure MakeErrorByIteration(const ErrorByIteration& data) {
       430, {{"Normalised parameter error", npe}, {"Root mean square error of the fit", rmse}});
 }
 
-std::optional<Figure> ErrorCourses(const RunView& run) {
+std::optional<Figure> ErrorTraces(const RunView& run) {
   ErrorByIteration data;
   data.suite = run.suite;
   data.realizations = run.realizations;
   data.torque_unit = run.torque_unit;
   bool any = false;
-  // courses of all identifiers, of which one at least has to iterate
+  // traces of all identifiers, of which one at least has to iterate
   for (const RunRow& row : run.rows) {
-    data.identifiers.push_back(CourseOf(row));
-    any = any || row.course.iteration.size() > 1;
+    data.identifiers.push_back(CurvesOf(row));
+    any = any || row.trace.iteration.size() > 1;
   }
   if (!any) return std::nullopt;
   // a median to compare medians with; variants have a bound each

@@ -12,7 +12,7 @@ namespace warmjoint::figures {
 
 /// One row of the leaderboard by iteration. One that does not iterate has a single iteration, 0,
 /// and is drawn as a level.
-struct IdentifierCourse {
+struct IdentifierCurves {
   std::string label;
   std::string identifier;  // name: gives the colour
   QuartileCurve npe;       // continuous, 0.05 is 5 %
@@ -23,7 +23,7 @@ struct ErrorByIteration {
   std::string suite;
   int realizations = 0;
   std::string torque_unit = "N.m";
-  std::vector<IdentifierCourse> identifiers;
+  std::vector<IdentifierCurves> identifiers;
   std::optional<double> cramer_rao;  // median NPE at the bound, 0.012 is 1.2 %
   std::optional<double> noise;       // standard deviation of the torque, torque_unit
 };

@@ -42,7 +42,7 @@ class RowBuilder {
     Numbers estimate, truth, bound;
   };
 
-  std::vector<RunUnit> units_;  // the first ones, for courses
+  std::vector<RunUnit> units_;  // the first ones, for traces
   int runs_ = 0;
   int identifier_ = 0;
   std::map<std::string, int> failures_;
@@ -53,9 +53,9 @@ class RowBuilder {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Realizations whose course is drawn, one thin line each, and summed up by iteration: of more the
-/// first ones, since a course has hundreds of numbers for each.
-constexpr std::size_t kMostCourses = 2000;
+/// Realizations whose trace is drawn, one thin line each, and summed up by iteration: of more the
+/// first ones, since a trace has hundreds of numbers for each.
+constexpr std::size_t kMostTraces = 2000;
 
 // of the answers that a page lists, which it holds without becoming slow to open: some 200 bytes each
 constexpr std::int64_t kMostListed = 2000;
@@ -117,60 +117,60 @@ std::string UnitOf(const std::string& name, const Scenario& scenario) {
   return "";
 }
 
-/// Adds realization `row` to the course. traces: all of the identifier.
-void Fill(Course& course, Index row, const TraceTable& trace) {
-  const std::size_t columns = trace.columns.size();
+/// Adds realization `row` to the trace. table: what was stored of it.
+void Fill(ParameterTrace& trace, Index row, const TraceTable& table) {
+  const std::size_t columns = table.columns.size();
   const auto value = [&](Index iteration, const std::string& name) {
-    const auto found = std::find(trace.columns.begin(), trace.columns.end(), name);
-    if (found == trace.columns.end()) return kUnknown;
+    const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+    if (found == table.columns.end()) return kUnknown;
     // one that stopped keeps its last values
-    const std::size_t last = trace.rows() - 1;
+    const std::size_t last = table.rows() - 1;
     const std::size_t at = std::min(static_cast<std::size_t>(iteration), last);
-    const auto column = static_cast<std::size_t>(found - trace.columns.begin());
-    return static_cast<double>(trace.values[at * columns + column]);
+    const auto column = static_cast<std::size_t>(found - table.columns.begin());
+    return static_cast<double>(table.values[at * columns + column]);
   };
   // errors and parameters after each iteration
-  for (Index k = 0; k < course.iteration.size(); ++k) {
-    course.npe(row, k) = value(k, "npe_continuous");
-    course.rmse(row, k) = value(k, "rmse");
-    for (std::size_t i = 0; i < course.names.size(); ++i) {
-      course.parameters[i](row, k) = value(k, course.names[i]);
+  for (Index k = 0; k < trace.iteration.size(); ++k) {
+    trace.npe(row, k) = value(k, "npe_continuous");
+    trace.rmse(row, k) = value(k, "rmse");
+    for (std::size_t i = 0; i < trace.names.size(); ++i) {
+      trace.parameters[i](row, k) = value(k, trace.names[i]);
     }
   }
 }
 
-Course ReadCourse(const RunStore& store, const std::vector<RunUnit>& units, int identifier) {
-  std::vector<TraceTable> traces;
+ParameterTrace ReadTrace(const RunStore& store, const std::vector<RunUnit>& units, int identifier) {
+  std::vector<TraceTable> tables;
   const TraceTable* longest = nullptr;
   // the longest trace says how many iterations there are
-  for (const RunUnit& unit : units) traces.push_back(store.ReadTrace(unit, identifier));
-  for (const TraceTable& trace : traces) {
-    if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
+  for (const RunUnit& unit : units) tables.push_back(store.ReadTrace(unit, identifier));
+  for (const TraceTable& table : tables) {
+    if (table.rows() > (longest ? longest->rows() : 0)) longest = &table;
   }
-  Course course;
-  if (!longest) return course;
+  ParameterTrace trace;
+  if (!longest) return trace;
 
-  const auto rows = static_cast<Index>(traces.size());
+  const auto rows = static_cast<Index>(tables.size());
   const auto iterations = static_cast<Index>(longest->rows());
-  course.iteration.resize(iterations);
+  trace.iteration.resize(iterations);
   // the first column holds the number of the iteration
   for (Index k = 0; k < iterations; ++k) {
-    course.iteration[k] = longest->values[static_cast<std::size_t>(k) * longest->columns.size()];
+    trace.iteration[k] = longest->values[static_cast<std::size_t>(k) * longest->columns.size()];
   }
   // columns that are neither the iteration nor an error are parameters
   for (const std::string& name : longest->columns) {
     const bool parameter = name != "iteration" && name != "rmse" && !name.starts_with("npe_");
-    if (parameter) course.names.push_back(name);
+    if (parameter) trace.names.push_back(name);
   }
   const Eigen::MatrixXd unknown = Eigen::MatrixXd::Constant(rows, iterations, kUnknown);
-  course.npe = course.rmse = unknown;
-  course.parameters.assign(course.names.size(), unknown);
+  trace.npe = trace.rmse = unknown;
+  trace.parameters.assign(trace.names.size(), unknown);
   // a realization without a trace stays unknown
   for (Index row = 0; row < rows; ++row) {
-    const TraceTable& trace = traces[static_cast<std::size_t>(row)];
-    if (trace.rows() > 0) Fill(course, row, trace);
+    const TraceTable& table = tables[static_cast<std::size_t>(row)];
+    if (table.rows() > 0) Fill(trace, row, table);
   }
-  return course;
+  return trace;
 }
 
 void RowBuilder::Count(const Result& result) {
@@ -189,7 +189,7 @@ void RowBuilder::Count(const Result& result) {
 }
 
 void RowBuilder::Draw(const Result& result) {
-  if (units_.size() < kMostCourses) units_.push_back({result.variant, result.realization});
+  if (units_.size() < kMostTraces) units_.push_back({result.variant, result.realization});
   variant_.push_back(result.variant);
   realization_.push_back(result.realization);
   npe_.push_back(result.score ? result.score->npe_continuous : kUnknown);
@@ -236,8 +236,8 @@ RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
                               VectorOf(one.truth), VectorOf(one.bound), one.intervals,
                               one.covered});
   }
-  // courses of as many realizations as a picture bears
-  row.course = ReadCourse(store, units_, identifier_);
+  // traces of as many realizations as a picture bears
+  row.trace = ReadTrace(store, units_, identifier_);
   return row;
 }
 

@@ -19,8 +19,8 @@ const std::vector<RunFigure>& RunFigures();
 
 std::optional<Figure> NpeBoxes(const RunView& run);
 std::optional<Figure> LadderFigure(const RunView& run);
-std::optional<Figure> ErrorCourses(const RunView& run);
-std::optional<Figure> ParameterCourses(const RunView& run);
+std::optional<Figure> ErrorTraces(const RunView& run);
+std::optional<Figure> ParameterTraces(const RunView& run);
 std::optional<Figure> AgreementBars(const RunView& run);
 std::optional<Figure> IntervalCoverage(const RunView& run);
 std::optional<Figure> ParameterPairs(const RunView& run);

@@ -24,9 +24,9 @@ struct ParameterColumn {
   int covered = 0;        // of them, those that hold the truth
 };
 
-/// The course of an identifier that iterates: K iterations of R realizations, of the first 2000 in a longer run. One that stopped
+/// The trace of an identifier that iterates: K iterations of R realizations, of the first 2000 in a longer run. One that stopped
 /// early keeps its last values.
-struct Course {
+struct ParameterTrace {
   Eigen::VectorXd iteration;                // [K]
   Eigen::MatrixXd npe;                      // [R x K] continuous, 0.05 is 5 %
   Eigen::MatrixXd rmse;                     // [R x K] N.m or N
@@ -50,7 +50,7 @@ struct RunRow {
   Eigen::VectorXi variant, realization;      // [R] position in the ladder, and number
   Eigen::VectorXd npe, rmse, fit, fpe, mae;  // [R], NaN without an answer
   std::vector<ParameterColumn> parameters;   // continuous, in the order of the truth
-  Course course;                             // K = 0 where it does not iterate
+  ParameterTrace trace;                      // K = 0 where it does not iterate
 
   int failed() const;
 };

@@ -43,17 +43,17 @@ inline RunRow ExampleRow(const std::string& label, const std::string& identifier
   return row;
 }
 
-/// A course of 200 iterations from twice the truth to the truth.
-inline Course ExampleCourse() {
-  Course course;
-  course.iteration = Eigen::VectorXd::LinSpaced(200, 1, 200);
-  const Eigen::RowVectorXd fall = (-0.05 * course.iteration.transpose().array()).exp();
+/// A trace of 200 iterations from twice the truth to the truth.
+inline ParameterTrace ExampleTrace() {
+  ParameterTrace trace;
+  trace.iteration = Eigen::VectorXd::LinSpaced(200, 1, 200);
+  const Eigen::RowVectorXd fall = (-0.05 * trace.iteration.transpose().array()).exp();
   const Eigen::VectorXd spread = Eigen::VectorXd::LinSpaced(kExampleRealizations, 0.5, 1.5);
-  course.npe = spread * fall;
-  course.rmse = (0.5 + (spread * fall).array()).matrix();
-  course.names = {"viscous", "thermal_pole"};
-  course.parameters = {(5 * (1 + (spread * fall).array())).matrix(), course.npe};
-  return course;
+  trace.npe = spread * fall;
+  trace.rmse = (0.5 + (spread * fall).array()).matrix();
+  trace.names = {"viscous", "thermal_pole"};
+  trace.parameters = {(5 * (1 + (spread * fall).array())).matrix(), trace.npe};
+  return trace;
 }
 
 /// energy-ml, and an energy-als of which 12 runs failed.
@@ -72,7 +72,7 @@ inline RunView ExampleRun() {
   RunRow& em = run.rows[1];
   em.failures["not_converged"] = 12;
   em.npe.head(12).setConstant(std::nan(""));
-  em.course = ExampleCourse();
+  em.trace = ExampleTrace();
   run.bound_covariance = Eigen::Vector3d(1, 4, 9).asDiagonal();
   return run;
 }

@@ -91,9 +91,9 @@ TEST(Ladder, ShowsRootMeanSquaresAtTheRungsWithTheBoundWhichIsOne) {
   EXPECT_THAT(figure.finding, HasSubstr("from the first rung of torque noise to the last"));
 }
 
-TEST(ParameterCourses, ShowWhereMostRealizationsRunAndTheTruth) {
+TEST(ParameterTraces, ShowWhereMostRealizationsRunAndTheTruth) {
   RunView run = ExampleRun();
-  const Figure figure = *ParameterCourses(run);
+  const Figure figure = *ParameterTraces(run);
   const Shown drawn = Look(figure);
   const ShownPlot& plot = PlotNamed(drawn, "viscous, k_{v}");
   // starts are evenly between 5 1.5 and 5 2.5 times 0.95 at the first iteration
@@ -104,9 +104,9 @@ TEST(ParameterCourses, ShowWhereMostRealizationsRunAndTheTruth) {
   EXPECT_EQ(drawn.plots.size(), 1u) << "thermal_pole is no parameter of the continuous truth";
 
   // few have a line each
-  Course& course = run.rows[1].course;
-  course.parameters[0] = course.parameters[0].topRows(3).eval();
-  const Shown few = Look(*ParameterCourses(run));
+  ParameterTrace& trace = run.rows[1].trace;
+  trace.parameters[0] = trace.parameters[0].topRows(3).eval();
+  const Shown few = Look(*ParameterTraces(run));
   EXPECT_EQ(SeriesNamed(PlotNamed(few, "viscous, k_{v}"), "realizations").points, 3 * 200);
 }
 

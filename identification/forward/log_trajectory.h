@@ -12,11 +12,11 @@ enum class BristleStart { sliding, torque };
 
 /// Time, velocity, positions, load and starts of a log of N samples. The motor position is
 /// the logged one, else the log's gear times the joint's.
-JointCourse CourseOf(const LogSamples& log, BristleStart bristle = BristleStart::sliding);
+JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle = BristleStart::sliding);
 
-/// The friction that a log's motion gives: AlongMotion over CourseOf.
+/// The friction that a log's motion gives: AlongMotion over TrajectoryOf.
 Prediction PredictFriction(const Friction& friction, const LogSamples& log,
-                           const CourseStart& start = {},
+                           const ThermalStart& start = {},
                            BristleStart bristle = BristleStart::sliding);
 
 }  // namespace warmjoint

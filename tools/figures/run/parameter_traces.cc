@@ -14,12 +14,12 @@
 namespace warmjoint::figures {
 namespace {
 
-/// The row with the longest course, or nullptr.
-const RunRow* LongestCourse(const RunView& run) {
+/// The row with the longest trace, or nullptr.
+const RunRow* LongestTrace(const RunView& run) {
   const RunRow* longest = nullptr;
   for (const RunRow& row : run.rows) {
-    const auto length = row.course.iteration.size();
-    if (length > 1 && (!longest || length > longest->course.iteration.size())) longest = &row;
+    const auto length = row.trace.iteration.size();
+    if (length > 1 && (!longest || length > longest->trace.iteration.size())) longest = &row;
   }
   return longest;
 }
@@ -75,14 +75,14 @@ std::pair<double, double> LimitsOf(const Axis& axis, const Eigen::VectorXd& iter
 }
 
 Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::MatrixXd& values) {
-  const Eigen::VectorXd& iteration = row.course.iteration;
+  const Eigen::VectorXd& iteration = row.trace.iteration;
   const Hue hue = IdentifierHue(row.identifier);
-  // the middle of the courses, and of the truths where they differ
+  // the middle of the traces, and of the truths where they differ
   const QuartileCurve middle = QuartilesOf(iteration, values);
   const double truth = MedianOf(column.truth);
 
   Plot plot;
-  // many courses become bands, few are drawn one by one
+  // many traces become bands, few are drawn one by one
   if (values.rows() > kMostLines) {
     AddBands(plot, iteration, values);
   } else {
@@ -91,7 +91,7 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
   plot.series.push_back({"median", hue, Line{iteration, middle.median, 2.2}});
   plot.series.push_back({"truth", Hue::text, LevelLine{truth}});
   plot.x = IterationAxis(iteration[0], iteration.tail(1)[0]);
-  // the axis reaches over most of the courses and the truth
+  // the axis reaches over most of the traces and the truth
   const auto [lower, upper] = LimitsOf(plot.x, iteration, values, column.truth);
   const std::string unit = column.unit.empty() ? "" : fmt::format(" ({})", column.unit);
   plot.y = LinearAxis(SymbolOf(column.name) + unit, {Eigen::Vector2d(lower, upper)});
@@ -100,23 +100,23 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
 
 }  // namespace
 
-std::optional<Figure> ParameterCourses(const RunView& run) {
-  const RunRow* row = LongestCourse(run);
+std::optional<Figure> ParameterTraces(const RunView& run) {
+  const RunRow* row = LongestTrace(run);
   if (!row) return std::nullopt;
 
-  const char* drawn = row->course.npe.rows() > kMostLines ? "bands hold most of their courses"
-                                                          : "each thin line is one";
+  const char* drawn = row->trace.npe.rows() > kMostLines ? "bands hold most of their traces"
+                                                         : "each thin line is one";
   Figure figure = WithoutPanels(
       {"parameters_by_iteration", fmt::format("Parameters by iteration: {}", row->label),
        RunSubtitle(run, drawn), "Medians after the last iteration:"},
       2);
   // a panel for each parameter that the identifier iterates on
   for (const ParameterColumn& column : row->parameters) {
-    const auto& names = row->course.names;
+    const auto& names = row->trace.names;
     const auto found = std::find(names.begin(), names.end(), column.name);
     if (found == names.end()) continue;
     const Eigen::MatrixXd& values =
-        row->course.parameters[static_cast<std::size_t>(found - names.begin())];
+        row->trace.parameters[static_cast<std::size_t>(found - names.begin())];
     if (!values.array().isFinite().any()) continue;
     AddPanel(figure, NameWithSymbol(column.name), PanelOf(*row, column, values), 1);
 

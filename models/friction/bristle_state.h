@@ -72,10 +72,10 @@ struct LawBristle {
 /// takes below 0 counts as 0 for the bristle, and what it lacks takes from the viscous force.
 /// L: a law with Level and BristleOf; T: double, or a dual number.
 template <typename L, typename T = double>
-class BristleCourse {
+class BristleState {
  public:
   /// p: of the law's table; stays where it is.
-  explicit BristleCourse(const T* p) : p_(p), bristle_(L::BristleOf(p)) {}
+  explicit BristleState(const T* p) : p_(p), bristle_(L::BristleOf(p)) {}
 
   /// A recording begins at velocity v in steady sliding, or bent as its torque tells:
   /// s = tau - kv v, within the level. added: A, N.m or N.
