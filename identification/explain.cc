@@ -124,10 +124,9 @@ std::string ExplainRiseFromRest(const Fit& fit) {
       law, LinearLike(fit), HasLevelForEachDirection(law) ? "asymmetric" : "viscous_coulomb");
 }
 
-std::string ExplainFeedingItself(double time, std::string_view remedy) {
-  return fmt::format(
-      "at {:.6g} s the fitted friction pushes instead of braking and would feed itself; {}", time,
-      remedy);
+std::string ExplainDriving(double time, std::string_view remedy) {
+  return fmt::format("at {:.6g} s the fitted friction drives the joint instead of braking it; {}",
+                     time, remedy);
 }
 
 std::string RemedyForNonDissipative(std::string_view law, FittedGravity gravity) {

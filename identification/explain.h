@@ -40,7 +40,7 @@ std::string ExplainHeldBesideMaps(const FitParameter& parameter);
 std::string ExplainExcess(const Excess& excess, const Fit& fit);
 std::string ExplainRiseFromRest(const Fit& fit);
 /// Of a fitted friction that pushes at a time, s.
-std::string ExplainFeedingItself(double time, std::string_view remedy);
+std::string ExplainDriving(double time, std::string_view remedy);
 /// What to try then, which the fit does not hold already: another law, else gravity, else the torque's sign.
 /// law: of the fit; gravity: its option.
 std::string RemedyForNonDissipative(std::string_view law,

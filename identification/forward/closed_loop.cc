@@ -98,7 +98,7 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
       const double level = nominal[n] + std::abs(direction_[n]) * energy;
       const IntervalHold& hold = hold_after[n];
       const bool pushes = level < 0;  // then W = -|v| a
-      if (pushes && !response.feeds_itself) response.feeds_itself = n;
+      if (pushes && !response.first_driving) response.first_driving = n;
       // during the interval E feeds back on its own losses
       const auto [feedback, lambda] = FedBack(hold, pushes ? -speed_[n] : speed_[n]);
       response.energy[n] = energy;

@@ -16,9 +16,9 @@ struct LoopResponse {
   Eigen::VectorXd force;   // [N] F, Eq. (20), N.m or N
   Eigen::VectorXd loss;    // [N] W, Eq. (19), W
   Eigen::VectorXd energy;  // [N] E, Eq. (22), N.m or N
-  /// First sample where friction pushes instead of braking (E < -Fn sign v). From there on the
-  /// losses feed themselves: neither response nor derivatives mean anything.
-  std::optional<Eigen::Index> feeds_itself;
+  /// First sample where friction drives the joint instead of braking it (E < -Fn sign v). From there on the
+  /// energy that friction gives counts as heat: neither response nor derivatives mean anything.
+  std::optional<Eigen::Index> first_driving;
 };
 
 /// Where the loop ends.

@@ -271,9 +271,9 @@ Convergence Judge(const std::vector<DescentState>& states, const Eigen::VectorXd
 }
 
 /// First kept sample whose fitted friction pushes instead of braking, or -1.
-Eigen::Index FeedsItselfAt(const LogSamples& m, const Eigen::VectorXd& fitted) {
+Eigen::Index FirstDriving(const LogSamples& m, const Eigen::VectorXd& fitted) {
   for (Eigen::Index i = 0; i < fitted.size(); ++i) {
-    if (FeedsItself(m.velocity[i], fitted[i])) return i;
+    if (DrivesJoint(m.velocity[i], fitted[i])) return i;
   }
   return -1;
 }
@@ -287,9 +287,9 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
                                "samples can show; record until the friction settles, or with rests",
                                last.thermal.time_constant)};
   }
-  if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
+  if (const Eigen::Index i = FirstDriving(m, friction); i >= 0) {
     return Refusal{Status::inadequate_model,
-                   ExplainFeedingItself(m.time[i], RemedyForNonDissipative(""))};
+                   ExplainDriving(m.time[i], RemedyForNonDissipative(""))};
   }
   return std::nullopt;
 }

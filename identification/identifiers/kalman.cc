@@ -263,9 +263,9 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
            m.time[m.size() - 1] - m.time[0]})) {
     return Refusal{Status::not_identifiable, *why};
   }
-  if (response.feeds_itself) {
-    return Refusal{Status::inadequate_model, ExplainFeedingItself(m.time[*response.feeds_itself],
-                                                                  RemedyForNonDissipative(""))};
+  if (response.first_driving) {
+    return Refusal{Status::inadequate_model,
+                   ExplainDriving(m.time[*response.first_driving], RemedyForNonDissipative(""))};
   }
   return std::nullopt;
 }

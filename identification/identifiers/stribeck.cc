@@ -87,15 +87,15 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
        at.ThermalAt(fit.solution.x).time_constant, 2 * problem.intervals.typical, 5 * total});
 }
 
-/// Voids a fit whose friction feeds itself on this motion. Where the data rule the law out, or
+/// Voids a fit whose friction drives the joint on this motion. Where the data rule the law out, or
 /// chance alone may keep it within its bounds, there is no friction to run.
 void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
-  if (predicted.feeds_itself == m.size()) return;
-  fit.causes.push_back(Voids(
-      Status::inadequate_model,
-      ExplainFeedingItself(m.time[predicted.feeds_itself], RemedyForNonDissipative(without))));
+  if (predicted.first_driving == m.size()) return;
+  fit.causes.push_back(
+      Voids(Status::inadequate_model,
+            ExplainDriving(m.time[predicted.first_driving], RemedyForNonDissipative(without))));
 }
 
 /// What the law leaves without warming; 0 where no warming is asked for. (N.m)^2 or N^2

@@ -90,10 +90,10 @@ Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   Append(heat, fit);
   // friction that drives itself by its own heat is no model
   const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());
-  if (prediction.feeds_itself < m.size()) {
+  if (prediction.first_driving < m.size()) {
     return Refused(
         fit.identifier, Status::inadequate_model,
-        ExplainFeedingItself(m.time[prediction.feeds_itself], "use fewer kernels, or another law"));
+        ExplainDriving(m.time[prediction.first_driving], "use fewer kernels, or another law"));
   }
 
   // what the torque is compared with follows from that heat

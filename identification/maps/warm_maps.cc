@@ -308,10 +308,9 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   if (!GivesFriction(fit)) return fit;
   // a friction that drives itself by its own heat is no model
   const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
-  if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
-    return Refused(
-        name, Status::inadequate_model,
-        ExplainFeedingItself(m.time[at], RemedyForNonDissipative(fit.friction.law, gravity)));
+  if (const auto at = PredictFriction(fit.friction, m, fit.Start()).first_driving; at < m.size()) {
+    return Refused(name, Status::inadequate_model,
+                   ExplainDriving(m.time[at], RemedyForNonDissipative(fit.friction.law, gravity)));
   }
   return fit;
 }

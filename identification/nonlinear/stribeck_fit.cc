@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kVelocities = 16;  // of the grid
 
-/// A friction that feeds itself grows without end; while it is below this, its derivatives are finite, too, so
+/// A friction that drives the joint grows without end; while it is below this, its derivatives are finite, too, so
 /// that a point at which Ceres finds the residuals also has a Jacobian. N.m or N
 constexpr double kRunaway = 1e100;
 

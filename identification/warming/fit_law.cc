@@ -129,7 +129,7 @@ void RefineByHuber(LawFit& law) {
 void Whiten(LawFit& law) {
   const ThermalFit& plain = law.fit;
   const ThermalResponse response = law.problem.Respond(plain);
-  if (!plain.converged || response.feeds_itself) return;
+  if (!plain.converged || response.first_driving) return;
   // what the fit leaves, and the noise in it
   const Selection& selection = law.input().selection;
   const Eigen::VectorXd left = law.rows.torque - Kept(response.torque, selection);
@@ -180,7 +180,7 @@ std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<Initial
         start ? law.problem.FitWarm(rows, law.fit.initial, *start) : law.problem.FitCold(rows);
     if (!next.converged) return {};
     const ThermalResponse response = law.problem.Respond(next);
-    if (response.feeds_itself) return {};
+    if (response.first_driving) return {};
     // each trial begins where the latest ended
     if (start) start = StartFrom(next);
     latest = {nullptr, std::move(rows), std::move(next)};
@@ -214,7 +214,7 @@ void AddTorqueLag(LawFit& law) {
   Eigen::VectorXd without;
   if (law.fit.converged) {
     const ThermalResponse response = law.problem.Respond(law.fit);
-    if (!response.feeds_itself) without = Kept(response.torque, law.input().selection);
+    if (!response.first_driving) without = Kept(response.torque, law.input().selection);
     if (law.fit.has_heat()) start = StartFrom(law.fit);
   } else {
     start = StartWithLag(law);
@@ -256,7 +256,7 @@ std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& resp
     return Refusal{Status::not_converged,
                    "the weights of Huber's loss still move after 100 rounds; use loss squares"};
   }
-  // no warming to see, no end of the iterations, or a friction that feeds itself
+  // no warming to see, no end of the iterations, or a friction that drives the joint
   if (auto why = WhyNotIdentifiable(law)) return Refusal{Status::not_identifiable, *why};
   if (!law.fit.converged) {
     return Refusal{
@@ -264,12 +264,11 @@ std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& resp
         fmt::format("the fit has not converged after {} iterations", law.fit.trace.size() - 1),
         FrictionKind::warm_up};
   }
-  if (!response.feeds_itself) return std::nullopt;
+  if (!response.first_driving) return std::nullopt;
   const FittedGravity gravity = law.input().options.OrDefault<GravityOption>().gravity;
-  return Refusal{
-      Status::inadequate_model,
-      ExplainFeedingItself(law.measurements().time[*response.feeds_itself],
-                           RemedyForNonDissipative(law.problem.task().law.name, gravity))};
+  return Refusal{Status::inadequate_model,
+                 ExplainDriving(law.measurements().time[*response.first_driving],
+                                RemedyForNonDissipative(law.problem.task().law.name, gravity))};
 }
 
 std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {

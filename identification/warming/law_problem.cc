@@ -111,7 +111,7 @@ ThermalResponse LawProblem::Respond(const ThermalFit& fit) const {
   if (fit.has_heat()) {
     LoopResponse loop = loop_.Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps());
     response.force = std::move(loop.force);
-    response.feeds_itself = loop.feeds_itself;
+    response.first_driving = loop.first_driving;
   } else {
     response.force = task_.columns.leftCols(task_.law_count()) * fit.law();
   }

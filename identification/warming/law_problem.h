@@ -23,9 +23,9 @@ struct RowTreatment {
 
 /// What a fit says along its log.
 struct ThermalResponse {
-  Eigen::VectorXd force;                     // [N] F, N.m or N
-  Eigen::VectorXd torque;                    // [N] F + G + M a, N.m or N
-  std::optional<Eigen::Index> feeds_itself;  // LoopResponse::feeds_itself
+  Eigen::VectorXd force;                      // [N] F, N.m or N
+  Eigen::VectorXd torque;                     // [N] F + G + M a, N.m or N
+  std::optional<Eigen::Index> first_driving;  // LoopResponse::first_driving
 };
 
 /// Law, gravity and inertia, with or without heat.

@@ -16,7 +16,7 @@ double At(const Eigen::VectorXd& column, Index i) { return column.size() > 0 ? c
 struct Sample {
   double force = 0;
   double loss = 0;
-  bool feeds_itself = false;
+  bool drives_joint = false;
 };
 
 /// A law that slides steadily wherever the joint moves.
@@ -30,7 +30,7 @@ class LawAlong {
     const double v = trajectory_.velocity[i];
     if (v == 0) return {};
     const double force = ForceAt(v, i, place);
-    return {force, LossAt(i, place, force), FeedsItself(v, force)};
+    return {force, LossAt(i, place, force), DrivesJoint(v, force)};
   }
 
   static constexpr bool kHasBristle = false;
@@ -82,7 +82,7 @@ class LawAlong<L> {
     const double slope = joint_.SlopeChange(place.energy);
     const double steady = joint_.SlidingForce(v, place) + Sign(v) * extra;
     return {state_.Force(v, added) + slope * v,
-            std::max(0.0, state_.Loss(v, added) + slope * v * v), FeedsItself(v, steady)};
+            std::max(0.0, state_.Loss(v, added) + slope * v * v), DrivesJoint(v, steady)};
   }
 
   static constexpr bool kHasBristle = true;
@@ -168,7 +168,7 @@ Prediction Run(const Friction& friction, const JointFriction& joint,
     result.loss[i] = sample.loss;
     result.energy[i] = energy;
     if (law.kHasBristle) result.bristle[i] = law.bristle();
-    if (sample.feeds_itself && result.feeds_itself == n) result.feeds_itself = i;
+    if (sample.drives_joint && result.first_driving == n) result.first_driving = i;
 
     // hold the loss until the next sample
     if (i + 1 == n) break;

@@ -193,7 +193,7 @@ void JointFriction::TakeDeficit(const FrictionState& state, const JointMotion& m
   if (deficit == 0) return;
   // it may take the viscous force to 0, but not turn it
   const double left = std::abs(step.force) + deficit;
-  step.feeds_itself = left < 0;
+  step.drives_joint = left < 0;
   step.force = Sign(v) * std::max(0.0, left);
   step.loss = Loss(v, step.force);
 }

@@ -136,7 +136,7 @@ T Loss(double v, const T& force) {
 }
 
 /// Whether warm friction pushes instead of braking: F v < 0, which happens once E < -Fn sign(v).
-/// From there on the losses feed themselves and the model has left its domain.
-inline bool FeedsItself(double v, double force) { return force * v < 0; }
+/// From there on the model has left its domain.
+inline bool DrivesJoint(double v, double force) { return force * v < 0; }
 
 }  // namespace warmjoint

@@ -191,13 +191,14 @@ class IdealPlant : public Plant {
 
   /// Beyond that sample the model has left its domain.
   void RefusePush(const SampledPlan& samples, const Prediction& friction) const {
-    const Eigen::Index at = friction.feeds_itself;
+    const Eigen::Index at = friction.first_driving;
     if (at == samples.time.size()) return;
-    Refuse({scenario_.name},
-           "at {:g} s friction feeds itself: at a velocity of {:g} the energy state {:g} exceeds "
-           "the nominal friction, so that F = {:g} pushes; move slower before, rest, or lower "
-           "the thermal gain",
-           samples.time[at], samples.velocity[at], friction.energy[at], friction.force[at]);
+    Refuse(
+        {scenario_.name},
+        "at {:g} s friction drives the joint: at a velocity of {:g} the energy state {:g} exceeds "
+        "the nominal friction, so that F = {:g} does not brake; move slower before, rest, or lower "
+        "the thermal gain",
+        samples.time[at], samples.velocity[at], friction.energy[at], friction.force[at]);
   }
 
   /// The load that the joint transmits, [N] N.m or N.

@@ -258,8 +258,8 @@ class MujocoPlant : public Plant {
   void RefusePush(double time) const {
     if (data_->plugin_state[joint_.friction_report] == 0) return;
     Refuse({scenario_.name},
-           "at {:g} s friction feeds itself: its level fell below 0, so that it would push; move "
-           "slower before, rest, or lower the thermal gain",
+           "at {:g} s friction drives the joint: its level fell below 0; move slower before, rest, "
+           "or lower the thermal gain",
            time);
   }
 

@@ -39,7 +39,7 @@ std::unique_ptr<Plant> MakePlant(const Scenario& scenario);
 /// E2 from 0, and logs torque = F + white noise, with no inertia, controller or filter.
 /// The position is the integral of the planned velocity. Velocity and position get their own noise.
 /// Throws BadInput for a motion that travels between the limits of a robot: it has none. Its Run
-/// throws BadInput where friction changes its sign and feeds itself (E below -Fn sign(v)).
+/// throws BadInput where friction changes its sign and drives the joint (E below -Fn sign(v)).
 std::unique_ptr<Plant> MakeIdealPlant(const Scenario& scenario);
 
 /// The robot and joint of the scenario in MuJoCo, the other joints held; friction by the plugin.

@@ -179,7 +179,7 @@ void JointRows::Take(size_t i, const FrictionStep& step) {
   Of(i, kSliding) = step.sliding;
   Of(i, kNextFirst) = step.next.energy;
   Of(i, kNextSecond) = step.next.second_energy;
-  if (step.feeds_itself) pushed_.push_back(i);
+  if (step.drives_joint) pushed_.push_back(i);
 }
 
 /// Friction without a force may be one that would push.

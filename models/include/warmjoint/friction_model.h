@@ -44,7 +44,7 @@ struct JointMotion {
 struct FrictionStep {
   double force = 0;           // F, N.m or N; acts against the motion as -F
   double loss = 0;            // W, W
-  bool feeds_itself = false;  // the sliding force would push; 0 was used instead
+  bool drives_joint = false;  // the sliding force would not brake; 0 was used instead
   bool sliding = false;       // in the direction of the motion
   FrictionState next;
 };
@@ -88,8 +88,8 @@ struct Prediction {
   Eigen::VectorXd energy;   // [N] E1 + E2, N.m or N; as at first where nothing warms
   Eigen::VectorXd loss;     // [N] W, W
   Eigen::VectorXd bristle;  // [N] load of the law's own bristle, N.m or N; empty: it has none
-  /// First sample at which warm friction pushes instead of braking and so feeds itself; N if none.
-  Eigen::Index feeds_itself = 0;
+  /// First sample at which warm friction drives the joint instead of braking it; N if none.
+  Eigen::Index first_driving = 0;
   FrictionState end;  // at the last sample
 };
 

@@ -49,7 +49,7 @@ TEST(ClosedLoop, ReproducesTheGoldenSimulation) {
   ExpectNear(response.force, test::ToVector(golden.at("F")), 1e-12);
   ExpectNear(response.loss, test::ToVector(golden.at("W")), 1e-12);
   ExpectNear(response.energy, test::ToVector(golden.at("E")), 1e-12);
-  EXPECT_FALSE(response.feeds_itself);
+  EXPECT_FALSE(response.first_driving);
   ExpectNear(ByDiscretePair(loop.Jacobian(p, thermal, golden.at("E0")), thermal, kStep),
              test::ToMatrix(golden.at("dF_dkv_dkc_dke_dte_dE0")), 1e-12);
 }
@@ -152,7 +152,7 @@ TEST(ClosedLoop, FollowsTheHeatThatThePluginsKernelSteps) {
       }
       state = step.next;
     }
-    EXPECT_FALSE(response.feeds_itself);
+    EXPECT_FALSE(response.first_driving);
   }
 }
 
@@ -296,7 +296,7 @@ TEST(PredictFriction, FollowsTheGoldenClosedLoop) {
   EXPECT_LT((prediction.force - force).norm(), 1e-12 * force.norm());
   const Eigen::VectorXd energy = test::ToVector(golden.at("E"));
   EXPECT_LT((prediction.energy - energy).norm(), 1e-12 * energy.norm());
-  EXPECT_EQ(prediction.feeds_itself, motion.size());
+  EXPECT_EQ(prediction.first_driving, motion.size());
 }
 
 TEST(PredictFriction, HoldsTheNominalLawWhereNothingWarms) {
@@ -326,7 +326,7 @@ TEST(PredictFriction, SaysWhereFrictionFeedsItself) {
   friction.parameters["viscous"] = 20;
   const Prediction prediction =
       PredictFriction(friction, LogSamples(test::Record(1, velocity, 0 * velocity)));
-  EXPECT_EQ(prediction.feeds_itself, 2600);
+  EXPECT_EQ(prediction.first_driving, 2600);
 }
 
 TEST(PredictFriction, BendsTheBristleAsTheTorqueTells) {

@@ -146,7 +146,7 @@ TEST(EnergyAls, DrawsItsStartFromItsKeyAlone) {
   EXPECT_NE(Identify(recording, given, StartKey{{7, 2}}).trace[0].parameters, first);
 }
 
-TEST(EnergyAls, RefusesAFitThatFeedsItself) {
+TEST(EnergyAls, RefusesAFitThatDrivesTheJoint) {
   // the level falls by 8 N.m, below what is needed at slow speeds: there the torque turns around
   const Eigen::VectorXd velocity = test::AlternatingSpeeds(1200, 7);
   Measurements m = test::Record(1, velocity, velocity);
@@ -157,7 +157,7 @@ TEST(EnergyAls, RefusesAFitThatFeedsItself) {
   const Estimate estimate =
       Identify(m, {{"start", "options"}, {"start_gain", "-3"}, {"iterations", "200"}});
   EXPECT_EQ(estimate.status, Status::inadequate_model) << estimate.message;
-  EXPECT_THAT(estimate.message, HasSubstr("pushes instead of braking"));
+  EXPECT_THAT(estimate.message, HasSubstr("drives the joint"));
   EXPECT_TRUE(estimate.parameters.empty());
 }
 

@@ -125,7 +125,7 @@ TEST(AlongMotion, RunsThroughRestsAndReversalsAsTheGoldenLoop) {
   ExpectClose(p.force, test::ToVector(golden["F"]));
   ExpectClose(p.loss, test::ToVector(golden["W"]));
   ExpectClose(p.energy, test::ToVector(golden["E"]));
-  EXPECT_EQ(p.feeds_itself, p.force.size());
+  EXPECT_EQ(p.first_driving, p.force.size());
 }
 
 TEST(AlongMotion, WarmsAtConstantSpeedAsTheGoldenClosedForm) {
@@ -309,7 +309,7 @@ TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {
     // what the bristle bends; at 25 Hz the error is 12 times as large
     EXPECT_LT(error, 0.005 * m.torque.norm() / root) << law;
     EXPECT_GT(steady_error, 20 * error) << law;
-    EXPECT_EQ(p.feeds_itself, m.size());
+    EXPECT_EQ(p.first_driving, m.size());
   }
 }
 
@@ -419,11 +419,11 @@ TEST(AlongMotion, TellsTheFirstSampleWhereFrictionFeedsItself) {
   Eigen::VectorXd velocity(4000);
   velocity << Eigen::VectorXd::Constant(3000, 2.0), Eigen::VectorXd::Constant(1000, 0.05);
   Friction friction = Warm(5, 15, -3, 600);
-  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, velocity)).feeds_itself, 3000);
+  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, velocity)).first_driving, 3000);
   friction.law = "lugre";
   friction.parameters = test::LuGreJoint().parameters;
   friction.parameters["static"] = 15;
-  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, velocity)).feeds_itself, 3000);
+  EXPECT_EQ(AlongMotion(friction).Predict(EvenTrajectory(1, velocity)).first_driving, 3000);
 }
 
 TEST(AlongMotion, RemembersTheSideThatABrokenJointSlidesTo) {

@@ -94,10 +94,10 @@ TEST(Thermal, HoldsSteadyAtRest) {
 }
 
 TEST(Thermal, KnowsWhenFrictionPushes) {
-  EXPECT_FALSE(FeedsItself(0.5, WarmForce(0.5, 17.5, -10.0)));
-  EXPECT_TRUE(FeedsItself(0.5, WarmForce(0.5, 17.5, -18.0)));
-  EXPECT_TRUE(FeedsItself(-0.5, WarmForce(-0.5, -17.5, -18.0)));
-  EXPECT_FALSE(FeedsItself(0.0, 0.0));
+  EXPECT_FALSE(DrivesJoint(0.5, WarmForce(0.5, 17.5, -10.0)));
+  EXPECT_TRUE(DrivesJoint(0.5, WarmForce(0.5, 17.5, -18.0)));
+  EXPECT_TRUE(DrivesJoint(-0.5, WarmForce(-0.5, -17.5, -18.0)));
+  EXPECT_FALSE(DrivesJoint(0.0, 0.0));
 }
 
 Friction TwoStages() {

@@ -76,11 +76,11 @@ TEST(JointFriction, TakesALevelBelowZeroFromTheViscousForce) {
   const JointFriction joint = Make(Asymmetric(0.7, 3, 3));
   FrictionStep step = Step(joint, {0, -5}, 4);
   EXPECT_NEAR(step.force, 0.8, 1e-15);
-  EXPECT_FALSE(step.feeds_itself);
+  EXPECT_FALSE(step.drives_joint);
   EXPECT_NEAR(step.loss, 3.2, 1e-14);
   step = Step(joint, {0, -5}, -2);
   EXPECT_EQ(step.force, 0);
-  EXPECT_TRUE(step.feeds_itself);
+  EXPECT_TRUE(step.drives_joint);
   EXPECT_EQ(step.loss, 0);
 }
 

@@ -108,7 +108,7 @@ TEST(RichFriction, RefusesAnAmbientThatChangesNothingAndToPushInTheEngineToo) {
   test::ExpectNamed(test::RefusalOf(set), {"ambient_temperature"});
   scenario.initial_energy = -30;
   test::ExpectNamed(test::RefusalOf([&] { MakePlant(scenario)->Run(0); }),
-                    {"rich: ", "feeds itself", "thermal gain"});
+                    {"rich: ", "drives the joint", "thermal gain"});
 }
 
 }  // namespace

@@ -251,7 +251,7 @@ constexpr char kTwoLinks[] = R"(
 
 Friction Shoulder(double level = 3) { return {"coulomb", {{"coulomb", level}}, Thermal{-0.2, 5}}; }
 
-/// Another law, with another number of states, that feeds itself once warm.
+/// Another law, with another number of states, that drives the joint once warm.
 Friction Elbow() {
   return {"stiction", {{"viscous", 0.1}, {"coulomb", 0.5}, {"static", 0.7}}, Thermal{-3, 0.2}};
 }

@@ -1,4 +1,4 @@
-// Heat of surroundings, of two stages and at a start, and friction that feeds itself.
+// Heat of surroundings, of two stages and at a start, and friction that drives the joint.
 #include <gmock/gmock.h>
 
 #include <algorithm>
