@@ -291,7 +291,8 @@ std::string ExplainWidened(double largest, bool without_warming) {
           : "");
 }
 
-std::string ExplainHints(const std::vector<std::string>& quantities, const MovedParameter& moved) {
+std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
+                              const MovedParameter& moved) {
   return fmt::format(
       "the residual may depend on {}: one test alone would call that found, among many it may be "
       "chance; intervals were widened to cover it, that of {} by {:.2g} {}; a longer recording "

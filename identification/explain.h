@@ -118,8 +118,9 @@ std::string ExplainTooMuch(std::string_view quantity, double harm, double releva
 std::string ExplainTooMuchTogether(double share, double most);
 /// What those do that intervals were widened for. largest: share by which one changes the friction.
 std::string ExplainWidened(double largest, bool without_warming);
-/// Of hints, and the parameter that they move farthest.
-std::string ExplainHints(const std::vector<std::string>& quantities, const MovedParameter& moved);
+/// Of findings by tests that reject before adjustment alone, and the parameter that they move farthest.
+std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
+                              const MovedParameter& moved);
 /// Of a torque in steps, whose effect was taken off (shift) or hides. step: in `unit`
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
                             Action action);

@@ -39,7 +39,7 @@ struct FitParameter {
   double lower = -kInfinity, upper = kInfinity;  // physical bounds of the value
   bool estimated = true;          // has a column of the Jacobian; else its value was given
   bool has_interval = true;       // false where only a prior or an option tells it
-  int way_power = 0;              // of rad or m in the unit, beside the torque's
+  int displacement_power = 0;     // of rad or m in the unit, beside the torque's
   int time_power = 0;             // of s
   LawPart part = LawPart::other;  // of a row of the law
   double moved = 0;               // of the value, since a row of the law is held at its bound

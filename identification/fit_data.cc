@@ -90,14 +90,14 @@ std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& 
   // which speeds there are, and whether in both directions
   const Eigen::VectorXd velocity = Kept(measurements.velocity, selection);
   const std::string names = fmt::format("{}", fmt::join(mixed, ", "));
-  const bool one_way = velocity.minCoeff() > 0 || velocity.maxCoeff() < 0;
+  const bool one_direction = velocity.minCoeff() > 0 || velocity.maxCoeff() < 0;
   const Eigen::ArrayXd speed = velocity.cwiseAbs();
   const std::string_view unit = kVelocityUnit.For(measurements.joint);
   return fmt::format(
       "the motion cannot tell apart: {}; speeds from {:.4g} to {:.4g} {}{}; move at two or more "
       "speeds that differ clearly, for example a tenth of the highest and the highest{}",
-      names, speed.minCoeff(), speed.maxCoeff(), unit, one_way ? " in one direction alone" : "",
-      one_way ? ", in both directions" : "");
+      names, speed.minCoeff(), speed.maxCoeff(), unit,
+      one_direction ? " in one direction alone" : "", one_direction ? ", in both directions" : "");
 }
 
 std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,

@@ -55,7 +55,7 @@ FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
           info.upper,
           true,
           true,
-          info.unit.way,
+          info.unit.displacement,
           info.unit.time,
           info.part};
 }

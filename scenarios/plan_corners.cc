@@ -60,12 +60,12 @@ std::vector<VelocityCorner> PlanMoves(const MovesBetween& moves, double duration
   std::vector<VelocityCorner> corners{{0, 0}};
   while (time < duration) {
     const double target = random.Uniform(lower, upper);
-    const double way = std::abs(target - place);
+    const double distance = std::abs(target - place);
 
-    // up to the speed, or as far as half the way lets it go
-    const double speed = std::min(moves.speed, std::sqrt(moves.acceleration * way));
+    // up to the speed, or as far as half the distance lets it go
+    const double speed = std::min(moves.speed, std::sqrt(moves.acceleration * distance));
     const double ramp = speed / moves.acceleration;
-    const double steady = speed > 0 ? way / speed - ramp : 0;
+    const double steady = speed > 0 ? distance / speed - ramp : 0;
     if (ramp < 1e-6) continue;
     // ramp, steady speed, ramp and pause
     const double velocity = std::copysign(speed, target - place);

@@ -132,11 +132,11 @@ double Mean(const std::vector<Window>& windows, double Window::*member, size_t b
 /// Time after which the level has made 63 % of its way, s, between the centres of two windows.
 double TimeTo63(const Envelope& envelope, double cold, double settled) {
   const std::vector<Window>& windows = envelope.windows();
-  const auto way = [&](size_t i) { return (windows[i].level - cold) / (settled - cold); };
+  const auto share = [&](size_t i) { return (windows[i].level - cold) / (settled - cold); };
   size_t i = 0;
-  while (i + 1 < windows.size() && way(i) < kReached) ++i;
+  while (i + 1 < windows.size() && share(i) < kReached) ++i;
   if (i == 0) return 0.5 * envelope.width();
-  const double part = (kReached - way(i - 1)) / (way(i) - way(i - 1));
+  const double part = (kReached - share(i - 1)) / (share(i) - share(i - 1));
   return envelope.width() * (static_cast<double>(i) - 0.5 + part);
 }
 

@@ -19,11 +19,11 @@ constexpr double kTurnParts = 24;
 int Direction(double velocity) { return velocity > 0 ? 1 : velocity < 0 ? -1 : 0; }
 
 /// How far the joint may go within a row, rad or m.
-double LongestWay(const LogSamples& m) {
+double LongestDistance(const LogSamples& m) {
   const double travel = m.position.maxCoeff() - m.position.minCoeff();
-  const double way = travel / kTravelParts;
-  if (!KnowsMotorAngle(m)) return way;
-  return std::min(way, 2 * std::numbers::pi / (kTurnParts * std::abs(m.gear)));
+  const double distance = travel / kTravelParts;
+  if (!KnowsMotorAngle(m)) return distance;
+  return std::min(distance, 2 * std::numbers::pi / (kTurnParts * std::abs(m.gear)));
 }
 
 /// The segment of each sample, -1 for none. [N]
@@ -41,7 +41,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
   const LogSamples& m = all.measurements;
   const auto& keep = all.selection.keep;
   const Eigen::ArrayXi segment = SegmentOf(all);
-  const double longest = LongestStep(m.time), way = LongestWay(m);
+  const double longest = LongestStep(m.time), distance = LongestDistance(m);
   std::vector<Index> first{0};
   size_t next = 0;  // recording
   // a row ends where the motion, the segment or the recording does
@@ -53,7 +53,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
                        Direction(m.velocity[i]) == Direction(m.velocity[begin]) &&
                        m.time[i] - m.time[i - 1] <= longest;
     // kept samples of one row stay close to each other; what lies between segments may spread
-    const bool near = std::abs(m.position[i] - m.position[begin]) <= way || !keep[i];
+    const bool near = std::abs(m.position[i] - m.position[begin]) <= distance || !keep[i];
     if (starts || !alike || !near || i - begin >= together) first.push_back(i);
   }
   first.push_back(m.size());

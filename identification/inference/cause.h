@@ -42,7 +42,7 @@ enum class Source {
   // what tests for lack of fit found in the residual
   findings,
   hidden_means,
-  hints,
+  unadjusted_findings,
   // how the log was prepared
   reversals,
   preparation,
@@ -68,7 +68,7 @@ inline std::span<const Word<Source>> WordsOf(Source) {
                                     Word{"hidden_steps", hidden_steps},
                                     Word{"findings", findings},
                                     Word{"hidden_means", hidden_means},
-                                    Word{"hints", hints},
+                                    Word{"unadjusted_findings", unadjusted_findings},
                                     Word{"velocity_noise", velocity_noise}};
   return words;
 }

@@ -40,8 +40,8 @@ struct OverBins {
 ///   friction that is asked for may be that of the first moment or of the last, d or d - 1. Of all
 ///   of them the largest counts, for each parameter by itself; c at most the friction, or 1.
 ///
-/// degrees and clock: no residual shows either, where all columns of way or of time share the slip.
-/// A parameter of dimension torque way^a time^b is f = w^a t^b times as large once way and time are
+/// degrees and clock: no residual shows either, where all columns of displacement or of time share the slip.
+/// A parameter of dimension torque displacement^a time^b is f = w^a t^b times as large once displacement and time are
 /// w and t times as large; each end of its interval moves by (f - 1) of itself, and the farther
 /// move counts.
 /// degrees: w = pi/180; clock: t = 1.01.

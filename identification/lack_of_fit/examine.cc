@@ -143,7 +143,7 @@ void TestInTurn(Turn turn, const Bins& bins, const WeighedFit& fit, const Circum
 }
 
 /// The tests of what changes within segments and stays from one to the next. A bristle's force
-/// depends on the way since the last reversal by itself, and by how much between two samples the log
+/// depends on the distance since the last reversal by itself, and by how much between two samples the log
 /// does not tell: of a law that has one nothing more can be said. rest: [N]
 void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
                 std::vector<Finding>& table) {
@@ -152,7 +152,7 @@ void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
   if (model.has_bristle) {
     for (Finding& finding : table) {
       if (finding.test->turn != first) {
-        finding.reason = "the law has a bristle, whose force follows the way by itself";
+        finding.reason = "the law has a bristle, whose force follows the distance by itself";
       }
     }
     return;
@@ -233,18 +233,17 @@ void SumMoves(const OverBins& over, Examination& examination) {
   }
 }
 
-/// What hints move parameters by, with 95 % of it. They may be one and the same thing seen twice: the largest of them
-/// counts.
-void AddHints(Examination& examination) {
-  const std::vector<const Finding*> hints = examination.Hints();
-  if (hints.empty()) return;
+/// What findings before adjustment move parameters by, with 95 % of it. They may be one and the same thing seen twice: the
+/// largest of them counts.
+void AddUnadjusted(Examination& examination) {
+  const std::vector<const Finding*> found = examination.FoundUnadjusted();
+  if (found.empty()) return;
   const Index p = std::ssize(examination.rows);
   Eigen::VectorXd most = Eigen::VectorXd::Zero(p);
-  for (const Finding* hint : hints) {
-    most =
-        most.cwiseMax(hint->moves.head(p).cwiseAbs() + kNormal95 * hint->move_deviations.head(p));
+  for (const Finding* one : found) {
+    most = most.cwiseMax(one->moves.head(p).cwiseAbs() + kNormal95 * one->move_deviations.head(p));
   }
-  examination.Add(Source::hints, Action::widen, std::move(most));
+  examination.Add(Source::unadjusted_findings, Action::widen, std::move(most));
 }
 
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
@@ -317,13 +316,13 @@ std::vector<const Finding*> Examination::Found() const {
   return found;
 }
 
-std::vector<const Finding*> Examination::Hints() const {
-  std::vector<const Finding*> hints;
+std::vector<const Finding*> Examination::FoundUnadjusted() const {
+  std::vector<const Finding*> found;
   for (const Finding& finding : findings) {
-    const bool hint = finding.made && !finding.rejected && finding.p <= kErrorLevel;
-    if (hint && finding.moves.size() > 0) hints.push_back(&finding);
+    const bool unadjusted = finding.made && !finding.rejected && finding.p <= kErrorLevel;
+    if (unadjusted && finding.moves.size() > 0) found.push_back(&finding);
   }
-  return hints;
+  return found;
 }
 
 std::vector<Finding> NotMade(const std::string& reason) {
@@ -367,7 +366,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const Log
 
   // what all of that does to the parameters
   SumMoves(over, examination);
-  AddHints(examination);
+  AddUnadjusted(examination);
   AddHiddenMeans(bins, over.fit, examination);
   return examination;
 }

@@ -34,8 +34,8 @@ struct Examination {
   /// Those that were rejected, the largest first.
   std::vector<const Finding*> Found() const;
 
-  /// Those that were not, though each by itself would have been.
-  std::vector<const Finding*> Hints() const;
+  /// Those that were not, though each was before the p-values were adjusted for the number of tests.
+  std::vector<const Finding*> FoundUnadjusted() const;
 };
 
 /// Makes all tests at one error level (significance.h). Where they cannot be made each says why.

@@ -30,7 +30,7 @@ MatrixXd Signed(const Bins& bins, const MatrixXd& columns) {
 }
 
 /// Columns and the same times s.
-MatrixXd BothWays(const Bins& bins, const MatrixXd& columns) {
+MatrixXd BothDirections(const Bins& bins, const MatrixXd& columns) {
   MatrixXd both(columns.rows(), 2 * columns.cols());
   both << columns, Signed(bins, columns);
   return both;
@@ -64,9 +64,9 @@ double StrongestCycles(const Bins& bins, const GrowingFit& fit, Index count) {
   const ArrayXd step = 2 * kPi * kCyclesApart * bins.time.array();
   const MatrixXd turns = Waves(step);
   const MatrixXd first = left.asDiagonal() * Waves(kFirstCycles * step);
-  TurningWaves ways[2];
+  TurningWaves directions[2];
   for (Index c = 0; c < bins.size(); ++c) {
-    TurningWaves& waves = ways[bins.velocity[c] < 0];
+    TurningWaves& waves = directions[bins.velocity[c] < 0];
     waves.cosine.push_back(first(c, 0));
     waves.sine.push_back(first(c, 1));
     waves.turn_cosine.push_back(turns(c, 0));
@@ -75,7 +75,7 @@ double StrongestCycles(const Bins& bins, const GrowingFit& fit, Index count) {
   Index strongest = 0;
   double most = -1;
   for (Index k = 0; k < count; ++k) {
-    const double explained = ways[0].SquareAndTurn() + ways[1].SquareAndTurn();
+    const double explained = directions[0].SquareAndTurn() + directions[1].SquareAndTurn();
     if (explained > most) strongest = k;
     most = std::max(most, explained);
   }
@@ -176,7 +176,7 @@ Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&)
     parity(i, 0) = sign;
     parity.row(i).tail<2>() = sign * waves.row(i);
   }
-  return {BothWays(bins, parity)};
+  return {BothDirections(bins, parity)};
 }
 
 Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) {
@@ -185,7 +185,7 @@ Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) 
       bins.phase, [](const ArrayXd& phases) -> MatrixXd { return (2 * kPi * phases).cos(); });
   MatrixXd phase(bins.size(), 2);
   phase << (bins.phase.array() - 0.5).matrix(), waves;
-  return {BothWays(bins, phase)};
+  return {BothDirections(bins, phase)};
 }
 
 Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
@@ -195,8 +195,8 @@ Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit
   const Index count = static_cast<Index>(most / kCyclesApart) - kFirstCycles + 1;
   if (count < 1) return {MatrixXd(bins.size(), 0)};
   const double cycles = StrongestCycles(bins, fit, count);
-  return {BothWays(bins, Waves(2 * kPi * cycles * bins.time.array())), static_cast<int>(count),
-          known.duration / cycles};
+  return {BothDirections(bins, Waves(2 * kPi * cycles * bins.time.array())),
+          static_cast<int>(count), known.duration / cycles};
 }
 
 }  // namespace warmjoint

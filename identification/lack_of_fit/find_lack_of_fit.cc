@@ -171,8 +171,8 @@ void ActOnStart(const Examined& of, StartBelief start, Examination& examination)
   }
 }
 
-/// Sentences of what the log leaves open, in the order in which they are read; of steps and hints only where they leave an
-/// interval.
+/// Sentences of what the log leaves open, in the order in which they are read; of steps and unadjusted findings only where they
+/// leave an interval.
 void ExplainLog(const Examined& of, Examination& examination) {
   const LogSamples& m = of.input.measurements;
   if (Cause* const row = Row(Source::held_losses, examination)) {
@@ -189,12 +189,14 @@ void ExplainLog(const Examined& of, Examination& examination) {
     if (!moved) continue;
     row->sentence = ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, row->action);
   }
-  Cause* const hints = Row(Source::hints, examination);
-  const auto moved = hints ? FarthestBeyond(*hints, of) : std::nullopt;
+  Cause* const row = Row(Source::unadjusted_findings, examination);
+  const auto moved = row ? FarthestBeyond(*row, of) : std::nullopt;
   if (!moved) return;
   std::vector<std::string> quantities;
-  for (const Finding* hint : examination.Hints()) quantities.push_back(QuantityOf(*hint, of));
-  hints->sentence = ExplainHints(quantities, *moved);
+  for (const Finding* one : examination.FoundUnadjusted()) {
+    quantities.push_back(QuantityOf(*one, of));
+  }
+  row->sentence = ExplainUnadjusted(quantities, *moved);
 }
 
 }  // namespace

@@ -47,10 +47,10 @@ JointTrajectory FinerTrajectory(const JointTrajectory& trajectory, double gear) 
         &JointTrajectory::level, &JointTrajectory::torque}) {
     finer.*column = Repeated(trajectory.*column);
   }
-  const Eigen::VectorXd way = since.cwiseProduct(finer.velocity);
+  const Eigen::VectorXd travelled = since.cwiseProduct(finer.velocity);
   finer.time += since;
-  if (finer.position.size() > 0) finer.position += way;
-  if (finer.motor_position.size() > 0) finer.motor_position += gear * way;
+  if (finer.position.size() > 0) finer.position += travelled;
+  if (finer.motor_position.size() > 0) finer.motor_position += gear * travelled;
   for (const Eigen::Index start : trajectory.starts) finer.starts.push_back(start * kOfEachStep);
   return finer;
 }

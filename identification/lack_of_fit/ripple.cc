@@ -31,9 +31,9 @@ constexpr int kSpeedFactors = 4;         // why: they tell five speeds apart
 constexpr double kSpeedsDiffer = 0.02;   // relative; why: bins take such speeds for one
 constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
 
-/// An angle, or a way, along which ripple is looked for.
+/// An angle, or a distance, along which ripple is looked for.
 struct AngleAxis {
-  Eigen::VectorXd phase;  // [N] 0 to 1: way along the axis, or turn
+  Eigen::VectorXd phase;  // [N] 0 to 1: place along the axis, or turn
   double length = 1;      // of the axis, in its own unit
   double step = 1;        // between frequencies, cycles along the axis
   int frequencies = 8;    // step, 2 step, ...

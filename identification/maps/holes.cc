@@ -129,9 +129,9 @@ std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
     line /= centres.size();
     // a velocity is told as a direction, other quantities with their unit
     if (over == MapQuantity::velocity) {
-      const char* way = centre < 0 ? "backwards" : "forwards";
-      words = (centres.size() > 2 ? fmt::format(" {} at {:.3g}", way, std::abs(centre))
-                                  : fmt::format(" {}", way)) +
+      const char* direction = centre < 0 ? "backwards" : "forwards";
+      words = (centres.size() > 2 ? fmt::format(" {} at {:.3g}", direction, std::abs(centre))
+                                  : fmt::format(" {}", direction)) +
               words;
     } else {
       words = fmt::format(" at {} {:.3g} {}", NameOf(over), centre, UnitOf(over, joint)) + words;

@@ -28,7 +28,7 @@ constexpr int kRounds = 5;       // why: from the edge of kAlike to the middle o
 constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lies about either
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
-bool IsAlikeBothWays(const FrictionMap& map) {
+bool IsAlikeInBothDirections(const FrictionMap& map) {
   return map.factor == MapFactor::one && std::ranges::none_of(map.axes, [](const MapAxis& axis) {
            return axis.quantity == MapQuantity::velocity;
          });
@@ -108,7 +108,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
   const Index size = places.rows(), q = fit.layout.weights.size;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
   // a map that knows directions stands with the law and the mean of the others in its direction
-  if (!IsAlikeBothWays(fit.maps[which])) {
+  if (!IsAlikeInBothDirections(fit.maps[which])) {
     const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
     rows.leftCols(columns.cols()) = columns;
     for (Index i = 0; i < size; ++i) {
@@ -325,11 +325,12 @@ double MeanVelocity(const std::vector<Index>& group, const MapPoints& kept) {
 }
 
 /// Those of some points about a speed that the joint held, from one of the speeds on to where they gather.
-std::vector<Index> Gather(double speed, const std::vector<Index>& way, const MapPoints& kept) {
+std::vector<Index> Gather(double speed, const std::vector<Index>& one_direction,
+                          const MapPoints& kept) {
   std::vector<Index> group;
   for (int round = 0; round < kRounds; ++round) {
     group.clear();
-    for (const Index i : way) {
+    for (const Index i : one_direction) {
       if (std::abs(std::log(std::abs(kept(i, kVelocity)) / speed)) <= kAlike) group.push_back(i);
     }
     speed = std::abs(MeanVelocity(group, kept));
@@ -358,12 +359,13 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
   const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
   std::vector<FrictionAtSpeed> all;
   for (const int direction : {1, -1}) {
-    const std::vector<Index> way = Towards(direction, kept);
+    const std::vector<Index> one_direction = Towards(direction, kept);
     double latest = 0;
     for (const double quantile : {kSlow, 0.5, kFast}) {
-      if (way.empty()) continue;
-      Eigen::VectorXd speeds = kept(way, kVelocity).cwiseAbs();
-      const std::vector<Index> group = Gather(QuantileInPlace(speeds, quantile), way, kept);
+      if (one_direction.empty()) continue;
+      Eigen::VectorXd speeds = kept(one_direction, kVelocity).cwiseAbs();
+      const std::vector<Index> group =
+          Gather(QuantileInPlace(speeds, quantile), one_direction, kept);
       const double speed = MeanVelocity(group, kept);
       // a joint that knows one speed has one figure
       if (latest > 0 && !(std::log(std::abs(speed) / latest) > kAlike)) continue;

@@ -114,13 +114,14 @@ Selection SteadySamples(const IdentifierInput& input, double distance) {
   const LogSamples& m = input.measurements;
   const Eigen::VectorXd& v = m.velocity;
   Selection steady{Mask::Constant(m.size(), false), {}};
-  double way = 0;  // since the last turn
+  double travelled = 0;  // since the last turn
   // bristles are steady some presliding distances behind a turn, where the speed hardly changes
   for (Index i = 1; i + 1 < m.size(); ++i) {
-    way = v[i] * v[i - 1] > 0 ? way + 0.5 * std::abs(v[i] + v[i - 1]) * (m.time[i] - m.time[i - 1])
-                              : 0;
+    travelled = v[i] * v[i - 1] > 0
+                    ? travelled + 0.5 * std::abs(v[i] + v[i - 1]) * (m.time[i] - m.time[i - 1])
+                    : 0;
     const double most = kSteady * std::abs(v[i]);
-    steady.keep[i] = input.selection.keep[i] && way >= 4 * distance &&
+    steady.keep[i] = input.selection.keep[i] && travelled >= 4 * distance &&
                      std::abs(v[i + 1] - v[i]) <= most && std::abs(v[i - 1] - v[i]) <= most;
   }
 

@@ -62,7 +62,7 @@ std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first,
 }
 
 /// The torque at x. What a recording began with no sample tells alone: its first has the noise of
-/// one, which a slow start carries along for the whole way that the bristle bends, many samples and
+/// one, which a slow start carries along for the whole distance over which the bristle bends, many samples and
 /// all with the same error. But the law is linear in s0, the load at the start,
 ///     F = F(s0 = 0) + b s0,   b = dF/ds0, which dies away as exp(-sigma0 |x| / g),
 /// so that least squares give it at any x (variable projection, Golub and Pereyra 1973):
@@ -165,16 +165,16 @@ bool DerivativesAt(const LugreProblem& problem, const Eigen::VectorXd& x,
   });
 }
 
-/// The ways, rad or m, from one turn or rest to the next.
-std::vector<double> Ways(const LogSamples& m) {
-  std::vector<double> ways{0};
+/// The distances, rad or m, from one turn or rest to the next.
+std::vector<double> DistancesBetweenTurns(const LogSamples& m) {
+  std::vector<double> distances{0};
   for (Eigen::Index i = 1; i < m.size(); ++i) {
     const double from = m.velocity[i - 1], to = m.velocity[i];
-    if (from * to <= 0) ways.push_back(0);
-    ways.back() += 0.5 * std::abs(from + to) * (m.time[i] - m.time[i - 1]);
+    if (from * to <= 0) distances.push_back(0);
+    distances.back() += 0.5 * std::abs(from + to) * (m.time[i] - m.time[i - 1]);
   }
-  std::erase(ways, 0.0);
-  return ways;
+  std::erase(distances, 0.0);
+  return distances;
 }
 
 /// The smallest and the largest presliding distance that the motion may show, rad or m.
@@ -185,7 +185,7 @@ std::pair<double, double> Distances(const LogSamples& m) {
         0.5 * std::abs(m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
     if (travel > 0 && (shortest == 0 || travel < shortest)) shortest = travel;
   }
-  for (const double way : Ways(m)) longest = std::max(longest, way);
+  for (const double distance : DistancesBetweenTurns(m)) longest = std::max(longest, distance);
   return {std::max(0.25 * shortest, 1e-5 * longest), longest};
 }
 

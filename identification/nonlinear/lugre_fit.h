@@ -37,7 +37,7 @@ struct LugreProblem {
 };
 
 /// Points on a grid over sigma0 and sigma1: presliding distances d = ks / sigma0 from a quarter of
-/// the shortest way between samples to the longest between turns, and sigma1 / sigma0 of 0, 1 and
+/// the shortest distance between samples to the longest between turns, and sigma1 / sigma0 of 0, 1 and
 /// 10 sampling intervals. steady(d): x with law and ln vs of the samples that slide steadily then, nothing
 /// where they do not tell. The inertia is what suits each best. Best first, by the sum of squared residuals,
 /// each over its deviation.

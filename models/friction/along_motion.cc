@@ -89,7 +89,7 @@ class LawAlong<L> {
   double bristle() const { return state_.load(); }
 
  private:
-  /// The way to sample i, on which all that joins the level goes linearly in time.
+  /// The path to sample i, on which all that joins the level goes linearly in time.
   void Follow(Index i, const JointPlace& place) {
     for (const MotionPiece& piece : pieces_.Before(i)) {
       // what joins the level at either sample, and linearly in between

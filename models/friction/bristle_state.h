@@ -12,7 +12,7 @@
 
 namespace warmjoint {
 
-/// A part of the way between two samples, all in one direction.
+/// A part of the path between two samples, all in one direction.
 struct MotionPiece {
   double travel;  // |dx|, rad or m
   double speed;   // at its end, rad/s or m/s
@@ -63,7 +63,7 @@ struct LawBristle {
   T slope;      // kv, N.m.s/rad or N.s/m
 };
 
-/// The bristle of law L on its way from sample to sample. Its load s follows
+/// The bristle of law L from sample to sample. Its load s follows
 ///   ds/dx = sigma0 (1 - s / t) sign(v),   t = (g(|v|) + A) sign(v),
 /// with the law's level g and whatever else joins it, A: heat, maps, load. Over a piece of travel
 /// dx, on which t goes linearly from t0 to t1,

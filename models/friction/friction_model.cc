@@ -42,7 +42,7 @@ double MeanLoss(const JointFriction& joint, double v, double energy,
                 const std::pair<double, double>& travel) {
   const int places = travel.first == travel.second ? 1 : kPlaces;
   double sum = 0;
-  // places along the way, each in the middle of its share
+  // places along the path, each in the middle of its share
   for (int i = 0; i < places; ++i) {
     const double share = (i + 0.5) / places;
     const double position = travel.first + share * (travel.second - travel.first);

@@ -76,8 +76,8 @@ void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurement
 void NoteSpeed(Measurements& measurements) {
   const Eigen::VectorXd &time = measurements.time, &position = measurements.position;
   const Eigen::Index n = time.size();
-  const double way = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
-  const double speed = way / (time[n - 1] - time[0]);
+  const double travelled = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
+  const double speed = travelled / (time[n - 1] - time[0]);
   if (speed <= kFast) return;
   measurements.notes.push_back(fmt::format(
       "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "

@@ -17,26 +17,26 @@ using Eigen::VectorXd;
 /// What happened since the last change of direction.
 class Direction {
  public:
-  /// To the next sample. way: gone since the last one, rad or m.
-  void Go(double velocity, double way) {
+  /// To the next sample. distance: travelled since the last one, rad or m.
+  void Go(double velocity, double distance) {
     const double sign = Sign(velocity);
-    way_ += std::abs(way);
+    distance_ += std::abs(distance);
     // the first motion is no change of direction
     if (sign == 0 || sign == held_) return;
     odd_ = held_ != 0 && !odd_;
-    way_ = 0;
+    distance_ = 0;
     held_ = sign;
   }
-  bool odd() const { return odd_; }    // every other hold
-  double way() const { return way_; }  // rad or m
+  bool odd() const { return odd_; }              // every other hold
+  double distance() const { return distance_; }  // rad or m
 
  private:
   double held_ = 0;  // sign of the last motion
-  double way_ = 0;
+  double distance_ = 0;
   bool odd_ = false;
 };
 
-/// Changes of the level that follow time, direction and way, against the motion.
+/// Changes of the level that follow time, direction and distance, against the motion.
 VectorXd Levels(const Disturbances& d, const VectorXd& time, const VectorXd& velocity,
                 const VectorXd& position) {
   const Backlash& backlash = d.hidden.backlash;
@@ -45,12 +45,12 @@ VectorXd Levels(const Disturbances& d, const VectorXd& time, const VectorXd& vel
   Direction direction;
   for (Index i = 0; i < time.size(); ++i) {
     direction.Go(velocity[i], i > 0 ? position[i] - position[i - 1] : 0);
-    // of every other hold, then with time, then with the way since the joint turned
+    // of every other hold, then with time, then with the distance since the joint turned
     double level = direction.odd() ? d.hold_parity.level : 0;
     if (time[i] >= d.step_in_time.time) level += d.step_in_time.level;
     level += d.run_in.level * std::exp(-time[i] / d.run_in.time_constant);
-    if (direction.way() < backlash.way) level -= backlash.level;
-    level -= hysteresis.level * std::exp(-direction.way() / hysteresis.way);
+    if (direction.distance() < backlash.way) level -= backlash.level;
+    level -= hysteresis.level * std::exp(-direction.distance() / hysteresis.way);
     levels[i] = level;
   }
   return levels;

@@ -27,14 +27,14 @@ class RecordedPosition {
   const Measurements& m_;
 };
 
-/// Way under straight lines between corners, rad or m.
-double Way(const std::vector<VelocityCorner>& corners) {
-  double way = 0;
+/// Distance under straight lines between corners, rad or m.
+double Distance(const std::vector<VelocityCorner>& corners) {
+  double distance = 0;
   for (size_t i = 1; i < corners.size(); ++i) {
-    way += (corners[i].time - corners[i - 1].time) *
-           (corners[i].velocity + corners[i - 1].velocity) / 2;
+    distance += (corners[i].time - corners[i - 1].time) *
+                (corners[i].velocity + corners[i - 1].velocity) / 2;
   }
-  return way;
+  return distance;
 }
 
 /// Corners strictly between two others, by the recorded motion. samples: recorded between them.
@@ -51,8 +51,8 @@ std::vector<VelocityCorner> Between(const VelocityCorner& from, const VelocityCo
   }
   corners.push_back(to);
 
-  // the recorded way: moving n inner corners by v adds n step v
-  const double missing = position.At(to.time) - position.At(from.time) - Way(corners);
+  // the recorded distance: moving n inner corners by v adds n step v
+  const double missing = position.At(to.time) - position.At(from.time) - Distance(corners);
   corners = {corners.begin() + 1, corners.end() - 1};
   for (VelocityCorner& corner : corners) {
     corner.velocity += missing / (static_cast<double>(n) * step);

@@ -107,7 +107,7 @@ void CheckReach(const JointRoom& room, const std::vector<VelocityCorner>& corner
                 double position) {
   const double end = room.scenario.duration;
   for (size_t i = 1; i < corners.size() && corners[i - 1].time < end; ++i) {
-    // the way between two corners, of which the last may come after the end
+    // the path between two corners, of which the last may come after the end
     const VelocityCorner& from = corners[i - 1];
     VelocityCorner to = corners[i];
     if (to.time > end) {

@@ -95,18 +95,18 @@ VelocityReference VelocityReference::Through(const std::vector<VelocityCorner>& 
 }
 
 double VelocityReference::run_up() const {
-  // way of each straight line before 0
-  double way = 0;
+  // distance along each straight line before 0
+  double distance = 0;
   for (size_t i = 0; i + 1 < corners_.size() && corners_[i].time < 0; ++i) {
     const VelocityCorner& from = corners_[i];
     const VelocityCorner& to = corners_[i + 1];
     const double end = std::min(to.time, 0.0);
     const double share = (end - from.time) / (to.time - from.time);
     const double at_end = from.velocity + share * (to.velocity - from.velocity);
-    way += (end - from.time) * (from.velocity + at_end) / 2;
+    distance += (end - from.time) * (from.velocity + at_end) / 2;
   }
   const VelocityCorner& last = corners_.back();
-  return last.time < 0 ? way - last.time * last.velocity : way;
+  return last.time < 0 ? distance - last.time * last.velocity : distance;
 }
 
 double VelocityReference::Velocity(double time) {

@@ -75,7 +75,7 @@ class VelocityReference {
 
   /// Time at which it begins, s; not above 0.
   double begin() const { return corners_.front().time; }
-  /// Way travelled from begin() to 0, rad or m.
+  /// Distance travelled from begin() to 0, rad or m.
   double run_up() const;
   /// Velocity at a time that does not fall from call to call, rad/s or m/s.
   double Velocity(double time);

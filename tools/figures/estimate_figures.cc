@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSegments = 4;  // a loop, and a reversal on either side
 
-bool GoesBothWays(const FitView& view) {
+bool GoesInBothDirections(const FitView& view) {
   const Eigen::VectorXd kept = KeptOf(view, view.velocity);
   return kept.size() > 0 && kept.minCoeff() < 0 && kept.maxCoeff() > 0;
 }
@@ -41,7 +41,7 @@ Plot Loop(const FitView& view, const Window& window, const std::pair<double, dou
 /// of the loop is twice the friction, and what shrinks is its warming. Nothing where the joint moves in
 /// one direction alone.
 std::optional<Figure> MakeHysteresis(const FitView& view) {
-  if (!GoesBothWays(view)) return std::nullopt;
+  if (!GoesInBothDirections(view)) return std::nullopt;
   // the first and the last segments back and forth, over the same torques
   const Window first = ColdWindow(view, kSegments), last = WarmWindow(view, kSegments);
   const auto limits = TorqueLimits(view, first, last);

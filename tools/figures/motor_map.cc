@@ -114,12 +114,12 @@ AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& 
 
 /// Mean speed of the motor, rad/s, as far as the samples can follow it.
 double MotorSpeed(const FitView& view, const Segment& segment) {
-  double way = 0;
+  double turned = 0;
   for (Eigen::Index i = segment.begin; i + 1 < segment.end; ++i) {
     const double change = view.motor_angle[i + 1] - view.motor_angle[i];
-    way += std::abs(std::remainder(change, 2 * M_PI));
+    turned += std::abs(std::remainder(change, 2 * M_PI));
   }
-  return way / (view.time[segment.end - 1] - view.time[segment.begin]);
+  return turned / (view.time[segment.end - 1] - view.time[segment.begin]);
 }
 
 /// Segments slow enough for samples to follow the motor's turns: those near the slowest speed.

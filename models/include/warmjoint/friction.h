@@ -31,8 +31,8 @@ inline std::span<const Word<JointKind>> WordsOf(JointKind) {
 struct JointUnit {
   std::string_view rotary;
   std::string_view linear;
-  int way = 0;   // power of rad or m beside torque or force
-  int time = 0;  // power of s
+  int displacement = 0;  // power of rad or m beside torque or force
+  int time = 0;          // power of s
 
   constexpr std::string_view For(JointKind kind) const {
     return kind == JointKind::rotary ? rotary : linear;

@@ -91,7 +91,7 @@ TEST(Apply, TakesTheRefusalThatSaysMost) {
 TEST(Apply, DoesNotDependOnTheOrderOfRows) {
   std::vector<Cause> rows = Rows();
   rows.push_back(Moves(Source::held_losses, Action::cover, 0.5, -0.25));
-  rows.push_back({.source = Source::hints, .without_interval = {1}});
+  rows.push_back({.source = Source::unadjusted_findings, .without_interval = {1}});
   const Inference first = Apply(ByNoise(), rows);
   EXPECT_FALSE(first.parameters[1].interval95);
   std::array<int, 6> order{0, 1, 2, 3, 4, 5};

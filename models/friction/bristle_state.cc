@@ -1,7 +1,8 @@
+#include "models/friction/bristle_state.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "models/friction/bristle_state.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {
@@ -16,11 +17,11 @@ MotionPieces::MotionPieces(const Eigen::VectorXd& time, const Eigen::VectorXd& v
     : velocity_(velocity), begins_(static_cast<size_t>(velocity.size()), false) {
   if (velocity.size() == 0) return;
 
-  // where the way begins anew
+  // where the path begins anew
   begins_[0] = true;
   for (const Eigen::Index start : starts) begins_[static_cast<size_t>(start)] = true;
 
-  // the way from each sample to the next, cut where it turns
+  // the path from each sample to the next, cut where it turns
   end_.reserve(begins_.size());
   end_.push_back(0);
   for (Eigen::Index i = 1; i < velocity.size(); ++i) {
