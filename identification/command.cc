@@ -22,8 +22,15 @@ bool IdentifyCommand::Sets(std::string_view key) const {
 
 std::string IdentifyCommand::Text() const {
   std::string text = identifier;
-  for (const auto& [key, value] : settings) text += fmt::format(" --set {}={}", key, value);
+  for (const auto& [key, value] : settings) {
+    text += key == "gravity" ? fmt::format(" --gravity {}", value)
+                             : fmt::format(" --set {}={}", key, value);
+  }
   return text;
+}
+
+std::string Remedy::Text() const {
+  return command ? words + "try --identifier " + command->Text() : words;
 }
 
 bool HasLevelForEachDirection(std::string_view law) {

@@ -1,6 +1,7 @@
-// Commands that a message recommends: an identifier and its options.
+// Commands that are recommended: an identifier and its options, and the words before them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,15 @@ struct IdentifyCommand {
   IdentifyCommand With(std::string_view key, std::string_view value) const;
   bool Sets(std::string_view key) const;
   /// "NAME --set KEY=VALUE ...", behind --identifier.
+  std::string Text() const;
+};
+
+/// What helps: words, or the command that follows them.
+struct Remedy {
+  std::string words;
+  std::optional<IdentifyCommand> command{};
+
+  /// "words try --identifier NAME ..."
   std::string Text() const;
 };
 

@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "identification/command.h"
 
 namespace warmjoint {
 
@@ -95,8 +98,9 @@ struct Cause {
   std::vector<std::size_t> without_interval{};  // rows of the table that get none
   double size =
       0;  // how far off an assumption was taken to be, N.m or N, where it has no fixed size
-  Status status = Status::ok;  // of one that refuses
-  std::string sentence{};      // empty: nothing is said
+  Status status = Status::ok;      // of one that refuses
+  std::optional<Remedy> remedy{};  // what helps, of what was found
+  std::string sentence{};          // empty: nothing is said
   SentenceIn sentence_in = SentenceIn::warning;
 };
 

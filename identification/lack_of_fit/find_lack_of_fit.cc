@@ -123,7 +123,7 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
 
   // what helps against the largest, and which changes the friction most
   const std::vector<const Finding*> found = examination.Found();
-  const std::string remedy = found[0]->test->remedy({*found[0], of.identifier, of.input, of.fit});
+  row->remedy = found[0]->test->remedy({*found[0], of.identifier, of.input, of.fit});
   const Finding& worst =
       **std::ranges::max_element(found, {}, [](const Finding* one) { return Counted(*one); });
   const auto explain = [&](const std::string& effect) {
@@ -133,7 +133,7 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
       parts.push_back({QuantityOf(*one, of), rms, 100 * rms / examination.friction,
                        100 * std::min(one->explained / examination.squares, 1.0)});
     }
-    return ExplainFindings(parts, of.input.measurements.torque_unit, effect, remedy);
+    return ExplainFindings(parts, of.input.measurements.torque_unit, effect, row->remedy->Text());
   };
   if (const auto why = TooMuch(examination, worst, judging, of)) {
     row->action = Action::refuse;

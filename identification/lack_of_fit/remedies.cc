@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "identification/command.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
@@ -31,18 +30,18 @@ bool HasMap(const Advice& advice, MapQuantity quantity) {
 }
 bool HasWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }
 
-/// "try --identifier NAME ...", with the gravity and the lag of the torque that the fit has, where that identifier can
-/// estimate them.
-std::string Try(const Advice& advice, const IdentifyCommand& command) {
-  const bool sincos = advice.fit.gravity && advice.fit.gravity->kind == GravityKind::sincos;
+/// To try a command, with the gravity and the lag of the torque that the fit has, where that identifier can estimate them.
+Remedy Try(const Advice& advice, IdentifyCommand command, std::string words = "") {
   const Options& options = FindIdentifier(command.identifier).options;
-  const char* gravity = !advice.fit.gravity || !options.Has("gravity") ? ""
-                        : sincos                                       ? " --gravity sincos"
-                                                                       : " --gravity paired";
+  if (advice.fit.gravity && options.Has("gravity")) {
+    const bool sincos = advice.fit.gravity->kind == GravityKind::sincos;
+    command = command.With("gravity", sincos ? "sincos" : "paired");
+  }
   // a lag beside a law without map over position
-  const bool lags = advice.fit.torque_lag && options.Has("torque_lag") && !command.Sets("position");
-  return fmt::format("try --identifier {}{}{}", command.Text(), gravity,
-                     lags ? " --set torque_lag=estimated" : "");
+  if (advice.fit.torque_lag && options.Has("torque_lag") && !command.Sets("position")) {
+    command = command.With("torque_lag", "estimated");
+  }
+  return {std::move(words), std::move(command)};
 }
 
 /// Law and maps over position, or over the motor's angle, with the warming that the fit has.
@@ -73,9 +72,9 @@ size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
 }
 
 /// A map with twice as many kernels, as far as there are any.
-std::string Finer(const Advice& advice, MapQuantity quantity, const char* option, size_t most) {
+Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option, size_t most) {
   const size_t kernels = 2 * KernelsOver(advice, quantity);
-  if (kernels > most) return "no map of this program is finer: the joint ripples in another way";
+  if (kernels > most) return {"no map of this program is finer: the joint ripples in another way"};
 
   return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
 }
@@ -96,7 +95,7 @@ std::string RemedyForWarmStart(const Identifier& identifier) {
   return "record it from cold, or learn E(0) by energy-ml with --start estimated";
 }
 
-std::string RemedyForWarming(const Advice& advice) {
+Remedy RemedyForWarming(const Advice& advice) {
   // no warming yet: one beside whatever else the fit holds
   if (!HasWarming(advice)) {
     const IdentifyCommand warm{"energy-ml"};
@@ -110,23 +109,25 @@ std::string RemedyForWarming(const Advice& advice) {
 
   // a warming that is not enough: perhaps the start was warm
   if (TakesColdStart(advice.input.options)) {
-    return "if the joint was warm at the start, try --start estimated; else one time constant is "
-           "too few, or the surroundings change their temperature";
+    return {
+        "if the joint was warm at the start, try --start estimated; else one time constant is too "
+        "few, or the surroundings change their temperature"};
   }
-  return "one time constant is too few, or the surroundings change their temperature; record it at "
-         "a steady ambient temperature";
+  return {
+      "one time constant is too few, or the surroundings change their temperature; record it at a "
+      "steady ambient temperature"};
 }
 
-std::string RemedyForStart(const Advice& advice) {
-  return "was the joint warm at the start? " + RemedyForWarmStart(advice.identifier);
+Remedy RemedyForStart(const Advice& advice) {
+  return {"was the joint warm at the start? " + RemedyForWarmStart(advice.identifier)};
 }
 
-std::string RemedyForSpeed(const Advice& advice) {
+Remedy RemedyForSpeed(const Advice& advice) {
   if (HasCurve(advice)) {
-    return "the law has a curve over speed already, and the joint's is another one";
+    return {"the law has a curve over speed already, and the joint's is another one"};
   }
   if (HasMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
-    return "the map has kernels over speed already, and friction depends on it in another way";
+    return {"the map has kernels over speed already, and friction depends on it in another way"};
   }
 
   // a map over position takes kernels over speed beside it, a law gets a curve
@@ -136,26 +137,26 @@ std::string RemedyForSpeed(const Advice& advice) {
   return Try(advice, CurveCommand(advice.fit.friction.law, WarmingOf(advice)));
 }
 
-std::string RemedyForWarmingSlope(const Advice& advice) {
+Remedy RemedyForWarmingSlope(const Advice& advice) {
   if (HasMap(advice, MapQuantity::energy)) {
-    return "the map over energy does not follow it: record more than one warm-up";
+    return {"the map over energy does not follow it: record more than one warm-up"};
   }
   // beside a map over position, the map over energy has to follow the slope too
   return Try(advice, {advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map"});
 }
 
 /// What to try where a law with a curve misses something that turns with the direction.
-std::string RemedyForDirectionOfACurve(const Advice& advice) {
+Remedy RemedyForDirectionOfACurve(const Advice& advice) {
   const Friction& friction = advice.fit.friction;
   if (HasLevelForEachDirection(friction.law)) {
     const std::string differ =
         "the law has a level for each direction already: they differ in slope, or in how much more "
         "the joint bears at rest";
     // heat is common to both
-    if (HasWarming(advice)) return differ;
-    return differ +
-           "; identify the samples of each direction as a recording of its own, by "
-           "--identifier stribeck";
+    if (HasWarming(advice)) return {differ};
+    return {differ +
+            "; identify the samples of each direction as a recording of its own, by "
+            "--identifier stribeck"};
   }
   if (friction.law != LuGre::name) {
     return Try(advice, CurveCommand(AsymmetricStribeck::name, WarmingOf(advice)));
@@ -167,7 +168,7 @@ std::string RemedyForDirectionOfACurve(const Advice& advice) {
   return Try(advice, damped ? command : command.With("damping", "none"));
 }
 
-std::string RemedyForDirection(const Advice& advice) {
+Remedy RemedyForDirection(const Advice& advice) {
   if (HasCurve(advice)) return RemedyForDirectionOfACurve(advice);
 
   // first a law with a level for each direction, where the identifier has one
@@ -182,79 +183,81 @@ std::string RemedyForDirection(const Advice& advice) {
 
   // then whatever pushes in one direction, which paired gravity takes up
   if (!mapped && !advice.fit.gravity) {
-    return fmt::format(
-        "something pushes in one direction, as a load or an offset of the sensor "
-        "does: try --identifier {} --gravity paired",
-        HasWarming(advice) ? "energy-ml" : "nominal-ls");
+    const IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
+    return {"something pushes in one direction, as a load or an offset of the sensor does: ",
+            command.With("gravity", "paired")};
   }
   if (HasMap(advice, MapQuantity::velocity)) {
-    return "the map tells the directions apart already, and they differ in another way";
+    return {"the map tells the directions apart already, and they differ in another way"};
   }
 
   // else the slopes differ, which kernels over speed can follow
-  return "friction differs in slope between the directions: " +
-         Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"));
+  return Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"),
+             "friction differs in slope between the directions: ");
 }
 
-std::string RemedyForLoad(const Advice& advice) {
+Remedy RemedyForLoad(const Advice& advice) {
   if (HasMap(advice, MapQuantity::load)) {
-    return "the map over load does not follow it: friction depends on more than the load";
+    return {"the map over load does not follow it: friction depends on more than the load"};
   }
   return Try(advice, {"load-map"});
 }
 
-std::string RemedyForTemperature(const Advice&) { return "record it at a steady temperature"; }
+Remedy RemedyForTemperature(const Advice&) { return {"record it at a steady temperature"}; }
 
-std::string RemedyForStep(const Advice&) {
-  return "something changed at that moment (load, lubrication, sensor): identify the parts before "
-         "and after it as recordings of their own";
+Remedy RemedyForStep(const Advice&) {
+  return {
+      "something changed at that moment (load, lubrication, sensor): identify the parts before and "
+      "after it as recordings of their own"};
 }
 
-std::string RemedyForMemory(const Advice& advice) {
+Remedy RemedyForMemory(const Advice& advice) {
   const double settled = kSettledAfter * advice.finding.period;
-  return fmt::format(
+  return {fmt::format(
       "hold each speed for {0:.2g} s or longer, and leave out what has not settled: --trim {1:.2g}",
-      3 * settled, settled);
+      3 * settled, settled)};
 }
 
-std::string RemedyForHolds(const Advice&) {
-  return "something changes with the holds (load, settling of the drive, backlash): leave out the "
-         "beginning of each hold, or log what changes as load";
+Remedy RemedyForHolds(const Advice&) {
+  return {
+      "something changes with the holds (load, settling of the drive, backlash): leave out the "
+      "beginning of each hold, or log what changes as load"};
 }
 
-std::string RemedyForPeriod(const Advice&) {
-  return "something acts on the joint in a rhythm of its own: log it as load, or record without it";
+Remedy RemedyForPeriod(const Advice&) {
+  return {
+      "something acts on the joint in a rhythm of its own: log it as load, or record without it"};
 }
 
-std::string RemedyForLag(const Advice& advice) {
+Remedy RemedyForLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
   // a lag is estimated beside linear laws alone, without maps and inertia
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
   const bool asked = AsksForLag(advice.input.options);
   if (!can || asked || advice.fit.torque_lag) {
-    return "is the torque filtered or late? shift it against the velocity, or log both alike";
+    return {"is the torque filtered or late? shift it against the velocity, or log both alike"};
   }
   IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
   if (law.name != "viscous_coulomb") command = command.With("law", law.name);
-  return "is the torque filtered or late? " + Try(advice, command.With("torque_lag", "estimated"));
+  return Try(advice, command.With("torque_lag", "estimated"), "is the torque filtered or late? ");
 }
 
-std::string RemedyForFading(const Advice& advice) {
+Remedy RemedyForFading(const Advice& advice) {
   if (HasMap(advice, MapQuantity::energy)) {
-    return "the map over energy does not follow it: record more than one warm-up";
+    return {"the map over energy does not follow it: record more than one warm-up"};
   }
   return Try(advice, {"energy-map"});
 }
 
-std::string RemedyForPosition(const Advice& advice) {
+Remedy RemedyForPosition(const Advice& advice) {
   const bool warm = HasWarming(advice);
   const bool alike = advice.finding.alike > 0.8;
   const std::string how = alike ? "it acts alike in both directions, as " : "";
   if (alike && MayBeGravity(advice)) {
-    return how + fmt::format("gravity does: try --identifier {} --gravity sincos",
-                             advice.identifier.options.Has("gravity") ? advice.fit.identifier
-                             : warm                                   ? "energy-ml"
-                                                                      : "nominal-ls");
+    const IdentifyCommand command{advice.identifier.options.Has("gravity") ? advice.fit.identifier
+                                  : warm                                   ? "energy-ml"
+                                                                           : "nominal-ls"};
+    return {how + "gravity does: ", command.With("gravity", "sincos")};
   }
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
@@ -262,11 +265,11 @@ std::string RemedyForPosition(const Advice& advice) {
 
   // ripple that returns more often than a map has kernels for
   if (periods > most) {
-    return how + fmt::format(
-                     "it returns {:.0f} times over the travel, and a map follows {} periods at "
-                     "most: record it within {:.2g} {}",
-                     periods, most, most * advice.finding.period,
-                     kPositionUnit.For(advice.input.measurements.joint));
+    return {how +
+            fmt::format("it returns {:.0f} times over the travel, and a map follows {} periods at "
+                        "most: record it within {:.2g} {}",
+                        periods, most, most * advice.finding.period,
+                        kPositionUnit.For(advice.input.measurements.joint))};
   }
 
   // a finer map, or the first one
@@ -275,18 +278,17 @@ std::string RemedyForPosition(const Advice& advice) {
   }
   const IdentifyCommand map = WithMap(advice, MapQuantity::position);
   if (!alike) return Try(advice, map);
-  return how +
-         "a load does that depends on position: " + Try(advice, map.With("basis", "position"));
+  return Try(advice, map.With("basis", "position"), how + "a load does that depends on position: ");
 }
 
-std::string RemedyForMotorAngle(const Advice& advice) {
+Remedy RemedyForMotorAngle(const Advice& advice) {
   if (HasMap(advice, MapQuantity::motor_position)) {
     return Finer(advice, MapQuantity::motor_position, "motor_kernels", kMostKernels);
   }
   return Try(advice, WithMap(advice, MapQuantity::motor_position));
 }
 
-std::string RemedyForAngleBySpeed(const Advice& advice) {
+Remedy RemedyForAngleBySpeed(const Advice& advice) {
   const bool motor = HasMap(advice, MapQuantity::motor_position);
   IdentifyCommand command =
       WithMap(advice, motor ? MapQuantity::motor_position : MapQuantity::position);
@@ -295,7 +297,7 @@ std::string RemedyForAngleBySpeed(const Advice& advice) {
   const size_t kernels = KernelsOver(advice, MapQuantity::velocity);
   if (kernels <= 2) return Try(advice, command);
   if (kernels > kMostSpeedKernels) {
-    return "no map of this program is finer over speed: record fewer speeds, each for longer";
+    return {"no map of this program is finer over speed: record fewer speeds, each for longer"};
   }
   return Try(advice, command.With("velocity_kernels", std::to_string(kernels)));
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "identification/command.h"
 #include "identification/lack_of_fit/table.h"
 
 namespace warmjoint {
@@ -10,21 +11,21 @@ namespace warmjoint {
 /// What to do where a start that was taken to be cold may have been warm.
 std::string RemedyForWarmStart(const Identifier& identifier);
 
-std::string RemedyForWarming(const Advice& advice);
-std::string RemedyForStart(const Advice& advice);
-std::string RemedyForSpeed(const Advice& advice);
-std::string RemedyForWarmingSlope(const Advice& advice);
-std::string RemedyForDirection(const Advice& advice);
-std::string RemedyForLoad(const Advice& advice);
-std::string RemedyForTemperature(const Advice& advice);
-std::string RemedyForStep(const Advice& advice);
-std::string RemedyForMemory(const Advice& advice);
-std::string RemedyForHolds(const Advice& advice);
-std::string RemedyForPeriod(const Advice& advice);
-std::string RemedyForLag(const Advice& advice);
-std::string RemedyForFading(const Advice& advice);
-std::string RemedyForPosition(const Advice& advice);
-std::string RemedyForMotorAngle(const Advice& advice);
-std::string RemedyForAngleBySpeed(const Advice& advice);
+Remedy RemedyForWarming(const Advice& advice);
+Remedy RemedyForStart(const Advice& advice);
+Remedy RemedyForSpeed(const Advice& advice);
+Remedy RemedyForWarmingSlope(const Advice& advice);
+Remedy RemedyForDirection(const Advice& advice);
+Remedy RemedyForLoad(const Advice& advice);
+Remedy RemedyForTemperature(const Advice& advice);
+Remedy RemedyForStep(const Advice& advice);
+Remedy RemedyForMemory(const Advice& advice);
+Remedy RemedyForHolds(const Advice& advice);
+Remedy RemedyForPeriod(const Advice& advice);
+Remedy RemedyForLag(const Advice& advice);
+Remedy RemedyForFading(const Advice& advice);
+Remedy RemedyForPosition(const Advice& advice);
+Remedy RemedyForMotorAngle(const Advice& advice);
+Remedy RemedyForAngleBySpeed(const Advice& advice);
 
 }  // namespace warmjoint

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "identification/command.h"
 #include "identification/identifier.h"
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/fitted_model.h"
@@ -66,7 +67,7 @@ struct LackOfFitTest {
   /// What the residual depends on, in a message.
   std::string (*quantity)(const Finding& finding, const LogSamples& measurements) = nullptr;
   /// The law, identifier or recording that helps; names only what is there.
-  std::string (*remedy)(const Advice& advice) = nullptr;
+  Remedy (*remedy)(const Advice& advice) = nullptr;
   // for those who never saw warmjoint: what it asks of the residual, and what helps where the answer is yes
   std::string_view question, advice;
   /// What a test that looks at samples (lag.h, ripple.h) finds; nothing where it is not made.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <regex>
 #include <set>
 
 #include "identification/holdout/hold_out.h"
@@ -25,6 +24,7 @@ struct Step {
   std::string identifier;
   Options_ given;
   Estimate estimate;
+  std::optional<IdentifyCommand> remedy;
   double held_out = 0;  // RMSE, N.m
 
   std::string Name() const {
@@ -40,25 +40,14 @@ constexpr LackOfFitSettings kStrict{.relevance = 0.02};
 Step Take(const std::string& name, const Options_& given, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
   const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
-  Step step{name, given, IdentifyAndCheck(identifier, input, kStrict), 0};
+  const Answer answer = FitAndCheck(identifier, input, kStrict);
+  Step step{name, given, ReportAnswer(identifier, input, answer), {}, 0};
+  for (const Cause& cause : answer.judged.causes) {
+    if (cause.remedy) step.remedy = cause.remedy->command;
+  }
   const auto held = HoldOut(identifier, input, 0.3).metrics;
   step.held_out = held ? held->rmse : kInfinity;
   return step;
-}
-
-/// The command that a message names: "try --identifier NAME --set key=value --gravity kind".
-std::optional<std::pair<std::string, Options_>> CommandIn(const std::string& message) {
-  std::smatch found;
-  const std::regex command("try --identifier ([a-z-]+)((?: --(?:set|gravity) [a-z_=0-9-]+)*)");
-  if (!std::regex_search(message, found, command)) return std::nullopt;
-  Options_ given;
-  const std::string options = found[2];
-  const std::regex option("--(set|gravity) ([a-z_0-9-]+)(?:=([a-z_0-9-]+))?");
-  for (std::sregex_iterator one(options.begin(), options.end(), option), end; one != end; ++one) {
-    const bool gravity = (*one)[1] == "gravity";
-    given[gravity ? "gravity" : std::string((*one)[2])] = gravity ? (*one)[2] : (*one)[3];
-  }
-  return std::pair{std::string(found[1]), given};
 }
 
 /// Follows the advice until an answer is ok, and gives that.
@@ -68,9 +57,9 @@ void FollowAdvice(const std::string& identifier, const Measurements& m, Estimate
   std::set<std::string> seen{step.Name()};
   for (int steps = 0; step.estimate.status != Status::ok; ++steps) {
     ASSERT_LT(steps, 4) << "the advice has no end: " << step.Name();
-    const auto next = CommandIn(step.estimate.FullMessage());
-    ASSERT_TRUE(next) << step.Name() << ": " << step.estimate.FullMessage();
-    Step other = Take(next->first, next->second, m);
+    ASSERT_TRUE(step.remedy) << step.Name() << ": " << step.estimate.FullMessage();
+    const auto& [name, settings] = *step.remedy;
+    Step other = Take(name, {settings.begin(), settings.end()}, m);
     ASSERT_TRUE(seen.insert(other.Name()).second) << "in a circle: " << other.Name();
     EXPECT_LT(other.held_out, step.held_out)
         << step.Name() << " says: " << step.estimate.FullMessage() << "\n and " << other.Name()
