@@ -14,7 +14,6 @@ using Eigen::Index;
 
 // the largest of noise, share and resolution counts
 constexpr double kSettled = 0.005;    // of the speed: to which a start must settle, and a drift
-constexpr double kMostStrays = 0.98;  // of the samples in the middle, for the ripple of a hold
 constexpr double kDriftOfBand = 0.6;  // a hold that drifts by more leaves its band
 constexpr double kSlowly = 0.01;      // of the steepest acceleration: a hold that drifts, no ramp
 
@@ -103,19 +102,6 @@ std::vector<Segment> CutIntoRuns(const Eigen::VectorXd& v, const SampleRange& pi
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
-/// How far the speed strays from `level` all along a run, for a drive lets ripple of the load
-/// through: as far as most of the samples of its second or its third quarter, whichever is
-/// less, since a slow drive may still settle in the second.
-double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
-  const Index quarter = Length(run) / 4;
-  if (quarter == 0) return 0;
-  const auto stray = [&](Index begin) {
-    Eigen::VectorXd strays = (v.segment(begin, quarter).array() - level).abs();
-    return QuantileInPlace(strays, kMostStrays);
-  };
-  return std::min(stray(run.begin + quarter), stray(run.begin + 2 * quarter));
-}
-
 /// Cuts the ends of a run inwards, to the first few samples in a row that are inside. What strays
 /// between them is left: there the load ripples. Empty where it never settles.
 template <typename IsInside>
@@ -146,7 +132,7 @@ void CutOutwards(Segment& run, const IsInside& is_inside) {
 }
 
 /// Sets the level of a run to its median and cuts its ends where the speed still settles: to within
-/// the noise, or the wobble. A handful of samples shows no ripple.
+/// the noise and the ripple of the load, both of which spread the samples. A handful of samples shows no ripple.
 void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
@@ -155,9 +141,8 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
   const double spread = MedianInPlace(values) / 0.6745;
   // how far a settled speed may stray: by its ripple, noise, level or resolution
   const double allowed =
-      std::max({VelocityScale::kFar * spread, Wobble(run, run.velocity, v),
-                VelocityScale::kNear * scale.noise, kSettled * std::abs(run.velocity),
-                VelocityScale::kLevels * scale.resolution});
+      std::max({VelocityScale::kFar * spread, VelocityScale::kNear * scale.noise,
+                kSettled * std::abs(run.velocity), VelocityScale::kLevels * scale.resolution});
   const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
   if (Length(run) < kHandful) {
     CutOutwards(run, is_inside);
