@@ -20,10 +20,9 @@ using Eigen::VectorXd;
 // what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit; why: with 0.013 and 0.03
 // no verdict changes in 50 logs of tests/studies/sensitivity/energy-ml.yaml, and one interval is wider with 0.03
 constexpr double kDistinct = 0.02;
-constexpr double kAlike = 1e-13;  // of a derivative of norm 1 beside the others; why: what rounding
-                                  // leaves of one that is a mix of them
-constexpr double kApart = 1e-9;   // the same beside features; why: far above that, and far below
-                                  // what a log tells apart
+constexpr double kApart =
+    1e-9;  // of a derivative of norm 1 beside the others; why: far above what rounding leaves of one that
+           // is a mix of them, 1e-13, and far below what a log tells apart
 constexpr double kNoNorm = 1e-300;          // of a column of zeros
 constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
 constexpr double kFewestFree = 8;           // parts, or samples, beyond the columns of a fit
@@ -73,7 +72,7 @@ WeighedFit::WeighedFit(const VectorXd& samples, const MatrixXd& derivatives)
       root(weight.cwiseSqrt()),
       norms(Weighed(derivatives).colwise().norm().cwiseMax(kNoNorm)),
       columns(Normed(derivatives)),
-      apart(Orthonormal(columns, kAlike)) {}
+      apart(Orthonormal(columns, kApart)) {}
 
 MatrixXd WeighedFit::Normed(const MatrixXd& some) const {
   MatrixXd weighed = Weighed(some);
@@ -100,7 +99,6 @@ GrowingFit::GrowingFit(WeighedFit fit, const VectorXd& residual, const Selection
       ends_(EndsOf(fit.weight, std::min(kParts, residual.size() / 2))),
       fit_(std::move(fit)),
       residual_(fit_.root.cwiseProduct(residual)) {
-  fit_.apart.KeepWhile(kApart);
   Refit();
 }
 

@@ -113,15 +113,7 @@ Basis Orthonormal(MatrixXd columns, double distinct) {
     for (Index j = 0; j < rank; ++j) mix.row(order[static_cast<std::size_t>(j)]) = inverse.row(j);
   }
   columns.conservativeResize(Eigen::NoChange, rank);
-  return {std::move(columns), std::move(mix), R.diagonal().head(rank)};
-}
-
-void Basis::KeepWhile(double distinct) {
-  const auto end = std::ranges::find_if(lengths, [=](double one) { return !(one > distinct); });
-  const Index rank = end - lengths.begin();
-  basis.conservativeResize(Eigen::NoChange, rank);
-  mix.conservativeResize(Eigen::NoChange, rank);
-  lengths.conservativeResize(rank);
+  return {std::move(columns), std::move(mix)};
 }
 
 }  // namespace warmjoint

@@ -7,12 +7,8 @@ namespace warmjoint {
 
 /// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
 struct Basis {
-  Eigen::MatrixXd basis;    // [m x r]
-  Eigen::MatrixXd mix;      // [q x r]
-  Eigen::VectorXd lengths;  // [r] what the column that joined had beside those before it
-
-  /// Leaves those that joined while that was longer than `distinct`.
-  void KeepWhile(double distinct);
+  Eigen::MatrixXd basis;  // [m x r]
+  Eigen::MatrixXd mix;    // [q x r]
 };
 
 /// A QR decomposition with pivots by Gram's and Schmidt's method (Golub and Van Loan, Matrix Computations, 5.2.8), a column of which little is left
