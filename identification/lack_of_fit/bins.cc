@@ -9,9 +9,8 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kBins = 400;
-constexpr double kOneSpeed = 0.02;  // relative
-constexpr Index kInHold = 8;        // bins within a segment
-constexpr Index kInHolds = 8000;    // bins within all of them, but two in each at least
+constexpr Index kInHold = 8;      // bins within a segment
+constexpr Index kInHolds = 8000;  // bins within all of them, but two in each at least
 
 /// A stretch of samples that belong to one segment, or to none, as the selection knows them.
 struct Stretch {
@@ -59,11 +58,6 @@ Bins Gather(const LogSamples& measurements, const Selection& selection, Index pa
   const std::vector<Segment>& segments = selection.segments;
   const auto at = [&](Index i) -> const Segment& { return segments[static_cast<size_t>(i)]; };
   const Index share = 1 + selection.count() / kBins;
-  // where no segments are known, samples of one direction, or at about one speed, are alike
-  const auto alike = [&](Index first, Index other) {
-    if (measurements.acceleration) return v[first] * v[other] > 0;
-    return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
-  };
 
   // each kept sample begins a bin, which those behind it join as long as they belong to it
   Bins bins;
@@ -86,9 +80,10 @@ Bins Gather(const LogSamples& measurements, const Selection& selection, Index pa
     const Index most = index < 0 ? share : std::min(share, (Length(at(index)) + parts - 1) / parts);
     const Index last = std::min({first + most, end, kept_until});
     i = last;
+    // where no segments are known, samples of one direction belong together
     if (segments.empty()) {
       i = first + 1;
-      while (i < last && alike(first, i)) ++i;
+      while (i < last && v[first] * v[i] > 0) ++i;
     }
     bins.begin.push_back(first);
     bins.end.push_back(i);
