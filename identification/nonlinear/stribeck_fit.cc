@@ -17,10 +17,6 @@ namespace {
 
 constexpr int kVelocities = 16;  // of the grid
 
-/// A friction that drives the joint grows without end; while it is below this, its derivatives are finite, too, so
-/// that a point at which Ceres finds the residuals also has a Jacobian. N.m or N
-constexpr double kRunaway = 1e100;
-
 /// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them.
 template <typename L, FittedWarming W>
 class Residuals {
@@ -29,7 +25,6 @@ class Residuals {
 
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
-    using std::abs;
     using std::isfinite;
     const LogSamples& m = problem_.measurements;
     const auto law = ValuesOf<L>(x, problem_.exponent);
@@ -44,7 +39,7 @@ class Residuals {
         const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
         energy = ThermalStep(T(x[kAt.gain()] * hold.cooling), hold.pole, energy, Loss(v, force));
       }
-      if (!isfinite(force) || abs(force) > kRunaway) return false;
+      if (!isfinite(force)) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
     }
     return isfinite(energy) && isfinite(law[kAt.log_vs()]);
