@@ -31,7 +31,8 @@ struct Conditions {
   Eigen::VectorXd values;  // [k]
 
   bool operator==(const Conditions& other) const {
-    return rows == other.rows && values == other.values;
+    // of as many conditions, which Eigen compares
+    return values.size() == other.values.size() && rows == other.rows && values == other.values;
   }
 };
 
