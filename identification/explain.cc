@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "identification/command.h"
+#include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {
@@ -132,11 +133,15 @@ std::string ExplainDriving(double time, std::string_view remedy) {
 std::string RemedyForNonDissipative(std::string_view law, FittedGravity gravity) {
   const bool none = gravity == FittedGravity::none;
   // levels of their own for both directions
-  const std::string levels = "try --identifier energy-ml --set law=asymmetric";
-  if (law != "asymmetric") {
-    return none ? levels : fmt::format("{} --gravity {}", levels, NameOf(gravity));
+  const IdentifyCommand levels = IdentifyCommand{"energy-ml"}.With("law", Asymmetric::name);
+  if (law != Asymmetric::name) {
+    return Remedy{"", none ? levels : levels.With("gravity", NameOf(gravity))}.Text();
   }
-  if (none) return "does the torque hold gravity or another load? " + levels + " --gravity paired";
+  if (none) {
+    return Remedy{"does the torque hold gravity or another load? ",
+                  levels.With("gravity", NameOf(FittedGravity::paired))}
+        .Text();
+  }
 
   // both are fitted already: what is left is the sign
   return "is the sign of the torque reversed (--scale torque=-1)?";

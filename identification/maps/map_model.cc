@@ -128,7 +128,7 @@ Fit FitOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
     choice = ChooseAndFit(input, task);
   }
   if (!choice) return Refused(task.identifier, Unsolvable());
-  // the fit with its errors, given that trajectory of the energy
+  // the fit with its errors, given that energy
   Fit fit = AsFit(input, task, choice->fit, MapCovariance(choice->problem, choice->fit));
   return warm ? Complete(*warm, rounds, m, std::move(fit)) : fit;
 }

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kFewSteps = 12;  // up to which every iteration gets a mark
 
 /// One number over the iterations.
-Plot CurvesOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hue hue,
-              const std::string& label) {
+Plot CurveOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hue hue,
+             const std::string& label) {
   Plot plot;
   plot.series.push_back({"", hue, Line{iteration, values, 2}});
   if (static_cast<std::size_t>(iteration.size()) <= kFewSteps) {
@@ -102,16 +102,16 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     // numbers without a dimension have the unit 1
     const bool has_unit = parameter && parameter->unit != "1";
     const std::string unit = has_unit ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
-    Plot plot = CurvesOf(iteration, values, hue, SymbolOf(name) + unit);
+    Plot plot = CurveOf(iteration, values, hue, SymbolOf(name) + unit);
     if (parameter) AddInterval(plot, *parameter, hue);
     AddPanel(figure, NameWithSymbol(name), plot, kRow);
     figure.finding += fmt::format(" {} {} to {},", name, SignificantText(values[0]),
                                   SignificantText(values[steps - 1]));
   }
   // last how the error of the fit falls
-  Plot trace = CurvesOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
-  trace.y = MagnitudeAxis(trace.y.label, {rmse});
-  AddPanel(figure, "Root mean square error of the fit", trace, kRow);
+  Plot error = CurveOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
+  error.y = MagnitudeAxis(error.y.label, {rmse});
+  AddPanel(figure, "Root mean square error of the fit", error, kRow);
   figure.finding.back() = '.';
   return figure;
 }
