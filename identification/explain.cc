@@ -287,13 +287,10 @@ std::string ExplainTooMuchTogether(double share, double most) {
                      100 * most);
 }
 
-std::string ExplainWidened(double largest, bool without_warming) {
+std::string ExplainWidened(double largest) {
   return fmt::format(
-      ": it changes the friction by {:.2g} % at most; intervals were widened to cover this{}",
-      100 * largest,
-      without_warming
-          ? ", and the parameters of warming have none, since they may have absorbed part of it"
-          : "");
+      ": it changes the friction by {:.2g} % at most; intervals were widened to cover this",
+      100 * largest);
 }
 
 std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
@@ -318,11 +315,11 @@ std::string ExplainRounding(double step, const std::string& unit, const MovedPar
 }
 
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
-                              bool any_motion) {
+                              MotionKind motion) {
   return fmt::format(
       "the fit rests on {} of {} samples that move, and takes {} and {:.0f} % of them: record "
       "longer, or use the others (--motion {})",
-      used, moving, fewest, 100 * least_share, any_motion ? "constant" : "any");
+      used, moving, fewest, 100 * least_share, motion == MotionKind::any ? "constant" : "any");
 }
 
 std::string ExplainWorseThanMean(double fit_share) {

@@ -39,7 +39,7 @@ std::string ExplainHeldBesideMaps(const FitParameter& parameter);
 /// Of a law that does not describe the data: by one of its parameters, or since friction rises from rest.
 std::string ExplainExcess(const Excess& excess, const Fit& fit);
 std::string ExplainRiseFromRest(const Fit& fit);
-/// Of a fitted friction that pushes at a time, s.
+/// Of a fitted friction that drives the joint at a time, s.
 std::string ExplainDriving(double time, std::string_view remedy);
 /// What to try then, which the fit does not hold already: another law, else gravity, else the torque's sign.
 /// law: of the fit; gravity: its option.
@@ -117,16 +117,18 @@ std::string ExplainFindings(const std::vector<FoundPart>& found, const std::stri
 std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance);
 std::string ExplainTooMuchTogether(double share, double most);
 /// What those do that intervals were widened for. largest: share by which one changes the friction.
-std::string ExplainWidened(double largest, bool without_warming);
+std::string ExplainWidened(double largest);
+inline constexpr const char* kAbsorbedByWarming =
+    ", and the parameters of warming have none, since they may have absorbed part of it";
 /// Of findings by tests that reject before adjustment alone, and the parameter that they move farthest.
 std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
                               const MovedParameter& moved);
 /// Of a torque in steps, whose effect was taken off (shift) or hides. step: in `unit`
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
                             Action action);
-/// Of a fit to few samples, and of one that the torque's mean beats. fit_share: Fit, %
+/// Of a fit to few samples, and of one that the torque's mean beats. motion: of the fit; fit_share: Fit, %
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
-                              bool any_motion);
+                              MotionKind motion);
 std::string ExplainWorseThanMean(double fit_share);
 /// Of an estimate of others whose own law fits its log better. moved: the parameter that is farthest off
 std::string ExplainOwnLaw(const MovedParameter& moved);

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 #include "identification/fit_data.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
@@ -125,6 +127,22 @@ Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
     friction.parameters[std::string(law.parameters[i].name)] = values[static_cast<Eigen::Index>(i)];
   }
   return friction;
+}
+
+const EstimatedParameter* Find(Role role, const Estimate& estimate, int which) {
+  return estimate.Find(NameOf(role, which));
+}
+
+std::optional<double> ValueOf(Role role, const Estimate& estimate) {
+  const EstimatedParameter* found = Find(role, estimate);
+  return found ? std::optional(found->value) : std::nullopt;
+}
+
+const EstimatedParameter* Find(LawPart part, const Estimate& estimate) {
+  const auto found =
+      std::ranges::find(estimate.parameters, part,
+                        [](const EstimatedParameter& parameter) { return PartOf(parameter.name); });
+  return found == estimate.parameters.end() ? nullptr : &*found;
 }
 
 }  // namespace warmjoint

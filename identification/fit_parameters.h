@@ -1,9 +1,11 @@
 // The rows of a fit's table of parameters: their names, units and bounds, in one place.
 #pragma once
 
+#include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
 #include <warmjoint/recording.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,5 +54,14 @@ void Append(const std::vector<FitParameter>& rows, Fit& fit);
 /// The law with its values, and nothing else. values: [d]
 Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
                     const Measurements& measurements);
+
+/// The which-th parameter with such a role, or nullptr.
+const EstimatedParameter* Find(Role role, const Estimate& estimate, int which = 0);
+
+/// Its value, where the estimate has it.
+std::optional<double> ValueOf(Role role, const Estimate& estimate);
+
+/// The first parameter that is that part of a law's force, or nullptr.
+const EstimatedParameter* Find(LawPart part, const Estimate& estimate);
 
 }  // namespace warmjoint

@@ -46,7 +46,6 @@
 
 #include "models/foundation/node.h"
 #include "scenarios/scenario.h"
-#include "scenarios/setting.h"
 
 namespace warmjoint {
 

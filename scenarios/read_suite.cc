@@ -139,4 +139,10 @@ Suite ParseSuite(const std::string& text, const std::string& file) {
 
 std::string SuiteToYaml(const Suite& suite) { return ToYaml(WriteFields(suite)); }
 
+Scenario VariantScenario(const Suite& suite, int variant) {
+  if (!suite.ladder) return suite.scenario;
+  const Variant& rung = suite.ladder->variants.at(static_cast<size_t>(variant));
+  return WithSettings(suite.scenario, rung.settings);
+}
+
 }  // namespace warmjoint

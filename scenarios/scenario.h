@@ -8,12 +8,22 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scenarios/disturbances.h"
 #include "scenarios/motion.h"
 #include "scenarios/truth_draws.h"
 
 namespace warmjoint {
+
+/// A `--set key=value` of the command line or of a suite's ladder. key: a dotted path such as
+/// noise.torque; value: YAML, where `null` takes the entry out.
+struct Setting {
+  std::string key;
+  std::string value;
+};
+
+using Settings = std::vector<Setting>;
 
 /// ideal: Sec. III of the paper exactly, no engine. mujoco: the robot, a controller and the plugin.
 enum class PlantKind { ideal, mujoco };
@@ -147,5 +157,9 @@ struct Scenario {
     a->Field("seed", &seed, {.meaning = "of all random numbers; a suite gives its own"});
   }
 };
+
+/// The scenario with every drawn truth replaced by this realization's number, from
+/// (scenario.seed, realization, Stream::truth). A scenario without draws comes back as it is.
+Scenario Realize(const Scenario& scenario, std::uint64_t realization);
 
 }  // namespace warmjoint

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "models/foundation/node.h"
-#include "scenarios/setting.h"
+#include "scenarios/scenario.h"
 
 namespace warmjoint {
 

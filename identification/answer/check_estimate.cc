@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "identification/explain.h"
-#include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/apply.h"

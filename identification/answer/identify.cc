@@ -31,11 +31,12 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   const auto used = static_cast<double>(fit.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {
-    return Cause{.source = Source::few_samples,
-                 .action = Action::refuse,
-                 .status = Status::not_identifiable,
-                 .sentence = ExplainFewSamples(used, moving, kFewest, kLeastShare,
-                                               m.acceleration.has_value())};
+    return Cause{
+        .source = Source::few_samples,
+        .action = Action::refuse,
+        .status = Status::not_identifiable,
+        .sentence = ExplainFewSamples(used, moving, kFewest, kLeastShare,
+                                      m.acceleration ? MotionKind::any : MotionKind::constant)};
   }
   const double left = fit.residual().squaredNorm();
   const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();

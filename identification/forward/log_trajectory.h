@@ -1,8 +1,11 @@
-// The motion of a log as the forward model reads it.
+// The motion of a log as the forward model and maps read it.
 #pragma once
 
+#include <warmjoint/friction.h>
 #include <warmjoint/friction_model.h>
 #include <warmjoint/prepared_log.h>
+
+#include <Eigen/Core>
 
 namespace warmjoint {
 
@@ -18,5 +21,16 @@ JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle = Brist
 Prediction PredictFriction(const Friction& friction, const LogSamples& log,
                            const ThermalStart& start = {},
                            BristleStart bristle = BristleStart::sliding);
+
+/// One row for each sample, one column for each MapQuantity in its order: [N x 5]; rad or m, rad,
+/// rad/s or m/s, N.m or N, N.m or N.
+using MapPoints = Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor>;
+
+/// The motor position is the logged one, else gear times the joint's; a load that is not logged is
+/// 0. energy: [N] E, N.m or N; empty: 0.
+MapPoints PointsOf(const LogSamples& measurements, const Eigen::VectorXd& energy = {});
+
+/// One row of it. row: of `points`.
+MapPoint<double> PointAt(const MapPoints& points, Eigen::Index row);
 
 }  // namespace warmjoint

@@ -1,10 +1,30 @@
-// Sums of products of rows that come one by one.
+// Rows of a least-squares problem: a linear map of all of them, and the sums of their products.
 #pragma once
 
 #include <Eigen/Core>
 #include <algorithm>
 
 namespace warmjoint {
+
+/// What a fit does to its rows before it squares them: the same linear map for each column of the
+/// Jacobian and for the residual, over the kept samples in their order.
+class RowTransform {
+ public:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  virtual ~RowTransform() = default;
+
+  /// rows: [n x q], replaced by what the map makes of them.
+  virtual void Apply(Rows& rows) const = 0;
+  /// n
+  virtual Eigen::Index size() const = 0;
+
+  Eigen::MatrixXd Of(const Eigen::MatrixXd& rows) const {
+    Rows mapped = rows;
+    Apply(mapped);
+    return mapped;
+  }
+};
 
 /// R^T R of the N rows of an R [N x P] that is never held: a block of rows at a time, so that each
 /// product of two columns is a dot product over samples, with independent partial sums.

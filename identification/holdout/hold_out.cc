@@ -7,10 +7,12 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/holdout/predict_torque.h"
+#include "identification/fit_data.h"
+#include "identification/forward/log_trajectory.h"
+#include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
-#include "identification/physical_bounds.h"
 #include "identification/seen_samples.h"
+#include "models/foundation/low_pass.h"
 
 namespace warmjoint {
 namespace {
@@ -86,6 +88,87 @@ HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog&
   if (!GivesFriction(fit)) return {{}, "the fit gives no friction that could predict them"};
   return {{},
           fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()))};
+}
+
+std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) {
+  std::vector<Eigen::Index> bounds{0};
+  const Eigen::Index n = selection.keep.size();
+  const Eigen::Index kept = selection.count();
+
+  // a block ends once it has its share of the kept samples
+  Eigen::Index seen = 0;
+  for (Eigen::Index i = 0; i < n && static_cast<int>(bounds.size()) < blocks; ++i) {
+    if (seen * blocks >= kept * static_cast<Eigen::Index>(bounds.size())) bounds.push_back(i);
+    seen += selection.keep[i];
+  }
+  bounds.push_back(n);
+  return bounds;
+}
+
+std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
+                                             const IdentifierInput& input,
+                                             const std::vector<Eigen::Index>& bounds) {
+  Eigen::VectorXd errors(static_cast<Eigen::Index>(bounds.size()) - 1);
+  for (size_t b = 0; b + 1 < bounds.size(); ++b) {
+    // fit to all but the block, evaluate on the block alone
+    const Eigen::Index length = bounds[b + 1] - bounds[b];
+    Selection others = input.selection;
+    others.keep.segment(bounds[b], length) = false;
+    Selection block = input.selection;
+    block.keep = block.keep && !others.keep;
+    const IdentifierInput rest = input.With(others);
+    const Fit fit = AtBounds(identifier.fit(rest), rest.measurements);
+    const auto metrics = Evaluate(fit, input.measurements, block, fit.Start());
+    if (!metrics) return std::nullopt;
+    errors[static_cast<Eigen::Index>(b)] = metrics->rmse * metrics->rmse;
+  }
+  return errors;
+}
+
+TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& m, Selection asked,
+                               const ThermalStart& start) {
+  TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
+  // friction, and inertia where the log has an acceleration
+  predicted.torque = predicted.friction.force;
+  if (model.inertia && m.acceleration) predicted.torque += *model.inertia * *m.acceleration;
+
+  // gravity where it is known
+  if (model.gravity) {
+    predicted.torque += model.gravity->Torque(m.position);
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      bool& keep = predicted.known.keep[i];
+      keep = keep && model.gravity->Covers(m.position[i]);
+    }
+  }
+
+  // the log holds the torque as it comes through its lag
+  if (model.lag) predicted.torque = LowPass(m.time, predicted.torque, *model.lag);
+  return predicted;
+}
+
+TorqueModel ModelOf(const Fit& fit) {
+  TorqueModel model{fit.friction, fit.gravity, fit.inertia};
+  if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
+  return model;
+}
+
+std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
+                                const ThermalStart& start) {
+  if (!GivesFriction(fit)) return std::nullopt;
+  const Friction& friction = fit.friction;
+  const TorquePrediction predicted =
+      PredictTorque(ModelOf(fit), measurements, std::move(test), start);
+  if (predicted.known.count() == 0) return std::nullopt;
+
+  // all parameters that the model has, weights of kernels included
+  auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
+  for (const FrictionMap& map : friction.maps) parameters += map.weights.size();
+  if (fit.gravity) parameters += fit.gravity->values.size();
+  if (fit.inertia) ++parameters;
+  if (fit.torque_lag) ++parameters;
+  return ComputeMetrics(Kept(measurements.torque, predicted.known),
+                        Kept(predicted.torque, predicted.known), static_cast<int>(parameters),
+                        fit.effective_parameters);
 }
 
 }  // namespace warmjoint

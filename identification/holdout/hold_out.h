@@ -2,11 +2,17 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+#include <warmjoint/prepared_log.h>
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "identification/fit.h"
 #include "identification/identifier.h"
+#include "models/friction/along_motion.h"
 
 namespace warmjoint {
 
@@ -38,5 +44,45 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& input, doub
 /// Evaluates a fit of the identifier on the kept samples of another recording, which starts cold.
 /// None where the fit gives no friction.
 HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other);
+
+/// Contiguous parts of a recording, each with its number of kept samples as equal as can be.
+/// Returns the first sample of each, and N: [blocks + 1].
+std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks);
+
+/// Mean squared error on each block of a fit to all the others, (N.m)^2 or N^2. The samples of the
+/// block are left out of the fit alone: they still warm the joint, in fit and prediction. Nothing
+/// where a fit gives no friction. bounds: of CutIntoBlocks; returns [blocks].
+std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
+                                             const IdentifierInput& input,
+                                             const std::vector<Eigen::Index>& bounds);
+
+/// What acts on a joint, as far as a fit knows it: F + G + M a, Eqs. (5) and (20).
+struct TorqueModel {
+  Friction friction;
+  std::optional<GravityModel> gravity;
+  std::optional<double> inertia;  // kg.m^2 or kg
+  std::optional<double> lag{};    // s, of the torque's way into the log, first order
+};
+
+struct TorquePrediction {
+  Eigen::VectorXd torque;  // [N] as the log would hold it, N.m or N
+  Selection known;         // of the samples asked for, those where the model knows its gravity
+  Prediction friction;
+};
+
+/// Along the motion from its first sample on, from `start`. Inertia acts where the log has an
+/// acceleration (PreparedLog::moving). asked: samples that are to be compared.
+TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& measurements,
+                               Selection asked, const ThermalStart& start);
+
+/// What the fit knows of the torque, its lag on the way into the log too.
+TorqueModel ModelOf(const Fit& fit);
+
+/// Compares the torque that the fit's friction, gravity and inertia predict along a log with the samples that
+/// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction
+/// runs from the first sample on, from `start`. Nothing where the fit gives no
+/// friction or no sample is left.
+std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
+                                const ThermalStart& start);
 
 }  // namespace warmjoint

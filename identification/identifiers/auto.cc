@@ -4,8 +4,8 @@
 // it leaves pushes in one), and with maps over position, and over the motor's angle where a gear is
 // given. Drops those that the recording cannot identify, and
 // those to which BIC prefers a simpler one; compares the rest by the error on contiguous blocks
-// that each has not seen (blocked_hold_out.h) and takes the simplest that is not worse than the
-// best beyond doubt (structure_choice.h). The fit is that structure's on all the data; the
+// that each has not seen (hold_out.h) and takes the simplest that is not worse than the
+// best beyond doubt (model_comparison.h). The fit is that structure's on all the data; the
 // message says why and lists all candidates.
 //
 // not_identifiable where the motion cannot tell viscous from coulomb: then no law can be chosen.
@@ -18,14 +18,13 @@
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
-#include "identification/holdout/structure_choice.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/model_comparison.h"
 #include "identification/identifiers/structures.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
-#include "identification/warming/expected_start.h"
+#include "identification/warming/initial_energy.h"
 
 namespace warmjoint {
 namespace {

@@ -8,8 +8,8 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/seen_samples.h"
-#include "identification/warming/expected_start.h"
 #include "identification/warming/fit_law.h"
+#include "identification/warming/initial_energy.h"
 
 namespace warmjoint {
 namespace {

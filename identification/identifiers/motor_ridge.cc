@@ -3,8 +3,8 @@
 // Ripple repeats with the motor's turn: kernels over mod(gear p, 2 pi) x V on a circle, beside a
 // part over the joint's position for each direction of motion.
 #include "identification/identifiers/identifier_list.h"
+#include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/map_model.h"
-#include "identification/maps/motor_maps.h"
 #include "identification/seen_samples.h"
 
 namespace warmjoint {

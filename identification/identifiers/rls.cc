@@ -17,11 +17,11 @@
 #include "identification/fit_parameters.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/inference/covariance.h"
+#include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/online/recursive_least_squares.h"
+#include "identification/online/kalman_bank.h"
 
 namespace warmjoint {
 namespace {

@@ -9,13 +9,13 @@
 #include <map>
 
 #include "identification/fit_data.h"
-#include "identification/holdout/blocked_hold_out.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/lagged/kept_runs.h"
+#include "identification/lagged/lag_search.h"
 #include "identification/lagged/lagged_fit.h"
-#include "identification/lagged/seen_lag.h"
+#include "identification/lagged/lagged_rows.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/warming/expected_start.h"
+#include "identification/warming/initial_energy.h"
 #include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
@@ -41,7 +41,7 @@ std::string Structure::Name() const {
   // by name: what is not as usual, and what tells it from others
   std::map<std::string, std::string> given = identifier.options.Changed();
   for (const OptionInfo& option : identifier.options.List()) {
-    if (option.name == told) given.insert({option.name, option.value});
+    if (option.name == named_option) given.insert({option.name, option.value});
   }
   std::string name = identifier.name;
   for (const auto& [key, value] : given) name += fmt::format(" {}={}", key, value);

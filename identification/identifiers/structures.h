@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "identification/holdout/predict_torque.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/identifier.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/energy_ml_maps.h"
@@ -20,8 +20,8 @@ namespace warmjoint {
 /// An identifier, whose options are the structure's.
 struct Structure {
   Identifier identifier;
-  /// The option that its name tells even where it is at its default; or empty.
-  std::string_view told{};
+  /// The option that its name has even at its default; or empty.
+  std::string_view named_option{};
   /// Of the prior on a map, where it is chosen for the rows that structures are compared on.
   std::optional<double> strength{};
 

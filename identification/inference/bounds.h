@@ -1,12 +1,24 @@
-// Whether the intervals of a fit reach into the physical bounds of a friction.
+// The physical bounds of a friction: whether the values of a fit keep them, and whether its intervals reach into them.
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "identification/fit.h"
 #include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {
+
+/// Whether the value of a law parameter lies outside of its bounds, by chance or not.
+bool LeavesBounds(const std::vector<FitParameter>& parameters);
+
+/// Whether the level at rest is below that of sliding, of a law that has both.
+bool RisesFromRest(const Friction& friction);
+
+/// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
+/// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.
+bool GivesFriction(const Fit& fit);
 
 /// The row that refuses an answer some law parameter of which lies outside of its bound, or whose static level is below
 /// its Coulomb level. by_noise: what noise alone says of the fit.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "identification/lack_of_fit/rows_by_value.h"
-#include "identification/lack_of_fit/waves.h"
 #include "identification/linear/rigid_part.h"
 
 namespace warmjoint {

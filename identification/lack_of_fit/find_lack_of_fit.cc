@@ -152,8 +152,8 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
     widen(Source::open_drift);
   }
   if (Finds(examination, HeatRelation::starts)) widen(Source::open_start);
-  row->sentence =
-      explain(ExplainWidened(worst.harm, drifts && of.fit.RowOf(Role::heat).has_value()));
+  const bool without_warming = drifts && of.fit.RowOf(Role::heat);
+  row->sentence = explain(ExplainWidened(worst.harm) + (without_warming ? kAbsorbedByWarming : ""));
 }
 
 /// What the start does to the numbers: of one that is not known, intervals cover a warm one; of one that is taken to be

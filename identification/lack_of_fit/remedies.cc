@@ -10,7 +10,7 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/warming/expected_start.h"
+#include "identification/warming/initial_energy.h"
 #include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 

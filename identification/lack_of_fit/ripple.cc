@@ -10,8 +10,8 @@
 
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/growing_fit.h"
+#include "identification/lack_of_fit/rows_by_value.h"
 #include "identification/lack_of_fit/table.h"
-#include "identification/lack_of_fit/waves.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 

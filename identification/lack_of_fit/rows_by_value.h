@@ -1,7 +1,8 @@
-// Functions of numbers that repeat.
+// Rows of a matrix from one number each: functions of numbers that repeat, cosines and sines of angles.
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -32,6 +33,18 @@ Eigen::MatrixXd RowsByValue(const Eigen::VectorXd& x, Rows&& rows) {
     all.row(i) = table.row(static_cast<Eigen::Index>(place[static_cast<std::size_t>(i)]));
   }
   return all;
+}
+
+/// cos and sin of angles. [m x 2]
+inline Eigen::MatrixXd Waves(const Eigen::ArrayXd& angles) {
+  Eigen::MatrixXd waves(angles.size(), 2);
+  for (Eigen::Index i = 0; i < angles.size(); ++i) {
+    // of one number, so that both come out of one call
+    const double angle = angles[i];
+    waves(i, 0) = std::cos(angle);
+    waves(i, 1) = std::sin(angle);
+  }
+  return waves;
 }
 
 }  // namespace warmjoint

@@ -9,7 +9,6 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/lagged/lag_search.h"
-#include "identification/lagged/seen_lag.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"

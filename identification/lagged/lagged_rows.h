@@ -1,14 +1,42 @@
 // Rows of a fit to torque that has passed a first-order lag.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
-#include "identification/lagged/kept_runs.h"
-#include "identification/uncertainty/row_transform.h"
+#include "identification/forward/row_products.h"
 #include "identification/uncertainty/whitening.h"
 
 namespace warmjoint {
+
+/// Neighbouring samples of one segment that are all kept: positions among the kept samples.
+struct KeptRun {
+  Eigen::Index begin = 0;
+  Eigen::Index end = 0;  // one past the last
+
+  Eigen::Index size() const { return end - begin; }
+};
+
+/// The kept samples of a log, in runs.
+struct KeptRuns {
+  std::vector<Eigen::Index> samples;  // [n] of the log
+  Eigen::VectorXd time;               // [n] s
+  std::vector<KeptRun> runs;          // [R] all n samples, in order of time
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(samples.size()); }
+  Eigen::Index run_count() const { return static_cast<Eigen::Index>(runs.size()); }
+  /// Time between two samples, the median within runs, s.
+  double Step() const;
+  /// Duration of a run, the median, s.
+  double Duration() const;
+};
+
+/// A run ends where a sample is left out, a segment begins, or the joint is cold again
+/// (LogSamples::Recordings).
+KeptRuns FindRuns(const LogSamples& measurements, const Selection& selection);
 
 /// What a log holds of a torque f behind a lag T (low_pass.h) in each run of samples:
 ///

@@ -1,9 +1,14 @@
 #include "identification/linear/least_squares.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <cmath>
 #include <limits>
+
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 namespace {
@@ -17,6 +22,9 @@ std::vector<Eigen::Index> ColumnsOf(const Eigen::MatrixXd& directions) {
   }
   return columns;
 }
+
+constexpr double kNormal = 1.4826;  // why: standard deviation over median size of normal noise
+constexpr double kFarResidual = 4;  // standard deviations: one normal sample in 16 000
 
 }  // namespace
 
@@ -62,6 +70,31 @@ Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
     return Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::infinity());
   }
   return scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(p, p)) * scale.asDiagonal();
+}
+
+double HuberThreshold(const Eigen::VectorXd& residual) {
+  Eigen::VectorXd size = residual.cwiseAbs();
+  return kHuberBend * kNormal * MedianInPlace(size);
+}
+
+Eigen::VectorXd HuberWeights(const Eigen::VectorXd& residual, double threshold) {
+  return residual.unaryExpr(
+      [threshold](double r) { return std::abs(r) <= threshold ? 1 : threshold / std::abs(r); });
+}
+
+Eigen::VectorXd HuberScores(const Eigen::VectorXd& residual, double threshold) {
+  // mean slope of psi: the share of the residual on its straight part
+  const double straight = (residual.array().abs() <= threshold).cast<double>().mean();
+  return residual.cwiseMax(-threshold).cwiseMin(threshold) / straight;
+}
+
+std::string DescribeLoss(const Eigen::VectorXd& residual, double threshold) {
+  if (std::isinf(threshold)) return "";
+  const double far = kFarResidual / kHuberBend * threshold;
+  return fmt::format(
+      "; {} of {} samples lie more than {:.0f} standard deviations off, and Huber's loss bounds "
+      "their pull",
+      (residual.array().abs() > far).count(), residual.size(), kFarResidual);
 }
 
 }  // namespace warmjoint

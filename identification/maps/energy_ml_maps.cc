@@ -1,13 +1,107 @@
 #include "identification/maps/energy_ml_maps.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction.h>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "identification/explain.h"
 #include "identification/maps/map_model.h"
-#include "identification/maps/motor_maps.h"
+#include "identification/ridge/local_rows.h"
 #include "identification/seen_samples.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
+
+/// amplitude cos(multiple motor angle - phase), the mean of the map over its other axes.
+struct MotorHarmonic {
+  int multiple = 0;
+  double amplitude = 0;  // N.m or N
+  double significance =
+      0;  // z^T cov(z)^-1 z, z = (cosine, sine part): chi-square of 2 degrees of freedom
+};
+
+constexpr int kAngles = 256;
+constexpr double kChance = 23;
+
+/// Angles times speeds at which the map is averaged, of one direction of motion.
+MapPoints Grid(const FrictionMap& map, int direction) {
+  // speeds of the map in this direction; one where it has none
+  std::vector<double> speeds;
+  for (const MapAxis& axis : map.axes) {
+    if (axis.quantity != MapQuantity::velocity) continue;
+    for (const double centre : axis.kernels.centres) {
+      if ((centre > 0) == (direction == 1)) speeds.push_back(centre);
+    }
+  }
+  if (speeds.empty()) speeds.push_back(direction == 1 ? 1 : -1);
+  const auto count = static_cast<Eigen::Index>(speeds.size());
+  // a whole turn at each of them
+  MapPoints points = MapPoints::Zero(kAngles * count, 5);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const double turn = static_cast<double>(i / count) / kAngles;
+    points(i, static_cast<int>(MapQuantity::motor_position)) = 2 * std::numbers::pi * turn;
+    points(i, static_cast<int>(MapQuantity::velocity)) = speeds[i % count];
+  }
+  return points;
+}
+
+/// Harmonics of a map whose first axis is the motor position, 1 to half its kernels, one mean for
+/// each direction of motion: index 0 for v < 0, 1 for v > 0. covariance: [q x q] of the weights.
+std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::MatrixXd& covariance,
+                                          int direction) {
+  // kernels on the grid, over which sums are Fourier coefficients
+  const MapPoints points = Grid(map, direction);
+  const Eigen::MatrixXd kernels = DenseKernels({map}, points, 0, points.rows());
+  const Eigen::Map<const Eigen::VectorXd> weights(map.weights.data(), kernels.cols());
+  const Eigen::ArrayXd angle = points.col(static_cast<int>(MapQuantity::motor_position));
+  const double scale = 2 / static_cast<double>(points.rows());
+
+  std::vector<MotorHarmonic> harmonics;
+  const auto highest = static_cast<int>(map.axes.front().kernels.size() / 2);
+  for (int k = 1; k <= highest; ++k) {
+    // both parts as linear functions of the weights
+    Eigen::MatrixXd parts(2, kernels.cols());
+    parts.row(0) = scale * (k * angle).cos().matrix().transpose() * kernels;
+    parts.row(1) = scale * (k * angle).sin().matrix().transpose() * kernels;
+    const Eigen::Vector2d z = parts * weights;
+    const Eigen::Matrix2d spread = parts * covariance * parts.transpose();
+    harmonics.push_back({k, z.norm(), z.dot(spread.inverse() * z)});
+  }
+  return harmonics;
+}
+
+/// The harmonics that stand out of the noise and are at least a fifth of the strongest, strongest
+/// first. A chi-square of 2 degrees of freedom exceeds 23 by chance once in 100 000 times.
+std::vector<MotorHarmonic> DominantHarmonics(std::vector<MotorHarmonic> harmonics) {
+  std::erase_if(harmonics, [](const MotorHarmonic& h) { return !(h.significance > kChance); });
+  std::stable_sort(harmonics.begin(), harmonics.end(),
+                   [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
+  std::erase_if(harmonics, [largest = harmonics.empty() ? 0 : harmonics.front().amplitude](
+                               const MotorHarmonic& h) { return h.amplitude < 0.2 * largest; });
+  return harmonics;
+}
+
+constexpr double kTurn = 2 * std::numbers::pi;  // rad
+constexpr double kKernelsATurn = 3;             // why: mean, cosine and sine of one turn
+
+/// The joint's map: over its travel, or over one turn.
+FrictionMap ArmMap(const MotorMapSize& size, const MapOptions& settings, JointKind joint,
+                   double width, const MapPoints& points) {
+  FrictionMap map = PositionMap(points, settings.kernel, size.arm, width);
+  const double travel = map.axes[0].kernels.centres.back() - map.axes[0].kernels.centres.front();
+  if (joint == JointKind::rotary && size.arm * kTurn < kKernelsATurn * travel) {
+    map.axes[0] = TurnAxis(MapQuantity::position, size.arm, width);
+  }
+  return map;
+}
 
 /// Kernels over the joint's position beside the motor's map where none are asked for.
 constexpr int kArmKernels = 20;
@@ -32,6 +126,37 @@ MapModel ModelOf(const IdentifierInput& input) {
 }
 
 }  // namespace
+
+std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
+                                                const MapOptions& settings, JointKind joint,
+                                                const MapPoints& points) {
+  std::vector<std::vector<FrictionMap>> candidates;
+  // a map over the motor's turn and speed for each width, and one over the arm where asked for
+  for (const double width : settings.Widths()) {
+    std::vector<FrictionMap> maps{{{TurnAxis(MapQuantity::motor_position, size.turn, width),
+                                    VelocityAxis(points, size.speed, width)},
+                                   settings.kernel,
+                                   {}}};
+    if (size.arm > 0) maps.push_back(ArmMap(size, settings, joint, width, points));
+    candidates.push_back(maps);
+  }
+  return candidates;
+}
+
+void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
+                         const LogSamples& measurements, Fit& fit) {
+  for (const int direction : {1, 0}) {
+    // harmonics of one direction that stand out of the noise
+    std::vector<std::pair<int, double>> found;
+    for (const MotorHarmonic& harmonic :
+         DominantHarmonics(MotorHarmonics(motor, covariance, direction))) {
+      found.emplace_back(harmonic.multiple, harmonic.amplitude);
+    }
+    fit.causes.push_back(Remark(ExplainMotorRipple(direction == 1, found, measurements.torque_unit),
+                                SentenceIn::message));
+  }
+  if (!KnowsMotorAngle(measurements)) fit.causes.push_back(Remark(kMotorTurnsWithJoint));
+}
 
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
   // maps know squares alone

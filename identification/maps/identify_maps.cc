@@ -12,12 +12,12 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/gravity.h"
+#include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
-#include "identification/maps/motor_maps.h"
-#include "identification/physical_bounds.h"
 #include "models/friction/sign.h"
 #include "models/recording/measurements.h"
 
@@ -126,15 +126,17 @@ int MapTask::folds(Eigen::Index samples) const {
   return std::min(settings.folds, std::max(2, static_cast<int>(samples) / 2));
 }
 
-MapTask MakeMapTask(const Options& options, const std::string& identifier) {
-  return {.identifier = identifier,
-          .law = options.Get<LawOption>().law,
-          .settings = options.Get<MapOptions>()};
+MapTask MakeMapTask(const IdentifierInput& input, const std::string& identifier) {
+  MapTask task{.identifier = identifier,
+               .law = input.options.Get<LawOption>().law,
+               .settings = input.options.Get<MapOptions>()};
+  task.rigid.columns.resize(input.measurements.size(), 0);
+  return task;
 }
 
 MapBeginning BeginMaps(const IdentifierInput& given, const std::string& identifier,
                        const std::vector<MapQuantity>& quantities) {
-  MapBeginning begin{MakeMapTask(given.options, identifier), {}, {}};
+  MapBeginning begin{MakeMapTask(given, identifier), {}, {}};
   // law, gravity and inertia must be distinct before any map is thought of
   LinearTask linear = BeginLinear(given, 2);
   begin.task.rigid = linear.gravity;

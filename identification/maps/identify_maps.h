@@ -30,8 +30,8 @@ struct MapTask {
   int folds(Eigen::Index samples) const;  // of cross validation over so many kept samples
 };
 
-/// As options with LawOption and MapOptions say, without candidates. identifier: its name.
-MapTask MakeMapTask(const Options& options, const std::string& identifier);
+/// As options with LawOption and MapOptions say, without candidates, gravity and inertia. identifier: its name.
+MapTask MakeMapTask(const IdentifierInput& input, const std::string& identifier);
 
 /// Where an identifier with maps begins: its settings, and the samples that it fits.
 struct MapBeginning {

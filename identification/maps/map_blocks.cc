@@ -5,7 +5,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/warming/further_passes.h"
+#include "identification/warming/gaps.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

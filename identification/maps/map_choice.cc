@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "identification/ridge/local_ridge.h"
 #include "identification/ridge/ridge.h"
 
 namespace warmjoint {

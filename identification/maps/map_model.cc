@@ -8,11 +8,11 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
+#include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
 #include "identification/maps/warm_maps.h"
-#include "identification/physical_bounds.h"
-#include "identification/warming/expected_start.h"
 #include "identification/warming/fit_law.h"
+#include "identification/warming/initial_energy.h"
 
 namespace warmjoint {
 namespace {
@@ -137,7 +137,7 @@ Fit FitOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
 Fit FitBehindLaw(const std::string& name, const IdentifierInput& input, const MapModel& model) {
   Fit warm = FitLaw(name, input, HeatFit::estimated);
   if (!GivesFriction(warm)) return warm;
-  const MapTask task = MakeMapTask(input.options, name);
+  const MapTask task = MakeMapTask(input, name);
   std::optional<Thermal>& thermal = warm.friction.thermal;
   if (model.heat_of_all) thermal = model.heat_of_all(input, *task.law, *thermal);
   return FitOverEnergy(input, task, &warm, model.over_energy);

@@ -84,7 +84,7 @@ LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
     const std::vector<T> by_load = ByLoad<L>(problem.motion, first, p, run);
 
     // from a start without load, and what the samples tell of it
-    T told(0), weight(static_cast<double>(n) / problem.torque.squaredNorm());
+    T weighted_sum(0), weight(static_cast<double>(n) / problem.torque.squaredNorm());
     for (Eigen::Index i = first; i < end; ++i) {
       const auto k = static_cast<size_t>(i - first);
       response.torque.push_back(run.force[k] + inertia * problem.acceleration[i]);
@@ -92,12 +92,12 @@ LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
       const double deviation = problem.deviation[row++];
       if (k >= by_load.size()) continue;
       const T weighted = by_load[k] / (deviation * deviation);
-      told += weighted * (problem.torque[i] - response.torque.back());
+      weighted_sum += weighted * (problem.torque[i] - response.torque.back());
       weight += weighted * by_load[k];
     }
 
     // from the load that suits them
-    response.loads.push_back(told / weight);
+    response.loads.push_back(weighted_sum / weight);
     for (size_t k = 0; k < by_load.size(); ++k) {
       response.torque[static_cast<size_t>(first) + k] += by_load[k] * response.loads.back();
     }

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "identification/forward/map_points.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/ridge/ridge.h"
 
 namespace warmjoint {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "identification/find_parameter.h"
+#include "identification/fit_parameters.h"
 #include "identification/gravity.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/score/cramer_rao.h"

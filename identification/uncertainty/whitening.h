@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "identification/forward/row_products.h"
 #include "identification/uncertainty/noise_model.h"
-#include "identification/uncertainty/row_transform.h"
 
 namespace warmjoint {
 

@@ -12,17 +12,16 @@
 #include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/inference/bounds.h"
 #include "identification/inference/hausman_test.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/linear/robust.h"
-#include "identification/physical_bounds.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/tails.h"
-#include "identification/warming/expected_start.h"
-#include "identification/warming/further_passes.h"
+#include "identification/warming/gaps.h"
+#include "identification/warming/initial_energy.h"
 #include "identification/warming/law_problem.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/measurements.h"
@@ -97,7 +96,7 @@ bool HasConverged(const ThermalFit& before, const ThermalFit& after, double scal
   return ((after.x - before.x).array().abs() <= kHuberConverged * deviations).all();
 }
 
-/// Fits again and again, each sample weighted by what Huber's loss makes of its residual in the fit before (robust.h),
+/// Fits again and again, each sample weighted by what Huber's loss makes of its residual in the fit before (least_squares.h),
 /// until the parameters rest; converged says whether they do.
 void RefineByHuber(LawFit& law) {
   law.threshold = 0;
@@ -278,8 +277,8 @@ std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
     entry.iteration = static_cast<int>(trace.size()) - 1;
     entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
     // law, gain and time constant, which the fit knew by its logarithm
-    const Eigen::Index told = warm.layout.heat.end();
-    entry.values.assign(iterate.x.begin(), iterate.x.begin() + told);
+    const Eigen::Index count = warm.layout.heat.end();
+    entry.values.assign(iterate.x.begin(), iterate.x.begin() + count);
     entry.values.back() = std::exp(entry.values.back());
   }
   return trace;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
+#include "identification/forward/row_products.h"
 #include "identification/layout.h"
-#include "identification/uncertainty/row_transform.h"
 #include "identification/warming/scan_time_constant.h"
 
 namespace warmjoint {

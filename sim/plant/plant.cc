@@ -5,7 +5,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/realize.h"
+#include "scenarios/scenario.h"
 
 namespace warmjoint {
 namespace {

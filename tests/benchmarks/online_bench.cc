@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "identification/online/kalman_bank.h"
-#include "identification/online/recursive_least_squares.h"
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/read_scenario.h"
-#include "scenarios/realize.h"
+#include "scenarios/scenario.h"
 #include "tests/support/table1.h"
 #include "tests/tools/scratch_directory.h"
 

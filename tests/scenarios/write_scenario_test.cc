@@ -6,7 +6,7 @@
 
 #include "scenarios/disturbances.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/realize.h"
+#include "scenarios/scenario.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {

@@ -21,7 +21,7 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/holdout/predict_torque.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
 #include "identification/seen_samples.h"

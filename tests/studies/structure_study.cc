@@ -17,8 +17,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
-#include "identification/holdout/blocked_hold_out.h"
-#include "identification/holdout/predict_torque.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/seen_samples.h"
@@ -112,7 +111,7 @@ void Study(const Suite& suite, int variant, int realizations) {
   right.identifier.options = right.identifier.options.Read(given);
   // the names of auto's structures tell these even where they are as usual
   for (const char* option : {"law", "warming"}) {
-    if (given.contains(option)) right.told = option;
+    if (given.contains(option)) right.named_option = option;
   }
   const Scenario scenario = VariantScenario(suite, variant);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);

@@ -3,6 +3,7 @@
 
 #include <warmjoint/suite.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,16 @@
 #include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint {
+
+/// Names of the project's suites, sorted: each is a file of scenarios/suites.
+std::vector<std::string> SuiteNames();
+
+/// The file of one of them.
+std::filesystem::path SuiteFile(const std::string& name);
+
+/// The file of a suite: the path itself where there is such a file, else that of the project's suite of
+/// this name. Throws BadInput with the nearest name.
+std::string FindSuite(const std::string& name_or_path);
 
 /// The suite with what the command line changes. Throws BadInput for a command that the suite brings
 /// along and nobody has agreed to.

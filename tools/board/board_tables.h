@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/board/leaderboard.h"
-#include "tools/terminal/table.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 

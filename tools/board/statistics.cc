@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
+#include <iterator>
 
 #include "models/foundation/robust_noise.h"
 
@@ -48,6 +49,32 @@ Summary Summarise(std::vector<double> values) {
   const double rms = RootMeanSquareOf(values);
   KeepSorted(values);
   return {{Quantile(values, 0.5), Quantile(values, 0.25), Quantile(values, 0.75)}, rms};
+}
+
+std::vector<double> SortedFinite(const Eigen::VectorXd& values) {
+  std::vector<double> sorted;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+               [](double value) { return std::isfinite(value); });
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+double MedianOfKnown(const Eigen::VectorXd& values) {
+  return Summarise({values.begin(), values.end()}).median;
+}
+
+QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values) {
+  const Eigen::Index columns = values.cols();
+  QuartileCurve curve{x, Eigen::VectorXd(columns), Eigen::VectorXd(columns),
+                      Eigen::VectorXd(columns)};
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const auto column = values.col(k);
+    const Summary summary = Summarise({column.begin(), column.end()});
+    curve.q25[k] = summary.q25;
+    curve.median[k] = summary.median;
+    curve.q75[k] = summary.q75;
+  }
+  return curve;
 }
 
 Difference MedianDifference(std::vector<double> differences) {

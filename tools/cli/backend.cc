@@ -14,7 +14,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
-#include "tools/suite/memory_file.h"
+#include "tools/suite/run_command.h"
 
 namespace warmjoint {
 namespace {

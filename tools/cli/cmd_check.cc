@@ -18,7 +18,6 @@
 #include "tools/figures/estimate_figures.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
-#include "tools/terminal/table.h"
 
 namespace warmjoint {
 namespace {

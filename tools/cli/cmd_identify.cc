@@ -10,7 +10,6 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/friction_actuator.h"
-#include "tools/actions/identify_by_command.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/backend.h"
 #include "tools/cli/command.h"

@@ -15,11 +15,11 @@
 #include "models/foundation/node.h"
 #include "models/robots/robot_folder.h"
 #include "scenarios/suite.h"
-#include "tools/actions/suite_names.h"
+#include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
 #include "tools/identify/catalogue.h"
-#include "tools/terminal/table.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {

@@ -50,7 +50,6 @@ void WriteAll(const std::vector<Wanted>& wanted, const std::vector<DrawnFigure>&
     const figures::Figure& figure = wanted[i].figure;
     // one that was not asked for by name is no reason to lose the others
     if (!drawn[i].refusal.empty()) {
-      if (wanted[i].required) Refuse({}, "{}", drawn[i].refusal);
       activity.Aside([&] { SayNotice("{}: left out: {}\n", wanted[i].source, drawn[i].refusal); });
       continue;
     }
@@ -100,6 +99,15 @@ void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
   if (!clauses.empty()) SayNotice("{}: left out: {}\n", source, fmt::join(clauses, "; "));
 }
 
+/// Throws BadInput where it cannot be made.
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder)) return;
+  Refuse({folder.string()}, "cannot be made ({}); give a directory",
+         error ? error.message() : "it is a file");
+}
+
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
   // refused before anything is read
@@ -119,14 +127,6 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
     for (figures::Figure& figure : Chosen(arguments.pictures, source, pictures)) {
       wanted.push_back({folders[i], std::move(figure), !all, source});
     }
-
-    // their folder, made where it is absent
-    std::error_code error;
-    fs::create_directories(folders[i], error);
-    if (error || !fs::is_directory(folders[i])) {
-      Refuse({folders[i].string()}, "cannot be made ({}); give a directory",
-             error ? error.message() : "it is a file");
-    }
     recordings.insert(recordings.end(), pictures.recordings.begin(), pictures.recordings.end());
     if (pictures.estimate) {
       estimates.emplace_back(fs::path(source).stem().string(), *std::move(pictures.estimate));
@@ -141,7 +141,13 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   activity.Is(fmt::format("drawing {} pictures", wanted.size()));
   std::vector<figures::Figure> figures;
   for (const Wanted& one : wanted) figures.push_back(one.figure);
-  WriteAll(wanted, backend.Draw(figures, setting), arguments, recordings, activity);
+  const auto drawn = backend.Draw(figures, setting);
+  // nothing is written where a figure that was asked for by name could not be drawn
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i].required && !drawn[i].refusal.empty()) Refuse({}, "{}", drawn[i].refusal);
+  }
+  for (const fs::path& folder : folders) MakeFolder(folder);
+  WriteAll(wanted, drawn, arguments, recordings, activity);
   return ExitStatus::done;
 }
 

@@ -14,7 +14,6 @@
 #include "tools/identify/predict_recording.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
-#include "tools/terminal/table.h"
 
 namespace warmjoint {
 namespace {

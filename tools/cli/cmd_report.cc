@@ -11,7 +11,6 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"
 #include "tools/actions/outputs.h"
-#include "tools/actions/replay_unit.h"
 #include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
@@ -21,6 +20,7 @@
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/run/run_page.h"
 #include "tools/identify/identify_recording.h"
+#include "tools/suite/run_realization.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 

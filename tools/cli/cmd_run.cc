@@ -10,7 +10,6 @@
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
 #include "tools/actions/run_task.h"
-#include "tools/actions/suite_names.h"
 #include "tools/cli/command.h"
 #include "tools/cli/end_of_run.h"
 #include "tools/cli/typed_options.h"

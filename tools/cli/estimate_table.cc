@@ -11,7 +11,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
 #include "tools/figures/shown_estimate.h"
-#include "tools/terminal/table.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {

@@ -3,7 +3,7 @@
 #include <warmjoint/identify.h>
 
 #include "identification/answer/identify.h"
-#include "identification/find_parameter.h"
+#include "identification/fit_parameters.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"

@@ -9,7 +9,7 @@
 #include "models/foundation/atomic_file.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

@@ -7,14 +7,14 @@
 #include <numbers>
 #include <optional>
 
-#include "identification/find_parameter.h"
+#include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/seen_samples.h"
-#include "identification/warming/estimated_start.h"
+#include "identification/warming/initial_energy.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
 #include "tools/figures/friction_spread.h"
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/number_text.h"
 #include "tools/figures/shown_estimate.h"
 #include "tools/figures/symbols.h"
 

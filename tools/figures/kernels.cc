@@ -9,7 +9,7 @@
 #include "models/friction/evaluate_map.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/estimate_figures.h"
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

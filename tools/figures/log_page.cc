@@ -14,9 +14,9 @@
 #include "tools/figures/axes.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/number_text.h"
 #include "tools/figures/reduce.h"
 #include "tools/figures/shown_estimate.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "models/foundation/robust_noise.h"
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

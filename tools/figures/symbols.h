@@ -1,13 +1,24 @@
-// Names of parameters and looks of identifiers, the same in all pictures.
+// How pictures write numbers, units and parameters, and the look of each identifier, the same in all.
 #pragma once
 
 #include <cstddef>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include "tools/figures/figure.h"
 
 namespace warmjoint::figures {
+
+/// A number as a person writes it: true minus sign, and 5·10⁻⁵ below 0.001 or from 100 000 on.
+/// decimals: digits after the point where no power of ten is used.
+std::string NumberText(double value, int decimals);
+
+/// The same with `digits` significant digits.
+std::string SignificantText(double value, int digits = 3);
+
+/// A unit as set in print: "N·m·s²/rad" for "N.m.s^2/rad".
+std::string UnitText(std::string_view unit);
 
 /// Symbol of a parameter, as set in print: "τ" for thermal_time_constant, "k_{v}" for viscous.
 std::string SymbolOf(const std::string& parameter);

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/find_parameter.h"
+#include "identification/fit_parameters.h"
 #include "models/friction/thermal.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/estimate_figures.h"
-#include "tools/figures/number_text.h"
 #include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {

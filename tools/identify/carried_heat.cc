@@ -9,7 +9,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "identification/find_parameter.h"
 #include "identification/fit_parameters.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/atomic_file.h"

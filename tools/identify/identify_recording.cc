@@ -8,7 +8,7 @@
 #include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/warming/expected_start.h"
+#include "identification/warming/initial_energy.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/node.h"
 #include "models/foundation/serialize.h"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
-#include "identification/find_parameter.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/seen_samples.h"
 #include "models/foundation/node.h"
 #include "models/friction/friction_json.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/holdout/predict_torque.h"
+#include "identification/holdout/hold_out.h"
 #include "tools/identify/carried_heat.h"
 #include "tools/identify/recording_source.h"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "tools/scene/context.h"
-#include "tools/scene/shared_library.h"
 
 namespace warmjoint::scene {
 namespace {

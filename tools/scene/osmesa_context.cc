@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "tools/scene/context.h"
-#include "tools/scene/shared_library.h"
 
 namespace warmjoint::scene {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "tools/store/run_description.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint {
 

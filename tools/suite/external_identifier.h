@@ -13,7 +13,8 @@
 
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "models/foundation/bad_input.h"
-#include "scenarios/suite_identifier.h"
+#include "scenarios/suite.h"
+#include "tools/identify/identify_recording.h"
 #include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/sandbox.h"
 
@@ -55,5 +56,21 @@ PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunctio
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
                                    const LackOfFitSettings& judging = {},
                                    Confinement confinement = Confinement::sandbox);
+
+/// A command that was checked: settings.identifier is name=command, settings.options are its own, as time_limit.
+struct CheckedCommand {
+  SuiteIdentifier command;
+  PreparedIdentifier ask;
+};
+
+/// Throws BadInput for a command without its placeholders, options that commands do not have, settings
+/// that only identifiers of the list know, and a kernel without a sandbox where one is asked for.
+CheckedCommand CheckCommand(const IdentifySettings& settings, Confinement confinement);
+
+/// Asks it as `run` does: in the same sandbox, under the same limits, judged by the same table. Of an answer
+/// that stands, the figures on what was held out come from a second answer, to the part before, or
+/// are those of its friction along another recording. Throws NoAnswer where it gives none.
+Estimate IdentifyByCommand(const CheckedCommand& task, const PreparedLog& log,
+                           const HoldOutSource& holdout);
 
 }  // namespace warmjoint

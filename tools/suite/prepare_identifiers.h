@@ -13,7 +13,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/random_stream.h"
-#include "scenarios/suite_identifier.h"
+#include "scenarios/suite.h"
 #include "tools/suite/sandbox.h"
 
 namespace warmjoint {

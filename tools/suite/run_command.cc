@@ -15,7 +15,6 @@
 #include <system_error>
 
 #include "models/foundation/bad_input.h"
-#include "tools/suite/memory_file.h"
 #include "tools/suite/supervisor.h"
 #include "tools/terminal/shell_words.h"
 

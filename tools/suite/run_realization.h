@@ -2,6 +2,7 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
 #include <warmjoint/score.h>
 #include <warmjoint/simulation.h>
 
@@ -62,5 +63,21 @@ TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& sco
 /// SHA-256 of the suite's seed and the realization: the same for every run of the suite, and no way
 /// back to the random numbers of truth, motion and noise.
 StartKey StartKeyOf(std::uint64_t seed, std::uint64_t realization);
+
+/// A realization with what an identifier makes of it.
+struct Replayed {
+  PreparedLog log;
+  Estimate estimate;
+};
+
+/// Simulates `unit` as the run did and identifies it with the same start. identifier: an entry of the suite
+/// that is no command from outside. Throws BadInput where the plant or the identifier cannot be made here.
+Replayed ReplayUnit(const Suite& suite, RunUnit unit, const SuiteIdentifier& identifier);
+
+/// "realization 17", with its variant where the suite has any.
+std::string NameOf(const Suite& suite, RunUnit unit);
+
+/// The command that simulates it again. run: the directory, as a reader calls it.
+std::string ReplayCommand(const Suite& suite, RunUnit unit, const std::string& run);
 
 }  // namespace warmjoint

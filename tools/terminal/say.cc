@@ -1,10 +1,14 @@
 #include "tools/terminal/say.h"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
+
+#include "models/foundation/excerpt.h"
 
 namespace warmjoint {
 namespace {
@@ -14,6 +18,31 @@ std::atomic<bool> quiet{false};  // progress is drawn by a thread of its own
 std::string_view Variable(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
+}
+
+/// Columns that a cell takes: its characters, each of which has one byte that continues no other.
+size_t Width(const std::string& cell) {
+  return static_cast<size_t>(std::ranges::count_if(
+      cell, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// The table with cells that no terminal acts on.
+Table Shown(Table table) {
+  for (std::string& cell : table.header) cell = Printable(cell);
+  for (auto& row : table.rows) {
+    for (std::string& cell : row) cell = Printable(cell);
+  }
+  return table;
+}
+
+std::string MarkdownLine(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) {
+    std::string escaped;
+    for (const char c : cell) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+    line += fmt::format(" {} |", escaped);
+  }
+  return line + "\n";
 }
 
 }  // namespace
@@ -43,5 +72,43 @@ std::string Paint(std::string_view word, Colour colour, const Page& page) {
 void BeQuiet() { quiet = true; }
 
 bool IsQuiet() { return quiet; }
+
+std::string TableToText(const Table& given, size_t left) {
+  const Table table = Shown(given);
+  // as wide as the widest cell of each column
+  std::vector<size_t> widths;
+  for (const std::string& cell : table.header) widths.push_back(Width(cell));
+  for (const auto& row : table.rows) {
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], Width(row[i]));
+  }
+
+  // text to the left, numbers to the right; no blanks at the end of a line
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string text;
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const std::string blanks(widths[i] - Width(cells[i]), ' ');
+      text += (i > 0 ? "  " : "") + (i < left ? cells[i] + blanks : blanks + cells[i]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text + "\n";
+  };
+
+  // the header, a rule below all columns, the rows
+  size_t total = widths.empty() ? 0 : 2 * (widths.size() - 1);
+  for (const size_t width : widths) total += width;
+  std::string text = line(table.header) + std::string(total, '-') + "\n";
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string TableToMarkdown(const Table& given, size_t left) {
+  const Table table = Shown(given);
+  // a colon at the right stands for a column of numbers
+  std::string text = MarkdownLine(table.header) + "|";
+  for (size_t i = 0; i < table.header.size(); ++i) text += i < left ? " --- |" : " ---: |";
+  text += "\n";
+  for (const auto& row : table.rows) text += MarkdownLine(row);
+  return text;
+}
 
 }  // namespace warmjoint

@@ -1,4 +1,4 @@
-// Words for people: what their stream shows, and which of them are wanted.
+// Words and tables for people: what their stream shows, and which words are wanted.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace warmjoint {
 
@@ -41,5 +42,17 @@ template <typename... Args>
 void SayNotice(fmt::format_string<Args...> format, Args&&... args) {
   if (!IsQuiet()) fmt::print(stderr, format, std::forward<Args>(args)...);
 }
+
+/// Cells as text: a header and rows of as many cells.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Columns aligned with blanks: the first `left` ones to the left, the others to the right.
+std::string TableToText(const Table& table, size_t left);
+
+/// The same as a Markdown table.
+std::string TableToMarkdown(const Table& table, size_t left);
 
 }  // namespace warmjoint

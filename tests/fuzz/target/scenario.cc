@@ -1,7 +1,8 @@
 // Scenarios as YAML, and as they are written again.
+#include "scenarios/scenario.h"
+
 #include "models/foundation/random_stream.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/realize.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/warming/estimated_start.h"
+#include "identification/warming/initial_energy.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

@@ -7,7 +7,6 @@
 
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "identification/inference/covariance.h"
+#include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/whitening.h"
 #include "models/foundation/random_stream.h"

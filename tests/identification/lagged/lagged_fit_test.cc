@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "identification/lagged/lag_search.h"
-#include "identification/lagged/seen_lag.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/judging.h"
 

@@ -1,9 +1,8 @@
-#include "identification/linear/robust.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "identification/linear/least_squares.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

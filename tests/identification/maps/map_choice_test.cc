@@ -9,8 +9,8 @@
 #include "identification/forward/log_trajectory.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/map_options.h"
-#include "identification/maps/motor_maps.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 

@@ -5,7 +5,6 @@
 
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/ridge/local_ridge.h"
 #include "identification/ridge/local_rows.h"
 #include "models/friction/evaluate_map.h"
 #include "tests/support/vectors.h"

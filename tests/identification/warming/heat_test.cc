@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "identification/forward/log_trajectory.h"
-#include "identification/report/end_state.h"
-#include "identification/warming/expected_start.h"
+#include "identification/report/report_fit.h"
 #include "identification/warming/gaps.h"
+#include "identification/warming/initial_energy.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 

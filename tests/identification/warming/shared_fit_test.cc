@@ -1,8 +1,10 @@
-// Two logs of joints that share gravity and not their friction.
+// Logs that share unknowns: two joints with one gravity and frictions of their own, two recordings of one joint.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "identification/linear/linear_laws.h"
@@ -19,14 +21,17 @@ constexpr double kGravity = 8;  // N.m at a quarter turn
 
 /// A joint's log with g sin(p) beside its friction, and its rows.
 struct Joint {
-  Measurements log;
+  LogSamples log;
   ClosedLoop loop;
   VectorXd level, weight;
   Eigen::MatrixXd offsets;
 
   Joint(const Friction& friction, std::uint64_t seed, double noise)
-      : log(Recorded(friction, seed, noise)),
-        loop(ClosedLoop::Along(LogSamples(log), LawColumns(*FindLaw(friction.law), log.velocity))),
+      : Joint(LogSamples(Recorded(friction, seed, noise))) {}
+  /// A log of a law with a viscous and a Coulomb part.
+  explicit Joint(LogSamples samples)
+      : log(std::move(samples)),
+        loop(ClosedLoop::Along(log, LawColumns(*FindLaw("viscous_coulomb"), log.velocity))),
         level(loop.direction().cwiseProduct(log.torque)),
         weight(VectorXd::Ones(log.size())),
         offsets(loop.direction().cwiseProduct(log.position.array().sin().matrix())) {}
@@ -87,6 +92,37 @@ TEST(SharedFit, WeighsEachLogsGravityByItsInformation) {
   EXPECT_NEAR(std::sqrt(both.cofactor(8, 8)), deviation, 1e-3 * deviation);
   EXPECT_NEAR(both.x[8], mean / information, 0.02 * deviation);
   EXPECT_NEAR(both.x[8], kGravity, 4 * deviation);
+}
+
+TEST(SharedFit, OfTwoRecordingsIsTheFitOfTheirStack) {
+  const double noise = 0.5;  // N.m
+  const Joint one(test::TableOne(), 5, noise), other(test::TableOne(), 6, noise);
+  const Joint stack(Join({Prepare(one.log), Prepare(other.log)}).raw().measurements);
+  const InitialGuess guess{Eigen::Vector3d(5, 10, 0), {-1.5, 500}, 0, 0};
+
+  // the start of the second recording as an unknown jump of E
+  const ClosedLoop loop = stack.loop.WithJumps({one.log.size()});
+  ThermalRows rows = stack.Rows(noise).Along(loop);
+  rows.initial = InitialEnergy::estimated;
+  rows.jump_spread = VectorXd::Constant(1, std::numeric_limits<double>::infinity());
+  const ThermalFit stacked = FitThermalFriction(rows, guess);
+  ASSERT_TRUE(stacked.converged);
+
+  // as a list: viscous, coulomb, gain, log(tau), E(0) of each recording, gravity
+  std::vector<SharedRows> list{{one.Rows(noise), {0, 1, 2, 3, 4, 6}},
+                               {other.Rows(noise), {0, 1, 2, 3, 5, 6}}};
+  for (SharedRows& log : list) log.rows.initial = InitialEnergy::estimated;
+  VectorXd start = VectorXd::Zero(7);
+  start.head(4) << 5, 10, -1.5, std::log(500);
+  const SharedFit shared = FitTogether(list, start);
+  ASSERT_TRUE(shared.converged);
+
+  // both know each unknown equally well, and where it is to a millionth of that
+  for (Eigen::Index i = 0; i < 7; ++i) {
+    const double deviation = stacked.Deviation(i, noise * noise);
+    EXPECT_NEAR(std::sqrt(shared.cofactor(i, i)), deviation, 1e-6 * deviation) << i;
+    EXPECT_NEAR(shared.x[i], stacked.x[i], 1e-6 * deviation) << i;
+  }
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "sim/plant/plant.h"
 #include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
-#include "tools/actions/replay_unit.h"
 #include "tools/identify/carried_heat.h"
 #include "tools/identify/recording_source.h"
 #include "tools/suite/prepare_identifiers.h"

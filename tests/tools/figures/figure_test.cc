@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
-#include "tools/figures/number_text.h"
 #include "tools/figures/reduce.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tools/store/run_description.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint {
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/board/statistics.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
-#include "tools/figures/run/quartiles.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
 
@@ -71,7 +70,7 @@ std::string Finding(const RunView& run, const std::vector<const RunRow*>& rows) 
     if (rung) text += fmt::format(" with {}", RungName(run, rung));
     for (const RunRow* row : rows) {
       const auto median = [&](const Eigen::VectorXd& values) {
-        return MedianOf(At(*row, values, rung));
+        return MedianOfKnown(At(*row, values, rung));
       };
       text += fmt::format(" {} fits {:.1f} % with RMSE {} {},", row->label, median(row->fit),
                           SignificantText(median(row->rmse)), run.torque_unit);

@@ -9,7 +9,6 @@
 
 #include "models/foundation/random_stream.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
 

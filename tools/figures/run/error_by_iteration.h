@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/board/statistics.h"
 #include "tools/figures/figure.h"
-#include "tools/figures/run/quartiles.h"
 
 namespace warmjoint::figures {
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/board/statistics.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
-#include "tools/figures/run/quartiles.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
 
@@ -17,7 +16,7 @@ namespace {
 Eigen::VectorXd ErrorsOf(const RunRow& row, const Rungs& rungs) {
   Eigen::VectorXd errors(rungs.values.size());
   for (Eigen::Index rung = 0; rung < errors.size(); ++rung) {
-    errors[rung] = 100 * RootMeanSquare(At(row, row.npe, rung));
+    errors[rung] = 100 * RootMeanSquareOf(SortedFinite(At(row, row.npe, rung)));
   }
   return errors;
 }

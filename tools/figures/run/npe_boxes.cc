@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "models/foundation/robust_noise.h"
+#include "tools/board/statistics.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
-#include "tools/figures/run/quartiles.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
 #include "tools/terminal/shell_words.h"
@@ -91,7 +90,7 @@ Plot BoxesOf(const RunView& run, const Rung& rung) {
       plot.series.push_back({"", IdentifierHue(row.identifier), BoxOf(place, 100 * npe)});
       shown.push_back(100 * npe);
       places.push_back(place);
-      means.push_back(100 * RootMeanSquare(npe));
+      means.push_back(100 * RootMeanSquareOf(SortedFinite(npe)));
     }
     labels.push_back(rung ? row.label : LabelOf(row));
   }

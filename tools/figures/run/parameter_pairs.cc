@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/board/statistics.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
-#include "tools/figures/run/quartiles.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
 
@@ -63,7 +62,7 @@ const RunRow* BestComplete(const RunView& run) {
   for (const RunRow& row : run.rows) {
     // correlations need several realizations with all parameters
     if (row.parameters.size() < 2 || Complete(row).rows() < 5) continue;
-    const double median = MedianOf(row.npe);
+    const double median = MedianOfKnown(row.npe);
     if (median < lowest) {
       lowest = median;
       best = &row;

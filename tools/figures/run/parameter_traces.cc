@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "models/foundation/robust_noise.h"
+#include "tools/board/statistics.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
-#include "tools/figures/run/quartiles.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
 
@@ -79,7 +78,7 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
   const Hue hue = IdentifierHue(row.identifier);
   // the middle of the traces, and of the truths where they differ
   const QuartileCurve middle = QuartilesOf(iteration, values);
-  const double truth = MedianOf(column.truth);
+  const double truth = MedianOfKnown(column.truth);
 
   Plot plot;
   // many traces become bands, few are drawn one by one
@@ -122,8 +121,8 @@ std::optional<Figure> ParameterTraces(const RunView& run) {
 
     // where its median ended, beside the truth
     figure.finding += fmt::format(" {} {} (truth {}),", column.name,
-                                  SignificantText(MedianOf(values.col(values.cols() - 1))),
-                                  SignificantText(MedianOf(column.truth)));
+                                  SignificantText(MedianOfKnown(values.col(values.cols() - 1))),
+                                  SignificantText(MedianOfKnown(column.truth)));
   }
   if (figure.panels.empty()) return std::nullopt;
   figure.finding.back() = '.';

@@ -16,8 +16,8 @@
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tools/figures/axes.h"
-#include "tools/figures/number_text.h"
 #include "tools/figures/run/run_view.h"
+#include "tools/figures/symbols.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::figures {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 

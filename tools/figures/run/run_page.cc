@@ -12,12 +12,12 @@
 
 #include "identification/identifiers/identifier_list.h"
 #include "scenarios/suite.h"
-#include "tools/actions/replay_unit.h"
 #include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
+#include "tools/suite/run_realization.h"
 
 namespace warmjoint::figures {
 namespace {

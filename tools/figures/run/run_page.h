@@ -9,7 +9,7 @@
 #include "tools/figures/figure.h"
 #include "tools/figures/fit_view.h"
 #include "tools/figures/run/run_view.h"
-#include "tools/store/run_description.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint::figures {
 

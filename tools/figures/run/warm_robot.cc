@@ -10,7 +10,7 @@
 #include "sim/model/load_model.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/number_text.h"
+#include "tools/figures/symbols.h"
 #include "tools/scene/robot_renderer.h"
 
 namespace warmjoint::figures {

@@ -1,8 +1,10 @@
-#include "identification/warming/expected_start.h"
+#include "identification/warming/initial_energy.h"
 
 #include <cmath>
 
 #include "identification/explain.h"
+#include "identification/fit_parameters.h"
+#include "identification/warming/gaps.h"
 
 namespace warmjoint {
 namespace {
@@ -27,6 +29,19 @@ std::string ContradictsExpected(const InitialEnergy& expected, double found, dou
   const double off = found - expected.mean;
   if (std::abs(off) <= kBeyondDoubt * std::hypot(deviation, expected.spread)) return "";
   return ExplainUnexpectedStart(found, expected.mean, expected.spread);
+}
+
+ThermalStart StartOf(const Estimate& estimate, const LogSamples& measurements) {
+  ThermalStart start;
+  start.energy = ValueOf(Role::start, estimate).value_or(0);
+  // each gap and each further recording has its own, 0 where none was estimated
+  const std::vector<LogGap> gaps = Merged(FindGaps(measurements), FurtherStarts(measurements));
+  const std::vector<std::string> names = JumpNames(gaps, measurements);
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    const EstimatedParameter* found = estimate.Find(names[i]);
+    if (found) start.jumps.push_back({gaps[i].behind, found->value});
+  }
+  return start;
 }
 
 }  // namespace warmjoint

@@ -1,4 +1,4 @@
-#include "scenarios/realize.h"
+#include "scenarios/scenario.h"
 
 #include "scenarios/truth_draws.h"
 

@@ -1,5 +1,9 @@
-// A start of which something is known: what a recording before left of the heat.
+// The heat that a recording begins with: what is known of it before a fit, and what an estimate says.
 #pragma once
+
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction_model.h>
+#include <warmjoint/prepared_log.h>
 
 #include <array>
 #include <span>
@@ -48,5 +52,10 @@ InitialEnergy InitialEnergyOf(const Options& options);
 /// The sentence that the log itself contradicts what was expected, by more than four deviations of both;
 /// empty where it does not. found: E(0) in a fit that knows nothing of it, deviation: of that, N.m or N.
 std::string ContradictsExpected(const InitialEnergy& expected, double found, double deviation);
+
+/// E(0) of each recording and the jumps of E at gaps (gaps.h), as far as the estimate has them. What is
+/// not estimated is 0.
+/// measurements: those that the estimate was fitted to.
+ThermalStart StartOf(const Estimate& estimate, const LogSamples& measurements);
 
 }  // namespace warmjoint
