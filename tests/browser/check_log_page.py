@@ -8,7 +8,6 @@ are drawn within 3 s and zoom together, a box that hides its series, nothing wid
 with alt texts, every section there without JavaScript. --shots keeps pictures of the page. Exit statuses as check_report.py.
 """
 
-import base64
 import pathlib
 import subprocess
 import sys
@@ -16,7 +15,7 @@ import tempfile
 import time
 
 from barriers import check_barriers
-from page_checks import CUT, SIZES, arguments_of, check_silence, in_browser
+from page_checks import SIZES, arguments_of, check_pictures, check_silence, check_widths, in_browser, keep_shot, show
 
 SECTIONS = ("verdict", "next", "parameters", "recording", "pictures", "tests", "assumptions", "mujoco", "terms", "repeat")
 DRAWN = """[...document.querySelectorAll('.chart')].length === 3 && [...document.querySelectorAll('.chart')].every(chart =>
@@ -24,8 +23,6 @@ DRAWN = """[...document.querySelectorAll('.chart')].length === 3 && [...document
     canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.some((v, i) => i % 4 === 3 && v > 0)))"""
 LABELS = """[...document.querySelectorAll('.chart')].map(chart =>
   [...chart.querySelectorAll('.dygraph-axis-label-x')].map(label => label.textContent).join(' '))"""
-WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip, .chart') &&
-  e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
 
 
 def check_charts(browser, checks):
@@ -52,9 +49,7 @@ MEDIA = {"light": {}, "dark": {"features": [{"name": "prefers-color-scheme", "va
 
 
 def look(browser, checks, url, size, media, shots):
-    width, height = SIZES[size]
-    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=size == "phone")
-    browser.call("Emulation.setEmulatedMedia", **{"media": "", "features": [], **MEDIA[media]})
+    show(browser, size, **MEDIA[media])
     start = time.monotonic()
     browser.open(url)
     if media == "print":
@@ -65,14 +60,9 @@ def look(browser, checks, url, size, media, shots):
         took = time.monotonic() - start
         print(f"{size}, {media}: charts drawn after {took:.2f} s")
         checks.expect(took < 3, f"{size}: the charts are drawn after {took:.1f} s")
-    checks.expect(browser.value(WIDE) == [], f"{size}: wider than the screen: {browser.value(WIDE)[:3]}")
-    cut = browser.value(CUT) if size == "desktop" and media != "print" else []
-    checks.expect(not cut, f"{size}: cut at the right edge: {cut}")
-    alts = browser.value("[...document.images].map(image => image.naturalWidth > 0 ? image.alt : '')")
-    checks.expect(alts and all(len(alt) > 30 for alt in alts), f"{size}: pictures without words: {alts}")
-    if shots:
-        shot = browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)
-        (shots / f"log_{size}_{media}.png").write_bytes(base64.b64decode(shot["data"]))
+    check_widths(browser, checks, size, printed=media == "print")
+    check_pictures(browser, checks)
+    keep_shot(browser, shots, f"log_{size}_{media}")
 
 
 def check_without_scripts(browser, checks, url):

@@ -13,7 +13,6 @@ Installs nothing: Debian's package is `chromium`; the environment variable CHROM
 """
 
 import atexit
-import base64
 import json
 import math
 import pathlib
@@ -23,14 +22,13 @@ import sys
 import tempfile
 
 from barriers import check_barriers
-from page_checks import CUT, SIZES, arguments_of, check_silence, in_browser
+from page_checks import SIZES, arguments_of, check_pictures, check_silence, check_widths, in_browser, keep_shot, show
 
 TABLES = """[...document.querySelectorAll('table')].filter(table => !table.closest('#list')).map(table => ({
   caption: table.caption ? table.caption.innerText : '',
   head: [...table.tHead.rows[0].cells].map(cell => cell.innerText),
   rows: [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.innerText)),
   headed: [...table.tBodies[0].rows].every(row => row.querySelector('th[scope=row]')?.innerText)}))"""
-PICTURES = """[...document.images].map(image => ({alt: image.alt, drawn: image.complete && image.naturalWidth > 0}))"""
 # a change of scheme changes the sources: decoding what was there before fails, and is tried again
 DECODED = """Promise.all([...document.images].map(async image => {
   for (let tries = 0; tries < 50; ++tries) {
@@ -38,10 +36,6 @@ DECODED = """Promise.all([...document.images].map(async image => {
   }
   throw new Error('not decoded: ' + image.alt)}))"""
 STOPS = """[...document.querySelectorAll('a[href], summary, button, select, [tabindex="0"]')]"""
-WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip') &&
-  e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
-
-
 # scrolled to its end, a table still shows what its rows are of; afterwards it is as it was
 NAMELESS = """[...document.querySelectorAll('.scroll')].filter(box => box.querySelector('table')).filter(box => {
   box.scrollLeft = box.scrollWidth;
@@ -101,14 +95,6 @@ def check_numbers(browser, checks, board):
     checks.expect(compared >= 3 * len(rows), f"only {compared} numbers were found in the tables")
 
 
-def check_pictures(browser, checks):
-    pictures = browser.value(PICTURES)
-    checks.expect(pictures, "no pictures")
-    for picture in pictures:
-        checks.expect(picture["drawn"], f"a picture is not drawn: {picture['alt'][:60]}")
-        checks.expect(len(picture["alt"]) > 30, f"an alt text says little: '{picture['alt']}'")
-
-
 def check_reading(browser, checks):
     """What keyboards and screen readers need."""
     tree = browser.call("Accessibility.getFullAXTree")["nodes"]
@@ -134,14 +120,9 @@ def check_reading(browser, checks):
     checks.expect(reached >= set(range(stops)), f"Tab reaches {sorted(reached)} of {stops} places")
 
 
-def look(browser, checks, name, size, scheme, folder):
-    browser.call("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1,
-                 mobile=name == "phone")
-    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-    wide = browser.value(WIDE)
-    checks.expect(not wide, f"{name}: wider than the screen: {wide[:5]}")
-    cut = browser.value(CUT) if name == "desktop" else []
-    checks.expect(not cut, f"{name}: cut at the right edge: {cut}")
+def look(browser, checks, name, scheme, folder):
+    show(browser, name, features=[{"name": "prefers-color-scheme", "value": scheme}])
+    check_widths(browser, checks, name)
     nameless = browser.value(NAMELESS)
     checks.expect(not nameless, f"{name}: rows lose their names where {nameless} scroll")
     small = browser.value(SMALL)
@@ -149,9 +130,7 @@ def look(browser, checks, name, size, scheme, folder):
     browser.value(DECODED)
     paper = browser.value("getComputedStyle(document.body).backgroundColor")
     checks.expect(("255" in paper) == (scheme == "light"), f"{scheme}: the paper is {paper}")
-    if folder:
-        shot = browser.call("Page.captureScreenshot", captureBeyondViewport=True)
-        (folder / f"report_{name}_{scheme}.png").write_bytes(base64.b64decode(shot["data"]))
+    keep_shot(browser, folder, f"report_{name}_{scheme}")
 
 
 def check_list(browser, checks):
@@ -190,9 +169,9 @@ def main():
 
     def work(browser, checks):
         browser.open(url)
-        for name, size in SIZES.items():
+        for name in SIZES:
             for scheme in ("light", "dark"):
-                look(browser, checks, name, size, scheme, arguments.shots)
+                look(browser, checks, name, scheme, arguments.shots)
         check_numbers(browser, checks, json.loads(compared.stdout))
         check_pictures(browser, checks)
         check_reading(browser, checks)

@@ -1,6 +1,7 @@
 """What every check of a page in Chromium needs: its arguments, a count of what was looked at, and a browser."""
 
 import argparse
+import base64
 import os
 import pathlib
 import sys
@@ -11,6 +12,9 @@ SIZES = {"phone": (390, 844), "desktop": (1280, 900)}
 # tables and commands that are cut at the right edge, but for the list of realizations, which scrolls
 CUT = """[...document.querySelectorAll('.scroll, pre')].filter(box => !box.closest('#list, details') && box.scrollWidth > box.clientWidth + 1)
   .map(box => box.textContent.trim().slice(0, 40))"""
+
+WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip, .chart') &&
+  e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
 
 
 class Checks:
@@ -38,6 +42,34 @@ def check_silence(browser, checks, url):
         if method == "Network.requestWillBeSent":
             target = what["request"]["url"]
             checks.expect(target == url or target.startswith("data:"), f"request to {target[:100]}")
+
+
+def show(browser, size, **media):
+    """Takes a screen of that size, and shows the page for those media: media="print", features=[...]."""
+    width, height = SIZES[size]
+    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=size == "phone")
+    browser.call("Emulation.setEmulatedMedia", **{"media": "", "features": [], **media})
+
+
+def check_widths(browser, checks, size, printed=False):
+    """Nothing is wider than the screen but what scrolls by itself; on a desktop nothing is cut."""
+    wide = browser.value(WIDE)
+    checks.expect(not wide, f"{size}: wider than the screen: {wide[:5]}")
+    cut = browser.value(CUT) if size == "desktop" and not printed else []
+    checks.expect(not cut, f"{size}: cut at the right edge: {cut}")
+
+
+def check_pictures(browser, checks):
+    """Every picture is drawn, and an alt text says what it shows."""
+    alts = browser.value("[...document.images].map(image => image.complete && image.naturalWidth > 0 ? image.alt : 'not drawn')")
+    checks.expect(alts and all(len(alt) > 30 for alt in alts), f"pictures that are not drawn or without words: {alts}")
+
+
+def keep_shot(browser, folder, name):
+    """Keeps a picture of the page, where a folder is given."""
+    if folder:
+        shot = browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)
+        (folder / f"{name}.png").write_bytes(base64.b64decode(shot["data"]))
 
 
 def arguments_of(doc, what):

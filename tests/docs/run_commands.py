@@ -45,16 +45,13 @@ def environment(build):
 
 def bring(names, target):
     """Lays shared files into the copy; False where one is absent."""
-    return all([bring_one(name, target) for name in names.split()])
-
-
-def bring_one(name, target):
-    shared = os.environ.get("WARMJOINT_SHARED") or os.environ.get("WARMJOINT_SHARED_DEFAULT", "")
-    source = pathlib.Path(shared) / name
-    if not shared or not source.is_file():
+    shared = os.environ.get("WARMJOINT_SHARED") or os.environ.get("WARMJOINT_SHARED_DEFAULT", "/nowhere")
+    sources = [pathlib.Path(shared) / name for name in names.split()]
+    if not all(source.is_file() for source in sources):
         return False
-    link = target / source.name
-    link.exists() or link.symlink_to(source)
+    for source in sources:
+        link = target / source.name
+        link.exists() or link.symlink_to(source)
     return True
 
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <typeinfo>
 
+#include "tests/support/refusal.h"
+
 namespace warmjoint {
 namespace {
 
@@ -104,16 +106,13 @@ TEST(Options, AreRefusedWithPlaceNameAndValue) {
       {"gain_range", ":", "lower:upper"},
       {"gain_range", "0:inf", "lower:upper"},
   };
-  for (const auto& [name, value, besides] : wrong) {
-    try {
-      Read({{name, value}});
-      ADD_FAILURE() << name << '=' << value;
-    } catch (const BadInput& refusal) {
-      EXPECT_THAT(refusal.what(),
-                  AllOf(HasSubstr("suite.yaml:7: "), HasSubstr(name), HasSubstr(besides)));
-      if (std::string(name) != "iteration") {
-        EXPECT_THAT(refusal.what(), HasSubstr(std::string("'") + value + "'"));
-      }
+  for (const auto& row : wrong) {
+    const std::string name = row[0], value = row[1];
+    const std::string refusal = test::RefusalOf([&] { Read({{name, value}}); });
+    EXPECT_THAT(refusal, AllOf(HasSubstr("suite.yaml:7: "), HasSubstr(name), HasSubstr(row[2])))
+        << name << '=' << value;
+    if (name != "iteration") {
+      EXPECT_THAT(refusal, HasSubstr("'" + value + "'"));
     }
   }
 }

@@ -99,8 +99,10 @@ def each(rows, program):
     listed = subprocess.run([program, "list", "identifiers", "--format", "json"], capture_output=True, check=True)
     names = [one["name"] for one in json.loads(listed.stdout)]
     for row in rows:
-        for name in names if "{identifier}" in row["run"] else row.get("each", [""]):
-            yield {**row, "run": row["run"].replace("{identifier}", name).replace("{each}", name)}
+        for one in row.get("each", [""]):
+            run = row["run"].replace("{each}", one)
+            for name in names if "{identifier}" in run else [""]:
+                yield {**row, "run": run.replace("{identifier}", name)}
 
 
 def main():

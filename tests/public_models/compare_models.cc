@@ -1,5 +1,3 @@
-#include "tests/public_models/compare_models.h"
-
 #include <fmt/format.h>
 #include <mujoco/mjxmacro.h>
 
@@ -8,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
+
+#include "tests/public_models/robot_trial.h"
 
 namespace warmjoint::test {
 namespace {

@@ -10,7 +10,6 @@
 #include "models/friction/thermal.h"
 #include "sim/model/load_model.h"
 #include "sim/plugin/friction_instance.h"
-#include "tests/public_models/compare_models.h"
 
 namespace warmjoint::test {
 namespace {

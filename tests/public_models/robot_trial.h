@@ -1,6 +1,8 @@
 // One public model put to the test: friction onto all its joints, then heat and rest.
 #pragma once
 
+#include <mujoco/mujoco.h>
+
 #include <filesystem>
 #include <string>
 
@@ -27,5 +29,11 @@ std::string WhyNoRobot(const std::filesystem::path& model);
 /// asymmetric law, levels of 1.5 times the gravity load and a part of the largest one, heat of
 /// -0.3 N.m/W and 20 s. A refusal that offers options of `attach` is followed once.
 Trial TryRobot(const std::filesystem::path& model, FrictionForm form);
+
+/// Number of the arrays of mjModel that differ, bit for bit, though attaching friction should leave
+/// them alone: all but those of actuators, plugins, keyframes' act and ctrl, names and paths, and
+/// the damping and frictionloss that the friction replaces; and, as actuators, what these change: the
+/// effort limits of joints, whether trees sleep. Prints their names to stderr.
+int CountChanges(const mjModel* before, const mjModel* after, FrictionForm form);
 
 }  // namespace warmjoint::test

@@ -1,5 +1,6 @@
 """Logs that the tests share. The program is WARMJOINT_PROGRAM; the package is found by PYTHONPATH, its script is WARMJOINT_SCRIPT."""
 
+import json
 import os
 import pathlib
 import subprocess
@@ -7,16 +8,10 @@ import subprocess
 import numpy as np
 import pytest
 
-SCENARIO = """
-friction:
-  law: viscous_coulomb
-  parameters: {viscous: 5, coulomb: 15}
-  thermal: {thermal_gain: -3, thermal_time_constant: 600}
-motion: {speeds: {uniform: [0.1, 1]}, hold: 20}
-noise: {torque: 0.5}
-sampling: {rate: 1}
-duration: 3600
-"""
+SCENARIO = {"friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, "coulomb": 15},
+                         "thermal": {"thermal_gain": -3, "thermal_time_constant": 600}},
+            "motion": {"speeds": {"uniform": [0.1, 1]}, "hold": 20}, "noise": {"torque": 0.5}, "sampling": {"rate": 1},
+            "duration": 3600}
 
 
 class Program:
@@ -40,7 +35,7 @@ def program(tmp_path_factory):
 @pytest.fixture(scope="session")
 def recording(program):
     """The path of a simulated recording of an hour, viscous 5, coulomb 15, k -3, tau 600 s."""
-    (program.folder / "scenario.yaml").write_text(SCENARIO)
+    (program.folder / "scenario.yaml").write_text(json.dumps(SCENARIO))
     program("simulate", "scenario.yaml", "-o", "log")
     return program.folder / "log/recording.csv"
 

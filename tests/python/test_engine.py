@@ -8,14 +8,10 @@ import subprocess
 import numpy as np
 import pytest
 import warmjoint as wj
+from conftest import SCENARIO
 
 mujoco = pytest.importorskip("mujoco")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-SCENARIO = {"friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, "coulomb": 15},
-                         "thermal": {"thermal_gain": -3, "thermal_time_constant": 600}},
-            "motion": {"speeds": {"uniform": [0.1, 1]}, "hold": 20}, "noise": {"torque": 0.5}, "sampling": {"rate": 1},
-            "duration": 3600}
 
 
 @pytest.mark.skipif("WARMJOINT_SCRIPT" not in os.environ, reason="WARMJOINT_SCRIPT names no script of an installed package")

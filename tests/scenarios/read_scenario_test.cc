@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
 #include <fstream>
 
 #include "tests/support/refusal.h"
 #include "tests/support/table1.h"
+#include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
 namespace {
@@ -128,6 +128,8 @@ TEST(ReadScenario, RefusesSettingsThatCannotBe) {
       {"motion", "{phases: [{speeds: [1], hold: 1}]}", "rest and duration"},
       {"motion", "{phases: [{duration: 5, speeds: [1], travel: [0, 1]}]}", "phases.0.travel"},
       {"motion", "{phases: [{rest: 3}], hold: 5}", "hold"},
+      {"motion", "{fourier: {period: 10, harmonics: 2.5, speed: 1}}",
+       "motion.fourier.harmonics is '2.5'"},
       {"motion", "{corners: []}", "speeds, phases"},
       {"motion", "{corners: [[0, 0, 1]]}", "corners"},
       {"motion", "{corners: [[-1, 0]]}", "motion.corners.0.0 is '-1'"},
@@ -168,18 +170,15 @@ TEST(ReadScenario, AppliesSettings) {
 }
 
 TEST(ReadScenario, ReadsFilesAndTheFrictionFilesBesideThem) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "read_scenario";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "warm.json")
+  const ScratchDirectory folder;
+  std::ofstream(folder.path() / "warm.json")
       << R"({"law": "coulomb", "parameters": {"coulomb": 2}, "gear": 30})";
-  std::ofstream(folder / "short.yaml")
+  std::ofstream(folder.path() / "short.yaml")
       << "friction: warm.json\nmotion: {speeds: [1], hold: 1}\nduration: 10\n";
-  const Scenario scenario = ReadScenario((folder / "short.yaml").string());
+  const Scenario scenario = ReadScenario((folder.path() / "short.yaml").string());
   EXPECT_EQ(scenario.name, "short");
   EXPECT_EQ(scenario.friction.law, "coulomb");
   EXPECT_EQ(scenario.friction.gear, 30);
-  std::filesystem::remove_all(folder);
-
   EXPECT_THROW(ReadScenario("absent.yaml"), BadInput);
 }
 

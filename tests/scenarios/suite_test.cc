@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "models/foundation/bad_input.h"
 #include "scenarios/read_scenario.h"
@@ -38,23 +37,13 @@ constexpr char kMotionLadder[] = R"(ladder:
     travelling: {motion.hold: null, motion.travel: [0, 1]}
 )";
 
-class SuiteFile : public testing::Test {
- protected:
-  Suite Read(const std::string& text) {
-    std::ofstream(path_) << text;
-    return ReadSuite(path_.string());
-  }
-  std::string Refusal(const std::string& text) {
-    return test::RefusalOf([&] { Read(text); });
-  }
-  void TearDown() override { fs::remove(path_); }
+Suite Read(const std::string& text) { return ParseSuite(text, "mine.yaml"); }
 
-  fs::path path_ =
-      fs::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
-};
+std::string Refusal(const std::string& text) {
+  return test::RefusalOf([&] { Read(text); });
+}
 
-TEST_F(SuiteFile, NamesACommandAsAnIdentifier) {
+TEST(SuiteFile, NamesACommandAsAnIdentifier) {
   const std::string entry =
       "identifiers:\n  - {name: mine, command: \"python3 mine.py {recording} {estimate}\",\n"
       "     options: {time_limit: 5}}\n";
@@ -68,9 +57,9 @@ TEST_F(SuiteFile, NamesACommandAsAnIdentifier) {
               HasSubstr(":9: identifiers.0.command is 'a'; it must be absent"));
 }
 
-TEST_F(SuiteFile, IsReadWhole) {
+TEST(SuiteFile, IsReadWhole) {
   const Suite suite = Read(std::string(kScenario) + kIdentifiers);
-  EXPECT_EQ(suite.name, "IsReadWhole");
+  EXPECT_EQ(suite.name, "mine");
   EXPECT_EQ(suite.question, "Does it?");
   EXPECT_EQ(suite.realizations, 7);
   EXPECT_EQ(suite.scenario.seed, 5);
@@ -85,7 +74,7 @@ TEST_F(SuiteFile, IsReadWhole) {
   EXPECT_EQ(suite.identifiers[1].label, "nominal-ls");
 }
 
-TEST_F(SuiteFile, WritesWhatItReads) {
+TEST(SuiteFile, WritesWhatItReads) {
   for (const char* ladder : {"", kNoiseLadder, kMotionLadder}) {
     const Suite suite = Read(std::string(kScenario) + ladder + kIdentifiers);
     const std::string yaml = SuiteToYaml(suite);
@@ -100,7 +89,7 @@ TEST_F(SuiteFile, WritesWhatItReads) {
   }
 }
 
-TEST_F(SuiteFile, ClimbsTheValuesOfItsVariable) {
+TEST(SuiteFile, ClimbsTheValuesOfItsVariable) {
   const Suite suite = Read(std::string(kScenario) + kNoiseLadder + kIdentifiers);
   ASSERT_EQ(suite.variants(), 2);
   EXPECT_EQ(suite.ladder->unit, "N.m");
@@ -111,7 +100,7 @@ TEST_F(SuiteFile, ClimbsTheValuesOfItsVariable) {
   EXPECT_EQ(VariantScenario(suite, 1).seed, 5);
 }
 
-TEST_F(SuiteFile, ChangesTheEntriesOfANamedVariant) {
+TEST(SuiteFile, ChangesTheEntriesOfANamedVariant) {
   const Suite suite = Read(std::string(kScenario) + kMotionLadder + kIdentifiers);
   ASSERT_EQ(suite.variants(), 3);
   EXPECT_EQ(ScenarioToYaml(VariantScenario(suite, 0)), ScenarioToYaml(suite.scenario));
@@ -120,21 +109,21 @@ TEST_F(SuiteFile, ChangesTheEntriesOfANamedVariant) {
   EXPECT_EQ(VariantScenario(suite, 2).motion.hold, 0);
 }
 
-TEST_F(SuiteFile, RefusesWhatCannotBe) {
+TEST(SuiteFile, RefusesWhatCannotBe) {
   const std::string scenario = kScenario, identifiers = kIdentifiers;
   test::ExpectRefused(
-      {{scenario, path_, "'identifiers'"},
-       {identifiers, path_, "'question'"},
-       {scenario + "identifiers: []\n", path_, "identifiers"},
-       {scenario + "  seed: 5\n" + identifiers, path_.string() + ":8", "seed"},
-       {scenario + identifiers + "  - {name: x, label: em-50}\n", path_, "'em-50'"},
-       {scenario + "  noize: {}\n" + identifiers, path_.string() + ":8", "noize"},
-       {scenario + "ladder: {values: [1]}\n" + identifiers, path_, "ladder.variable"},
-       {scenario + "ladder: {unit: s}\n" + identifiers, path_, "ladder"}},
-      [&](const std::string& text) { Read(text); });
+      {{scenario, "mine.yaml", "'identifiers'"},
+       {identifiers, "mine.yaml", "'question'"},
+       {scenario + "identifiers: []\n", "mine.yaml", "identifiers"},
+       {scenario + "  seed: 5\n" + identifiers, "mine.yaml:8", "seed"},
+       {scenario + identifiers + "  - {name: x, label: em-50}\n", "mine.yaml", "'em-50'"},
+       {scenario + "  noize: {}\n" + identifiers, "mine.yaml:8", "noize"},
+       {scenario + "ladder: {values: [1]}\n" + identifiers, "mine.yaml", "ladder.variable"},
+       {scenario + "ladder: {unit: s}\n" + identifiers, "mine.yaml", "ladder"}},
+      [](const std::string& text) { Read(text); });
 }
 
-TEST_F(SuiteFile, RefusesAVariantThatCannotRunBeforeAnythingRuns) {
+TEST(SuiteFile, RefusesAVariantThatCannotRunBeforeAnythingRuns) {
   const std::string ladder = "ladder: {variants: {loud: {noise.torque: -1}}}\n";
   EXPECT_THAT(Refusal(std::string(kScenario) + ladder + kIdentifiers),
               testing::AllOf(HasSubstr(":8: variant 'loud'"), HasSubstr("noise.torque is '-1'")));

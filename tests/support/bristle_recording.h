@@ -10,7 +10,7 @@
 
 namespace warmjoint::test {
 
-/// The joint of slow_recording.h with a bristle that bends by 10 mrad.
+/// The joint of StribeckJoint with a bristle that bends by 10 mrad.
 inline Friction LuGreJoint() {
   return {"lugre",
           {{"viscous", 5},

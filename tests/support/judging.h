@@ -5,6 +5,7 @@
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -127,42 +128,33 @@ inline std::string NameOf(const testing::TestParamInfo<Identifier>& member) {
   return name;
 }
 
-/// Names of the tests that reject, in the order of the table.
-inline std::vector<std::string> Rejected(const Estimate& estimate) {
-  std::vector<std::string> names;
-  for (const Diagnostic& one : estimate.diagnostics) {
-    if (one.rejected) names.push_back(one.test);
-  }
-  return names;
-}
-
 using MakeLog = std::function<Measurements(std::uint64_t)>;
+
+/// In how many realizations the answer is as asked.
+inline int CountAnswers(const std::string& name, const MakeLog& make,
+                        const std::function<bool(const Estimate&)>& asked) {
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
+    count += asked(Answer(name, make(seed)));
+  }
+  return count;
+}
 
 /// How many realizations end with `status`.
 inline int Count(const std::string& name, Status status, const MakeLog& make) {
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
-    count += Answer(name, make(seed)).status == status;
-  }
-  return count;
+  return CountAnswers(name, make, [&](const Estimate& one) { return one.status == status; });
 }
 
 /// In how many realizations a test rejects.
 inline int CountRejected(const std::string& name, const std::string& test, const MakeLog& make) {
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
-    count += Asked(Answer(name, make(seed)), test).rejected;
-  }
-  return count;
+  return CountAnswers(name, make, [&](const Estimate& one) { return Asked(one, test).rejected; });
 }
 
 /// How many realizations have any test that rejects.
 inline int CountAlarms(const std::string& name, const MakeLog& make) {
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
-    count += !Rejected(Answer(name, make(seed))).empty();
-  }
-  return count;
+  return CountAnswers(name, make, [](const Estimate& one) {
+    return std::ranges::any_of(one.diagnostics, &Diagnostic::rejected);
+  });
 }
 
 }  // namespace warmjoint::test

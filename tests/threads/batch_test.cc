@@ -36,35 +36,42 @@ Model Motor() {
                              R"(timestep="0.001" integrator="implicitfast")"));
 }
 
+/// The motor's torque in a step of a simulation, N.m.
+double Torque(int sim, int step) { return 20 * std::sin(0.01 * step + sim); }
+
 /// Controls of every simulation and step, [simulations x steps x 2].
 std::vector<mjtNum> Controls(int first, int steps) {
   std::vector<mjtNum> controls;
   for (int sim = 0; sim < kSimulations; ++sim) {
     for (int i = first; i < first + steps; ++i) {
       controls.push_back(0);
-      controls.push_back(20 * std::sin(0.01 * i + sim));
+      controls.push_back(Torque(sim, i));
     }
   }
   return controls;
+}
+
+std::vector<mjtNum> StateIn(const Data& d) { return {d->act[0], d->act[1], d->qpos[0]}; }
+
+/// Where a simulation ends alone, by mj_step.
+std::vector<mjtNum> EndOf(const Model& m, int sim, int steps) {
+  const Data d(mj_makeData(m.get()));
+  for (int i = 0; i < steps; ++i) {
+    d->ctrl[1] = Torque(sim, i);
+    mj_step(m.get(), d.get());
+  }
+  return StateIn(d);
 }
 
 TEST(PluginBatch, ContinuesBitForBitOnAnyNumberOfThreads) {
   const Model m = Motor();
   const int size = static_cast<int>(mj_stateSize(m.get(), mjSTATE_INTEGRATION));
 
-  // one simulation after the other, by mj_step
-  const std::vector<mjtNum> all = Controls(0, 2 * kHalf);
-  std::vector<mjtNum> expected;
+  // one simulation after the other
+  std::vector<std::vector<mjtNum>> expected;
   for (int sim = 0; sim < kSimulations; ++sim) {
-    const Data d(mj_makeData(m.get()));
-    for (int i = 0; i < 2 * kHalf; ++i) {
-      d->ctrl[1] = all[static_cast<size_t>(2 * (2 * kHalf * sim + i) + 1)];
-      mj_step(m.get(), d.get());
-    }
-    expected.push_back(d->act[0]);
-    expected.push_back(d->act[1]);
-    expected.push_back(d->qpos[0]);
-    EXPECT_LT(d->act[1], -0.01) << "should be warm";
+    expected.push_back(EndOf(m, sim, 2 * kHalf));
+    EXPECT_LT(expected.back()[1], -0.01) << "should be warm";
   }
 
   for (const int threads : {1, 4}) {
@@ -81,34 +88,26 @@ TEST(PluginBatch, ContinuesBitForBitOnAnyNumberOfThreads) {
                 0);
     }
     const Data d(mj_makeData(m.get()));
-    std::vector<mjtNum> got;
     for (int sim = 0; sim < kSimulations; ++sim) {
       mjb_getData(batch.get(), sim, d.get());
-      got.insert(got.end(), {d->act[0], d->act[1], d->qpos[0]});
+      EXPECT_EQ(StateIn(d), expected[static_cast<size_t>(sim)]) << sim << ", " << threads;
     }
-    EXPECT_EQ(got, expected) << threads << " threads";
   }
 }
 
 TEST(PluginThreads, ShareAModelAndMoveAsAlone) {
   const Model m = Motor();
-  const auto trajectory = [&](int seed) {
-    const Data d(mj_makeData(m.get()));
-    for (int i = 0; i < kHalf; ++i) {
-      d->ctrl[1] = 20 * std::sin(0.01 * i + seed);
-      mj_step(m.get(), d.get());
-    }
-    return std::vector<mjtNum>{d->act[0], d->act[1], d->qpos[0]};
-  };
   constexpr int threads = 4;
   std::vector<std::vector<mjtNum>> together(threads);
   {
     std::vector<std::jthread> running;
     for (int k = 0; k < threads; ++k) {
-      running.emplace_back([&, k] { together[static_cast<size_t>(k)] = trajectory(k); });
+      running.emplace_back([&, k] { together[static_cast<size_t>(k)] = EndOf(m, k, kHalf); });
     }
   }
-  for (int k = 0; k < threads; ++k) EXPECT_EQ(together[static_cast<size_t>(k)], trajectory(k)) << k;
+  for (int k = 0; k < threads; ++k) {
+    EXPECT_EQ(together[static_cast<size_t>(k)], EndOf(m, k, kHalf)) << k;
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
-#include <iostream>
 #include <numbers>
 
 #include "identification/holdout/hold_out.h"
@@ -28,9 +27,7 @@ double TestRmse(const Measurements& m, const std::string& name,
   const Identifier& identifier = FindIdentifier(name);
   const Options options = identifier.options.Read(given);
   const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4).metrics;
-  if (!held) return kInfinity;
-  std::cout << name << ": " << held->rmse << " N rms on the last 40 %\n";
-  return held->rmse;
+  return held ? held->rmse : kInfinity;
 }
 
 // one unit of the last digit of published figures, which another selection of samples moves
@@ -57,7 +54,6 @@ TEST(Emps, PositionForEachDirectionBeatsTheAsymmetricLawOnTheTestPart) {
 TEST(Emps, RipplesFourTimesATurnOfTheScrew) {
   WARMJOINT_NEED_SHARED(test::kEmpsFile);
   const Estimate estimate = test::Fitted("motor-ridge", Emps());
-  std::cout << estimate.message << "\n";
   // 2.50 mm, strongest in both directions
   EXPECT_THAT(estimate.message, ContainsRegex("v > 0: [0-9.]+ N at 4 a turn"));
   EXPECT_THAT(estimate.message, ContainsRegex("v < 0: [0-9.]+ N at 4 a turn"));

@@ -3,8 +3,6 @@
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
 
-#include <iostream>
-
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -30,13 +28,6 @@ Reached Reach(const SuiteIdentifier& entry, const Simulation& recording) {
   Reached reached;
   if (estimate.metrics) reached.in_sample = estimate.metrics->rmse;
   if (held) reached.held_out = held->rmse;
-
-  // ours beside the paper's
-  std::cout << (entry.label.empty() ? entry.name : entry.label) << ": RMSE " << reached.in_sample
-            << ", held out " << reached.held_out << " N.m";
-  if (entry.claim)
-    std::cout << "; " << entry.claim->source << ": " << entry.claim->figures.at("rmse");
-  std::cout << "\n";
   return reached;
 }
 
@@ -61,7 +52,6 @@ TEST(TableTwo, IsReachedInItsOrderAndAboutItsSize) {
   }
   // the map that fades with heat reaches the noise
   const double noise = recording.truth.torque_noise;
-  std::cout << "noise " << noise << " N.m\n";
   EXPECT_LT(reached[3].in_sample, reached[2].in_sample);
   EXPECT_LT(reached[3].held_out, reached[2].held_out);
   EXPECT_NEAR(reached[3].in_sample, noise, 0.05 * noise);

@@ -4,12 +4,6 @@
 #include "models/friction/friction_json.h"
 #include "tests/fuzz/fuzz.h"
 
-namespace {
-
-using namespace warmjoint;
-
-}  // namespace
-
 void warmjoint::fuzz::Read(std::string_view bytes) {
   AttributeTexts given;
   while (!bytes.empty()) {

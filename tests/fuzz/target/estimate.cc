@@ -6,12 +6,6 @@
 #include "models/foundation/node.h"
 #include "tests/fuzz/fuzz.h"
 
-namespace {
-
-using namespace warmjoint;
-
-}  // namespace
-
 void warmjoint::fuzz::Read(std::string_view bytes) {
   const Place place{"fuzz.json"};
   const Estimate estimate = EstimateFrom(ParseJsonNode(std::string(bytes), place.file));

@@ -3,12 +3,6 @@
 
 #include "tests/fuzz/fuzz.h"
 
-namespace {
-
-using namespace warmjoint;
-
-}  // namespace
-
 void warmjoint::fuzz::Read(std::string_view bytes) {
   const Suite suite = ParseSuite(std::string(bytes), "fuzz.yaml");
   fuzz::Require(suite.realizations >= 1 && suite.variants() >= 1 && !suite.identifiers.empty());

@@ -2,12 +2,6 @@
 #include "models/robots/robot_folder.h"
 #include "tests/fuzz/fuzz.h"
 
-namespace {
-
-using namespace warmjoint;
-
-}  // namespace
-
 void warmjoint::fuzz::Read(std::string_view bytes) {
   const fuzz::ScratchFile file(bytes);
   const auto robot = ReadUrdf(file.path());

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
 
+#include <algorithm>
 #include <iterator>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "identification/forward/log_trajectory.h"
@@ -62,6 +65,13 @@ TEST(Auto, FindsTwoLevelsBesideASmallFall) {
   EXPECT_EQ(estimate.friction->law, "asymmetric_stribeck") << estimate.message;
 }
 
+/// What came of a structure that auto lists; nothing where it does not.
+std::optional<StructureTrial> TrialOf(const Estimate& estimate, const std::string& name) {
+  const auto& trials = estimate.choice->trials;
+  const auto found = std::ranges::find(trials, name, &StructureTrial::name);
+  return found == trials.end() ? std::nullopt : std::optional(*found);
+}
+
 TEST(Auto, SaysWhyAndListsWhatItTried) {
   const Estimate estimate = AnswerTo(test::RecordHour(test::TableOne(), 1));
   EXPECT_EQ(estimate.identifier, "auto");
@@ -70,10 +80,8 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb");
   const auto dropped = [&](const std::string& name) {
-    for (const StructureTrial& one : estimate.choice->trials) {
-      if (one.name == name) return one.dropped;
-    }
-    return std::string("not tried");
+    const auto trial = TrialOf(estimate, name);
+    return trial ? trial->dropped : "not tried";
   };
   EXPECT_EQ(dropped("energy-ml law=viscous_coulomb"), "");
   EXPECT_THAT(dropped("energy-ml law=asymmetric"),
@@ -86,11 +94,7 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
 TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
   const auto tried = [](const Friction& joint) {
     const Estimate estimate = AnswerTo(test::RecordHour(joint, 1));
-    for (const StructureTrial& one : estimate.choice->trials) {
-      if (one.name == "energy-ml gravity=sincos law=viscous_coulomb") return one.parameters > 0;
-    }
-    ADD_FAILURE() << "not told";
-    return false;
+    return TrialOf(estimate, "energy-ml gravity=sincos law=viscous_coulomb").value().parameters > 0;
   };
   EXPECT_FALSE(tried(test::Cold()));
   EXPECT_TRUE(tried(test::TableOne()));
@@ -103,15 +107,6 @@ TEST(Auto, TakesALawWithoutSlopeWhereThereIsOneSpeed) {
   ASSERT_TRUE(estimate.friction) << estimate.message;
   EXPECT_EQ(estimate.friction->law, "coulomb");
   EXPECT_TRUE(estimate.friction->thermal.has_value());
-}
-
-TEST(Auto, FindsGravity) {
-  Measurements m = test::RecordHour(test::TableOne(), 1);
-  m.torque.array() += 4 * m.position.array().sin() + 2 * m.position.array().cos();
-  const Estimate estimate = AnswerTo(m);
-  ASSERT_TRUE(estimate.choice);
-  EXPECT_EQ(estimate.choice->chosen, "energy-ml gravity=sincos law=viscous_coulomb");
-  EXPECT_TRUE(estimate.gravity.has_value());
 }
 
 /// A warming joint with ripple over its position, which carries a weight of so many N.m.

@@ -3,8 +3,6 @@
 #include <warmjoint/prepared_log.h>
 
 #include "identification/forward/log_trajectory.h"
-#include "identification/identifiers/identifier_list.h"
-#include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/select.h"
 #include "tests/support/bristle_recording.h"
 #include "tests/support/judging.h"
@@ -96,23 +94,6 @@ TEST(Lugre, LetsIntervalsGrowWithTheSamplingError) {
     const Estimate estimate = test::Fitted("lugre", Moving(m));
     ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
     test::ExpectTold(estimate, TruthOf(), 4, 0.1);
-  }
-}
-
-TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
-  const Measurements m = test::RecordBristle(test::LuGreJoint(), test::TurningMotion(200, 5), 200,
-                                             100, kInertia, 0.5, 5);
-  const Estimate estimate = AnswerTo(m);
-  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-  const Selection steady = SteadySamples(
-      IdentifierInput(Moving(m), StribeckIdentifier().options, {}).Through(View::raw), 0.01);
-  const Estimate other = test::Fitted("stribeck", Prepare(m, steady));
-  ASSERT_EQ(other.status, Status::ok) << other.message;
-  for (const char* name : {"viscous", "coulomb", "static", "stribeck_velocity"}) {
-    const EstimatedParameter &one = *estimate.Find(name), &two = *other.Find(name);
-    // the second has a part of the samples of the first; a hundredth for bristles still bending
-    EXPECT_NEAR(one.value, two.value, 4 * *two.std + 0.01 * two.value) << name;
-    EXPECT_LT(*two.std, 0.1 * two.value) << name;
   }
 }
 

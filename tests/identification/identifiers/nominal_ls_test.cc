@@ -52,15 +52,6 @@ TEST(NominalLs, ReproducesTheGoldenSolutions) {
   EXPECT_NEAR(squares / (240 - 2), variance, 1e-9 * variance);
 }
 
-TEST(NominalLs, RecoversAnExactLawWithoutError) {
-  const Estimate estimate = FitLaw(Steps({0.2, -0.5, 1.0, -1.0}), "viscous_coulomb");
-  EXPECT_EQ(estimate.status, Status::ok);
-  EXPECT_NEAR(estimate.Find("viscous")->value, 2, 1e-12);  // rounding of a 2 x 2 problem
-  EXPECT_NEAR(estimate.Find("coulomb")->value, 7, 1e-12);
-  EXPECT_EQ(estimate.friction->law, "viscous_coulomb");
-  EXPECT_EQ(estimate.friction->parameters.at("coulomb"), estimate.Find("coulomb")->value);
-}
-
 TEST(NominalLs, SaysThatAnUnseenDirectionIsNotIdentifiable) {
   const Estimate estimate = FitLaw(Steps({0.2, 1.0}), "asymmetric");
   EXPECT_EQ(estimate.status, Status::not_identifiable);
@@ -79,16 +70,6 @@ TEST(NominalLs, CallsUnusableDataBad) {
   constant.torque.setConstant(4);
   EXPECT_EQ(FitLaw(constant, "coulomb").status, Status::bad_data);
   EXPECT_EQ(FitLaw(Steps({0.0}), "coulomb").status, Status::bad_data);
-}
-
-TEST(NominalLs, GivesNoFrictionWhereTheLawForbidsTheValue) {
-  Measurements falling = Steps({0.2, -0.5, 1.0, -1.0});
-  falling.torque -= 3 * falling.velocity;
-  const Estimate estimate = FitLaw(falling, "viscous_coulomb");
-  EXPECT_EQ(estimate.status, Status::inadequate_model);
-  EXPECT_THAT(estimate.message,
-              HasSubstr("viscous is -1 N.m.s/rad, below its bound 0, with its whole 95 %"));
-  EXPECT_FALSE(estimate.friction);
 }
 
 TEST(NominalLs, CarriesTheUnitOfALoggedCurrent) {

@@ -72,13 +72,9 @@ TEST(Rls, TakesGravityOffTheHeat) {
   EXPECT_NEAR(online.Find("coulomb")->value, 15, 1e-6);
 }
 
-Measurements TableOneRecording(std::uint64_t seed) {
-  return test::RecordHour(test::TableOne(), seed);
-}
-
 TEST(Kalman, ComesToTheMaximumLikelihood) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Measurements m = TableOneRecording(seed);
+    const Measurements m = test::RecordHour(test::TableOne(), seed);
     const Estimate filtered = test::Fitted("kalman", m);
     const Estimate likely = test::Fitted("energy-ml", m);
     ASSERT_EQ(filtered.status, Status::ok) << filtered.message;
@@ -94,7 +90,7 @@ TEST(Kalman, ComesToTheMaximumLikelihood) {
 TEST(Kalman, HoldsTheTruthInItsIntervals) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    const Estimate estimate = test::Fitted("kalman", TableOneRecording(seed));
+    const Estimate estimate = test::Fitted("kalman", test::RecordHour(test::TableOne(), seed));
     for (const auto& [name, truth] : test::TruthOf(test::TableOne())) {
       ASSERT_TRUE(estimate.Find(name)->interval95) << estimate.message;
       held += test::Holds(estimate, name, truth);
@@ -106,7 +102,8 @@ TEST(Kalman, HoldsTheTruthInItsIntervals) {
 }
 
 TEST(Kalman, GivesNoIntervalsAfterOnePass) {
-  const Estimate once = test::Fitted("kalman", TableOneRecording(3), {{"passes", "1"}});
+  const Estimate once =
+      test::Fitted("kalman", test::RecordHour(test::TableOne(), 3), {{"passes", "1"}});
   EXPECT_THAT(once.message, HasSubstr("intervals need more than one pass"));
   // about twice the Cramer-Rao bound, 11 s of tau; five of these
   EXPECT_NEAR(once.Find("thermal_time_constant")->value, 600, 110);
@@ -116,7 +113,7 @@ TEST(Kalman, GivesNoIntervalsAfterOnePass) {
 }
 
 TEST(Kalman, KnowsTheEnergyOnTheWay) {
-  const Measurements m = TableOneRecording(7);
+  const Measurements m = test::RecordHour(test::TableOne(), 7);
   const Estimate estimate = test::Fitted("kalman", m);
   const Prediction truth = PredictFriction(test::TableOne(), LogSamples(m));
   ASSERT_EQ(estimate.trace.size(), 50u);
@@ -134,21 +131,6 @@ TEST(Kalman, SaysThatAColdJointShowsNoWarming) {
   const Estimate estimate = test::Fitted("kalman", test::RecordHour(test::Cold(), 5));
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("no warm-up can be seen"));
-}
-
-TEST(Kalman, AgreesWithRlsThatIsToldTheWarming) {
-  const Measurements m = TableOneRecording(9);
-  const Estimate filtered = test::Fitted("kalman", m);
-  const auto text = [&](const char* name) { return std::to_string(filtered.Find(name)->value); };
-  const Estimate told = test::Fitted("rls", m,
-                                     {{"forgetting", "1"},
-                                      {"thermal_gain", text("thermal_gain")},
-                                      {"thermal_time_constant", text("thermal_time_constant")}});
-  // rls takes the losses from the noisy torque: within the joint fit's deviation
-  for (const char* name : {"viscous", "coulomb"}) {
-    EXPECT_NEAR(filtered.Find(name)->value, told.Find(name)->value, *filtered.Find(name)->std)
-        << name;
-  }
 }
 
 }  // namespace

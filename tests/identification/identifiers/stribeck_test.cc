@@ -40,14 +40,6 @@ TEST(Stribeck, HoldsTheTruthInItsIntervals) {
   }
 }
 
-TEST(Stribeck, FindsTwoLevelsExactlyWhereThereIsNoNoise) {
-  for (const Friction& joint :
-       {test::TwoLevelStribeckJoint(), Warm(test::TwoLevelStribeckJoint())}) {
-    // iterative optimisers (golden/README)
-    test::ExpectFound(AnswerOf(joint, 2000, 0, 5), test::TruthOf(joint), 1e-6);
-  }
-}
-
 TEST(Stribeck, SaysThatOneDirectionCannotTellTwoLevels) {
   const Eigen::VectorXd forwards = test::SlowAndFast(4000, 7).cwiseAbs();
   const Estimate estimate =
@@ -56,15 +48,6 @@ TEST(Stribeck, SaysThatOneDirectionCannotTellTwoLevels) {
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message,
               AllOf(HasSubstr("coulomb_negative"), HasSubstr("in both directions")));
-}
-
-TEST(Stribeck, FindsTheWarmingToo) {
-  const Friction warm = Warm(StribeckJoint());
-  const Estimate estimate = AnswerOf(warm, 6000, 0.3, 3);
-  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-  ASSERT_TRUE(estimate.friction && estimate.friction->thermal);
-  test::ExpectTold(estimate, test::TruthOf(warm), 5);
-  EXPECT_NEAR(estimate.metrics->rmse, 0.3, 0.3 * 5 / std::sqrt(2 * 6000.0));
 }
 
 TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {

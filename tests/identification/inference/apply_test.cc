@@ -8,12 +8,10 @@
 #include <algorithm>
 #include <array>
 
-#include "identification/answer/identify.h"
 #include "identification/fit_parameters.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/inference/bounds.h"
 #include "identification/preparation/select.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -132,13 +130,6 @@ struct Judged {
   }
 };
 
-TEST(BeyondBounds, GivesTheFrictionOfValuesWithinTheirBounds) {
-  Judged judged("viscous_coulomb", {0, 2});
-  EXPECT_TRUE(judged.Judge().gives_friction);
-  EXPECT_EQ(judged.inference.message, "fitted");
-  EXPECT_TRUE(judged.inference.warnings.empty());
-}
-
 TEST(BeyondBounds, VoidsWhatWasNotHeldAtItsBound) {
   // with a part of the interval within, and without an interval
   Judged judged("viscous_coulomb", {-0.05, 2});
@@ -148,15 +139,6 @@ TEST(BeyondBounds, VoidsWhatWasNotHeldAtItsBound) {
   for (ParameterInterval& one : unknown.inference.parameters) one.interval95.reset();
   EXPECT_EQ(unknown.Judge().status, Status::inadequate_model);
   EXPECT_FALSE(unknown.inference.gives_friction);
-}
-
-TEST(BeyondBounds, VoidsTheFitWhoseIntervalIsWhollyOutside) {
-  Judged judged("viscous_coulomb", {0.5, -2});
-  EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
-  EXPECT_FALSE(judged.inference.parameters[1].interval95);
-  EXPECT_THAT(judged.inference.message, HasSubstr("coulomb is -2 N.m, below its bound 0"));
-  EXPECT_TRUE(judged.inference.warnings.empty());
-  EXPECT_FALSE(judged.inference.gives_friction);
 }
 
 TEST(BeyondBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
@@ -175,28 +157,25 @@ TEST(BeyondBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
 TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
   Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
-  const Identifier& identifier = FindIdentifier("nominal-ls");
   int held = 0, voided = 0, covered = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Measurements m =
         test::RecordFriction(friction, 1, test::AlternatingSpeeds(400, seed), 0.5, seed);
-    const Selection selection = SelectMoving(m);
-    const PreparedLog log = Prepare(m, selection);
-    const Estimate estimate = IdentifyUnchecked(identifier, {log, identifier.options, {}});
+    const PreparedLog log = Prepare(m, SelectMoving(m));
+    const Estimate estimate = test::Fitted("nominal-ls", log);
     voided += estimate.status == Status::inadequate_model;
     if (estimate.status != Status::ok) continue;
     ASSERT_TRUE(estimate.friction);
     const EstimatedParameter &viscous = *estimate.Find("viscous"),
                              &coulomb = *estimate.Find("coulomb");
     EXPECT_GE((*viscous.interval95)[0], viscous.value > 0 ? -1 : 0);
-    covered += (*coulomb.interval95)[0] <= 15 && 15 <= (*coulomb.interval95)[1];
+    covered += test::Holds(estimate, "coulomb", 15);
     if (viscous.value > 0) continue;
     ++held;
 
     // the other is that of the law without the parameter, but for what colour and unevenness of the noise seem to tell;
     // the fitted torque, too
-    const Estimate other =
-        IdentifyUnchecked(identifier, {log, identifier.options.Read({{"law", "coulomb"}}), {}});
+    const Estimate other = test::Fitted("nominal-ls", log, {{"law", "coulomb"}});
     EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 0.2 * *coulomb.std);
     EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-4 * other.metrics->rmse);
   }

@@ -10,12 +10,9 @@
 #include <numbers>
 #include <string>
 
-#include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/fitted_model.h"
-#include "identification/lack_of_fit/rounding.h"
 #include "models/foundation/random_stream.h"
-#include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"
 #include "tests/support/vectors.h"
 
@@ -28,16 +25,24 @@ constexpr int kLogs = 10;
 // of 10, where 90 % are asked for: fewer come once in 78 times
 constexpr int kMost = 7;
 
+/// The moves of an assumption; empty where it is not made.
+ParameterMoves MovesOf(const Estimate& estimate, const std::string& name) {
+  const auto found = std::ranges::find(estimate.assumptions, name, &Assumption::name);
+  return found == estimate.assumptions.end() ? ParameterMoves{} : found->moves;
+}
+
+double Move(const ParameterMoves& moves, const std::string& name) {
+  return std::ranges::find(moves, name, &ParameterMoves::value_type::first)->second;
+}
+
 /// Whether intervals that reach as far as the assumption moves them hold the truth of Table I.
 bool Reaches(const Estimate& estimate, const std::string& name) {
-  const auto assumption = std::ranges::find(estimate.assumptions, name, &Assumption::name);
-  if (assumption == estimate.assumptions.end()) return false;
+  const ParameterMoves moves = MovesOf(estimate, name);
+  if (moves.empty()) return false;
   return std::ranges::all_of(test::TruthOf(test::TableOne()), [&](const auto& truth) {
     const EstimatedParameter* one = estimate.Find(truth.first);
-    const auto move =
-        std::ranges::find(assumption->moves, truth.first, &ParameterMoves::value_type::first);
     if (!one->interval95) return true;
-    const double reach = std::abs(move->second);
+    const double reach = std::abs(Move(moves, truth.first));
     const auto [lower, upper] = *one->interval95;
     return lower - reach <= truth.second && truth.second <= upper + reach;
   });
@@ -98,16 +103,6 @@ TEST(LeftOpen, LetsIntervalsHoldTheTruthBesideADriftThatATestSees) {
 }
 
 constexpr double kDegrees = 180 / std::numbers::pi;  // in a radian
-
-/// The moves of an assumption; empty where it is not made.
-ParameterMoves MovesOf(const Estimate& estimate, const std::string& name) {
-  const auto found = std::ranges::find(estimate.assumptions, name, &Assumption::name);
-  return found == estimate.assumptions.end() ? ParameterMoves{} : found->moves;
-}
-
-double Move(const ParameterMoves& moves, const std::string& name) {
-  return std::ranges::find(moves, name, &ParameterMoves::value_type::first)->second;
-}
 
 TEST(OtherUnits, ReachWhatALogInDegreesHides) {
   Measurements m = test::RecordHour(test::TableOne(), 1);

@@ -120,16 +120,6 @@ TEST(Judge, FindsTheStribeckCurve) {
   EXPECT_GE(CountRejected("nominal-ls", "speed", curve), kNearlyAll);
 }
 
-TEST(Judge, FindsThatDirectionsDiffer) {
-  Measurements m = RecordHour(Cold(), 1);
-  m.torque.array() += 3;
-  const Estimate estimate = Answer("nominal-ls", m);
-  EXPECT_EQ(estimate.status, kInadequate);
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on direction"));
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("law=asymmetric"));
-  EXPECT_EQ(Answer("nominal-ls", m, {{"law", "asymmetric"}}).status, Status::ok);
-}
-
 TEST(Judge, MeasuresHarmBesideTheFrictionAlone) {
   // a curve over speed beside 17 N.m of friction, and beside gravity that is six times as large
   for (const double gravity : {0.0, 100.0}) {
@@ -218,15 +208,10 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   EXPECT_NEAR(parts["noise"] + parts["findings"], 0.5 * (wide[1] - wide[0]), 1e-9);
 }
 
-/// An hour whose velocity is in revolutions a minute.
-Measurements HourInRpm() {
+TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
+  // revolutions a minute
   Measurements m = test::RecordHour(test::TableOne(), 1);
   m.velocity *= 60 / (2 * std::numbers::pi);
-  return m;
-}
-
-TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
-  const Measurements m = HourInRpm();
   const PreparedLog log = Prepare(m, SelectConstantSpeed(m));
   for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
     const Estimate estimate = Answer(name, log);
@@ -235,19 +220,6 @@ TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
     EXPECT_FALSE(estimate.friction) << name;
     for (const EstimatedParameter& one : estimate.parameters) EXPECT_FALSE(one.interval95) << name;
   }
-}
-
-TEST(FaultyLog, ShowsItsNumbersByForce) {
-  const Measurements m = HourInRpm();
-  const Identifier& identifier = FindIdentifier("nominal-ls");
-  const IdentifierInput input{Prepare(m, SelectConstantSpeed(m)), identifier.options, {}};
-  const auto answer = FitAndCheck(identifier, input);
-  ASSERT_EQ(answer.inferred.status, Status::ok);
-  const Estimate shown =
-      WithVoidNumbers(identifier, input, answer, ReportAnswer(identifier, input, answer));
-  EXPECT_EQ(shown.status, Status::bad_data);
-  EXPECT_TRUE(shown.Find("viscous")->interval95);
-  EXPECT_THAT(shown.message, HasSubstr("all numbers are void"));
 }
 
 }  // namespace

@@ -62,13 +62,6 @@ Measurements Ramped(double rate, double duration, std::uint64_t seed) {
   return test::RecordFriction(test::Cold(), 1 / rate, velocity, 0.3, seed);
 }
 
-TEST(TestLag, FindsAFilter) {
-  // first order, 2 s at 1 Hz
-  const Estimate estimate = Answer("energy-ml", Filtered(RecordHour(test::TableOne(), 1), 2));
-  EXPECT_EQ(estimate.status, kInadequate);
-  EXPECT_TRUE(Asked(estimate, "lag").rejected);
-}
-
 TEST(TestLag, FindsFiltersBehindRampsAtAnyRate) {
   for (const double rate : {20.0, 50.0, 200.0, 1000.0}) {
     for (const double T : {0.1, 0.3}) {

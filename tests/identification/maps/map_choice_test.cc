@@ -56,8 +56,9 @@ TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Rippled rippled(seed);
-    ASSERT_EQ(rippled.estimate.friction_at_speeds.size(), 6u) << rippled.estimate.message;
-    for (const FrictionAtSpeed& one : rippled.estimate.friction_at_speeds) {
+    const auto& at_speeds = rippled.estimate.friction_at_speeds;
+    ASSERT_EQ(at_speeds.size(), 6u) << rippled.estimate.message;
+    for (const FrictionAtSpeed& one : at_speeds) {
       const double truth = rippled.TruthAt(one.speed);
       EXPECT_NEAR(one.value, truth, 0.02) << one.speed;
       EXPECT_EQ(one.speed_unit + ", " + one.unit, "rad/s, N.m");
@@ -66,8 +67,15 @@ TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
       ++all;
     }
     // known to the noise of the 1500 samples at this speed, where the constant itself is not known at all
-    EXPECT_LT(rippled.estimate.friction_at_speeds[1].std, 2 * 0.1 / std::sqrt(1500));
+    EXPECT_LT(at_speeds[1].std, 2 * 0.1 / std::sqrt(1500));
     EXPECT_FALSE(rippled.estimate.Find("coulomb")->interval95);
+
+    // a low speed, the median and a high one of each direction
+    EXPECT_NEAR(at_speeds[0].speed, 0.31, 0.01);
+    EXPECT_NEAR(at_speeds[2].speed, 0.83, 0.01);
+    EXPECT_GT(at_speeds[1].speed, 0.31);
+    EXPECT_LT(at_speeds[1].speed, 0.83);
+    EXPECT_NEAR(at_speeds[3].speed, -0.31, 0.01);
   }
   EXPECT_GT(held, 0.9 * all);
 }
@@ -94,16 +102,6 @@ TEST(FrictionAtSpeeds, IsThatOfThePlacesWhereTheJointMovedSo) {
     EXPECT_LT(one.std, 0.02);
   }
   EXPECT_FALSE(estimate.Find("viscous")->interval95);
-}
-
-TEST(FrictionAtSpeeds, AreALowTheMedianAndAHighOneOfEachDirection) {
-  const Estimate estimate = Rippled(1).estimate;
-  ASSERT_EQ(estimate.friction_at_speeds.size(), 6u);
-  EXPECT_NEAR(estimate.friction_at_speeds[0].speed, 0.31, 0.01);
-  EXPECT_NEAR(estimate.friction_at_speeds[2].speed, 0.83, 0.01);
-  EXPECT_GT(estimate.friction_at_speeds[1].speed, 0.31);
-  EXPECT_LT(estimate.friction_at_speeds[1].speed, 0.83);
-  EXPECT_NEAR(estimate.friction_at_speeds[3].speed, -0.31, 0.01);
 }
 
 constexpr double kTurn = 2 * std::numbers::pi;  // rad

@@ -122,13 +122,6 @@ Measurements Filtered(Measurements log, double time_constant) {
   return log;
 }
 
-TEST(PathAgainstVelocity, LeavesAVelocityThatThePositionsConfirm) {
-  const Measurements log = Ramped();
-  const PreparedLog prepared = Prepare(log);
-  EXPECT_THAT(prepared.warnings(), IsEmpty());
-  EXPECT_EQ(prepared.raw().measurements.velocity, log.velocity);
-}
-
 TEST(PathAgainstVelocity, BelievesTheColumnWhereTheClockJitters) {
   // 0.6 s of jitter at 1 Hz: by their stamps alone some positions tell speeds that are 13 % too low
   int contradicted = 0;

@@ -9,7 +9,6 @@ namespace warmjoint {
 namespace {
 
 using Eigen::Index;
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
@@ -83,14 +82,6 @@ TEST(Join, LeavesOutAColumnThatOneLacks) {
   EXPECT_THAT(joined.notes, ElementsAre(HasSubstr("load is left out")));
   EXPECT_EQ(joined.temperature->head(300), *with.temperature);
   EXPECT_EQ(joined.temperature->tail(200), *without.temperature);
-}
-
-TEST(Join, SaysWhichRecordingHasAFault) {
-  const Measurements good = Recording("good", 900, 1, 0, 1);
-  Measurements scaled = Recording("scaled", 900, 1, 0, 2);
-  scaled.velocity *= 2;
-  EXPECT_THAT(Prepare(std::vector{good, scaled}).faults(),
-              ElementsAre(AllOf(HasSubstr("scaled: "), HasSubstr("velocity is 2 times"))));
 }
 
 TEST(Join, RefusesAnotherUnitAndNothing) {

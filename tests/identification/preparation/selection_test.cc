@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "identification/preparation/select.h"
 #include "models/foundation/random_stream.h"
-#include "tests/support/shared_data.h"
 
 namespace warmjoint {
 namespace {
@@ -95,14 +95,6 @@ TEST(SelectConstantSpeed, KeepsEverySampleBetweenJumps) {
     EXPECT_EQ(selection.count(), selection.keep.size()) << step;
     EXPECT_EQ(selection.segments.size(), 40U) << step;
   }
-}
-
-TEST(SelectConstantSpeed, KeepsEverySampleOfTheGoldenData) {
-  const nlohmann::json& golden = test::Golden()["dataset"];
-
-  Motion motion{golden["h"], golden["v"], {}};
-  const Selection selection = SelectConstantSpeed(motion.Log());
-  EXPECT_EQ(selection.count(), (motion.Log().velocity.array() != 0).count());
 }
 
 TEST(SelectConstantSpeed, KeepsNeighboursOfAlmostOneSpeed) {

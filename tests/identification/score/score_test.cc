@@ -149,10 +149,6 @@ TEST(NormalisedParameterError, IsWhatAHandMakesOfThreeParameters) {
       std::sqrt(0.05));
 }
 
-TEST(NormalisedParameterError, CountsAMissingParameterAsAWholeError) {
-  EXPECT_EQ(NormalisedParameterError(Eigen::Vector2d(5, 0), Eigen::Vector2d(5, -3)), 1);
-}
-
 TEST(Metrics, ReproduceTheGoldenIndicators) {
   const nlohmann::json& golden = test::Golden().at("indicators");
   const int d = golden.at("d");

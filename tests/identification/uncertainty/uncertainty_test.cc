@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "identification/fit_data.h"
 #include "identification/linear/least_squares.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/noise_model.h"
@@ -55,22 +56,17 @@ TEST(Uncertainty, IntervalsHoldTheTruthUnderColouredNoiseWithRests) {
 /// deviation 0.2 + 2 x^2, x over -1 to 1 in turn, autoregressive with a pole.
 Eigen::Vector2d CoverageUneven(double pole) {
   constexpr Eigen::Index n = 2000;
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
   Eigen::MatrixXd A(n, 2);
   for (Eigen::Index i = 0; i < n; ++i)
     A.row(i) << 1, std::abs(static_cast<double>(i % 400) / 200 - 1);
   const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
+  const Eigen::ArrayXd deviation = 0.2 + 2 * A.col(1).array().square();
   Eigen::Vector2d covered = Eigen::Vector2d::Zero();
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    RandomStream random({seed, 0}, Stream::test);
-    Eigen::VectorXd y(n);
-    double noise = random.Normal();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      noise = pole * noise + std::sqrt(1 - pole * pole) * random.Normal();
-      y[i] = (0.2 + 2 * std::pow(A(i, 1), 2)) * noise;
-    }
+    const Eigen::VectorXd y = deviation * Coloured(n, pole, seed).array();
     const Eigen::VectorXd x = cofactor * (A.transpose() * y);
-    const Uncertainty known = EstimateCovariance(A, cofactor, y - A * x, all, 20 * A.col(1));
+    const Uncertainty known =
+        EstimateCovariance(A, cofactor, y - A * x, warmjoint::AllOf(n), 20 * A.col(1));
     EXPECT_GT(known.uneven, 0);
     const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
     for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
@@ -93,9 +89,8 @@ TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {
     A.row(i) << 1, random.Normal();
     residual[i] = random.Normal();
   }
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(400, true), {}};
   const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
-  const Uncertainty known = EstimateCovariance(A, cofactor, residual, all);
+  const Uncertainty known = EstimateCovariance(A, cofactor, residual, warmjoint::AllOf(400));
   EXPECT_EQ(known.noise.order(), 0);
   EXPECT_EQ(known.degrees_of_freedom, 398);
   EXPECT_EQ(known.covariance, residual.squaredNorm() / 398 * cofactor);
@@ -106,7 +101,7 @@ constexpr int kSamples = 20;  // of a segment
 
 Selection Segments(int count) {
   const Eigen::Index n = count * kSamples;
-  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
+  Selection selection = warmjoint::AllOf(n);
   for (int g = 0; g < count; ++g) {
     selection.segments.push_back({g * kSamples, (g + 1) * kSamples, 1});
   }
@@ -160,18 +155,9 @@ TEST(FewSegments, LeaveIntervalsThatHoldTheTruth) {
 }
 
 Selection Keep(Eigen::Index n, Eigen::Index gap) {
-  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
+  Selection selection = warmjoint::AllOf(n);
   for (Eigen::Index i = 0; gap > 0 && i < n; ++i) selection.keep[i] = i / gap % 2 == 0;
   return selection;
-}
-
-Eigen::VectorXd KeptOf(const Eigen::VectorXd& all, const Selection& selection) {
-  Eigen::VectorXd kept(selection.count());
-  Eigen::Index row = 0;
-  for (Eigen::Index i = 0; i < all.size(); ++i) {
-    if (selection.keep[i]) kept[row++] = all[i];
-  }
-  return kept;
 }
 
 TEST(NoiseModel, TakesWhiteNoiseForWhite) {
@@ -186,7 +172,7 @@ TEST(NoiseModel, TakesWhiteNoiseForWhite) {
 TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
   for (Eigen::Index gap : {0, 300}) {
     const Selection selection = Keep(20000, gap);
-    const NoiseModel noise = FitNoise(KeptOf(Coloured(20000, 0.9, 7), selection), selection);
+    const NoiseModel noise = FitNoise(Kept(Coloured(20000, 0.9, 7), selection), selection);
     ASSERT_GE(noise.order(), 1) << gap;
     // standard deviation of a pole: sqrt((1 - 0.81) / 10000) = 0.0044
     EXPECT_NEAR(noise.correlation, 0.9, 4 * 0.0044) << gap;
@@ -200,12 +186,10 @@ TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
 /// turn: by hand its variance is s^2 / (n + n), of which a half comes from either.
 Uncertainty Penalised(const PenalisedFit& fit, const Eigen::MatrixXd& jacobian,
                       const Eigen::VectorXd& residual) {
-  Selection all;
-  all.keep = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(residual.size(), true);
   const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
     return jacobian.middleRows(first, last - first);
   };
-  return PenalisedCovariance(fit, rows, residual, all);
+  return PenalisedCovariance(fit, rows, residual, warmjoint::AllOf(residual.size()));
 }
 
 TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {

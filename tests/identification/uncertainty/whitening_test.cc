@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/fit_data.h"
 #include "tests/support/coloured_noise.h"
 
 namespace warmjoint {
@@ -64,10 +65,6 @@ Measurements Log(Eigen::Index n) {
   return m;
 }
 
-Selection All(Eigen::Index n) {
-  return {Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
-}
-
 TEST(Whitening, MakesNoiseOfNeighboursWhite) {
   // 1e-12: rounding of a few products of numbers near 4
   EXPECT_LT(LeftOfColour(SecondOrder(), {0, 1, 2, 3, 4, 5, 6, 7}), 1e-12);
@@ -87,7 +84,7 @@ TEST(Whitening, PlacesSamplesByTheirTime) {
   // samples that were put in between, gaps, the start of a recording
   LogSamples m(Log(8));
   m.time << 0, 0.1, 0.15, 0.2, 0.7, 0.8, 0.9, 1.0;
-  Selection selection = All(8);
+  Selection selection = warmjoint::AllOf(8);
   selection.keep[2] = false;
   EXPECT_THAT(PlacesInTime(m, selection), ElementsAre(0, 1, 2, 7, 8, 9, 10));
   m.further_starts = {6};
@@ -102,11 +99,11 @@ TEST(Whitening, IsForNoiseThatIsColouredBeyondDoubt) {
   const LogSamples m(Log(1000));
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     // by chance in one of two million
-    EXPECT_FALSE(WhiteningFor(Coloured(1000, 0, seed), m, All(1000))) << seed;
+    EXPECT_FALSE(WhiteningFor(Coloured(1000, 0, seed), m, warmjoint::AllOf(1000))) << seed;
   }
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     // n ln(1 / (1 - 0.09)) = 94, where 5 deviations and 60 orders ask for 33 of one order
-    EXPECT_TRUE(WhiteningFor(Coloured(1000, 0.3, seed), m, All(1000))) << seed;
+    EXPECT_TRUE(WhiteningFor(Coloured(1000, 0.3, seed), m, warmjoint::AllOf(1000))) << seed;
   }
 }
 

@@ -1,12 +1,10 @@
 #include "models/friction/along_motion.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "models/friction/friction_json.h"
-#include "models/friction/laws.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {
@@ -84,15 +82,6 @@ Friction Rich(Friction friction) {
   friction.maps = {over_position, over_motor};
   CheckFriction(friction, {"rich"});
   return friction;
-}
-
-/// Where and how two columns differ; "" where they do not, in any bit.
-std::string Difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  if (a.size() != b.size()) return "sizes";
-  for (Index i = 0; i < a.size(); ++i) {
-    if (a[i] != b[i]) return fmt::format("{} at {}: {} and {}", i, a[i], b[i], a[i] - b[i]);
-  }
-  return "";
 }
 
 void ExpectClose(const Eigen::VectorXd& value, const Eigen::VectorXd& expected,
@@ -223,19 +212,7 @@ JointTrajectory OneDirection() {
   return trajectory;
 }
 
-TEST(AlongMotion, IsTheStepOfThePluginBitForBitAtCoulombFriction) {
-  Friction friction{"coulomb", {{"coulomb", 6}}, Thermal{-0.8, 40}};
-  friction.second_thermal = Thermal{-0.2, 9};
-  friction.level_per_temperature = -0.02;
-  const JointTrajectory trajectory = OneDirection();
-  const Prediction p = AlongMotion(friction).Predict(trajectory),
-                   stepped = Stepped(friction, trajectory);
-  EXPECT_EQ(Difference(p.force, stepped.force), "");
-  EXPECT_EQ(Difference(p.loss, stepped.loss), "");
-  EXPECT_EQ(Difference(p.energy, stepped.energy), "");
-}
-
-TEST(AlongMotion, IsTheStepOfThePluginWhereTheirSumsRoundApart) {
+TEST(AlongMotion, IsTheStepOfThePlugin) {
   const JointTrajectory trajectory = OneDirection();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
@@ -249,67 +226,25 @@ TEST(AlongMotion, IsTheStepOfThePluginWhereTheirSumsRoundApart) {
   }
 }
 
-/// Calls f.operator()<L>() for every law of the list.
-template <typename... L, typename F>
-void ForEachLaw(LawList<L...>, const F& f) {
-  (f.template operator()<L>(), ...);
-}
-
 TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
   // at a speed and a level that are constant from sample to sample both are exact
-  int laws = 0;
-  ForEachLaw(AllLaws{}, [&laws]<typename L>() {
-    if constexpr (LawWithBristle<L>) {
-      ++laws;
-      Friction friction = SomeFriction(*FindLaw(L::name));
-      friction.load_gain = 0.15;
-      JointTrajectory trajectory = EvenTrajectory(0.01, Eigen::VectorXd::Constant(60, 0.05));
-      trajectory.velocity[0] = -0.05;
-      trajectory.load = Eigen::VectorXd::Constant(60, -3);
-      const Prediction p = AlongMotion(friction).Predict(trajectory);
-      JointFriction joint(friction);
-      joint.SetTimestep(0.01);
-      FrictionState state{p.bristle[1]};
-      for (Index i = 2; i < 60; ++i) {
-        state = joint.Step(state, {.velocity = 0.05, .inertia = 1e6, .load = -3}).next;
-        // rounding of 60 steps at 6 N.m
-        EXPECT_NEAR(p.bristle[i], state.bristle, 1e-13) << L::name << i;
-      }
-      EXPECT_GT(p.bristle[59], p.bristle[2] + 1) << L::name << " bends on the way";
-    }
-  });
-  EXPECT_GE(laws, 3) << "dahl, lugre, asymmetric_lugre";
-}
-
-TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {
-  // the plugin's kernel at 0.1 ms, sampled at 100 Hz: turns, ramps and wobbles below sliding
-  for (const char* law : {"dahl", "lugre"}) {
-    Friction friction = test::LuGreJoint();
-    if (law == std::string("dahl")) {
-      friction.law = law;
-      friction.parameters = {{"coulomb", 15}, {"bristle_stiffness", 2000}};
-    }
-    friction.thermal = Thermal{-3, 5};
-    friction.second_thermal = Thermal{-0.5, 2};
-    const Measurements m =
-        test::RecordBristle(friction, test::TurningMotion(60, 3), 60, 100, 0, 0, 3);
-    const JointTrajectory trajectory{m.time, m.velocity};
+  for (const Law& law : Laws()) {
+    if (!HasBristle(law)) continue;
+    Friction friction = SomeFriction(law);
+    friction.load_gain = 0.15;
+    JointTrajectory trajectory = EvenTrajectory(0.01, Eigen::VectorXd::Constant(60, 0.05));
+    trajectory.velocity[0] = -0.05;
+    trajectory.load = Eigen::VectorXd::Constant(60, -3);
     const Prediction p = AlongMotion(friction).Predict(trajectory);
-    const double root = std::sqrt(static_cast<double>(m.size()));
-    const double error = (p.force - m.torque).norm() / root;
-
-    // steady sliding along the same motion, as a law without hidden state would have it
-    const JointFriction joint(friction);
-    Eigen::VectorXd steady(m.size());
-    for (Index i = 0; i < m.size(); ++i) {
-      steady[i] = joint.SlidingForce(m.velocity[i], {0, p.energy[i]});
+    JointFriction joint(friction);
+    joint.SetTimestep(0.01);
+    FrictionState state{p.bristle[1]};
+    for (Index i = 2; i < 60; ++i) {
+      state = joint.Step(state, {.velocity = 0.05, .inertia = 1e6, .load = -3}).next;
+      // rounding of 60 steps at 6 N.m
+      EXPECT_NEAR(p.bristle[i], state.bristle, 1e-13) << law.name << i;
     }
-    const double steady_error = (steady - m.torque).norm() / root;
-    // second order in the step of 10 ms, in which the wobble at 4 Hz travels as far as a tenth of
-    // what the bristle bends; at 25 Hz the error is 12 times as large
-    EXPECT_LT(error, 0.005 * m.torque.norm() / root) << law;
-    EXPECT_GT(steady_error, 20 * error) << law;
-    EXPECT_EQ(p.first_driving, m.size());
+    EXPECT_GT(p.bristle[59], p.bristle[2] + 1) << law.name << " bends on the way";
   }
 }
 
@@ -342,19 +277,6 @@ TEST(AlongMotion, BendsTheBristleAsTheTorqueTells) {
   EXPECT_NEAR(bent.force[0], 3, 1e-12);
   // ds/dx = sigma0 (1 - s / 15), 1 mrad on; rounding of a hundred steps
   EXPECT_NEAR(bent.force[100], 15 - 12 * std::exp(-2000 * 0.001 / 15), 1e-12);
-}
-
-TEST(AlongMotion, LowersTheLevelThatABristleBendsAgainstAsItWarms) {
-  // at one speed, long slid: F = kc + E, and W = F |v|, whatever the stiffness
-  const Friction dahl{"dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, Thermal{-3, 60}};
-  const Friction coulomb{"coulomb", {{"coulomb", 15}}, Thermal{-3, 60}};
-  const JointTrajectory trajectory = EvenTrajectory(0.1, Eigen::VectorXd::Constant(6000, 0.4));
-  const Prediction bristle = AlongMotion(dahl).Predict(trajectory);
-  const Prediction steady = AlongMotion(coulomb).Predict(trajectory);
-  // s trails its level by dE/dx / sigma0 times it: 15 3 0.4 15 / 60 / 0.4 / 2000 N.m at first
-  EXPECT_LT((bristle.force - steady.force).cwiseAbs().maxCoeff(), 0.15);
-  EXPECT_NEAR(bristle.force[5999], steady.force[5999], 1e-9);
-  EXPECT_LT(bristle.energy[5999], -6);
 }
 
 TEST(AlongMotion, JumpsWhereItIsToldAndCoolsFromThere) {
@@ -414,7 +336,7 @@ TEST(AlongMotion, ChangesTheSlopeWithTheHeat) {
   EXPECT_NEAR(AlongMotion(friction).Predict(trajectory, {-4}).force[0], 1.5 + 11, 1e-14);
 }
 
-TEST(AlongMotion, TellsTheFirstSampleWhereFrictionFeedsItself) {
+TEST(AlongMotion, FindsTheFirstSampleWhereFrictionDrivesTheJoint) {
   // above 1 rad/s for minutes, then slow: E = -3 v F0 / (1 + 3 v) exceeds 15 + 5 * 0.05 in size
   Eigen::VectorXd velocity(4000);
   velocity << Eigen::VectorXd::Constant(3000, 2.0), Eigen::VectorXd::Constant(1000, 0.05);

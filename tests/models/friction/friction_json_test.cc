@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/models/recording/temporary_file.h"
 #include "tests/support/refusal.h"
 
 namespace warmjoint {
@@ -24,45 +25,12 @@ std::string RefusalOf(const json& object) {
   return test::RefusalOf([&] { FrictionFrom({Tree(object), "robot.json"}); });
 }
 
-/// What becomes of the example, and what refuses that.
-struct Changed {
-  const char* patch;  // a JSON merge patch
-  const char* refusal;
-};
-
-void ExpectRefused(const std::vector<Changed>& rows) {
-  for (const Changed& one : rows) {
-    json object = Example();
-    object.merge_patch(json::parse(one.patch));
-    EXPECT_THAT(RefusalOf(object), HasSubstr(one.refusal)) << one.patch;
-  }
-}
-
-TEST(FrictionJson, SurvivesARoundTrip) {
-  EXPECT_EQ(json(FrictionToTree(FrictionFrom({Tree(Example()), "robot.json"}))), Example());
-}
-
 TEST(FrictionJson, IsReadFromAnEstimateOrByItself) {
-  const std::string path = testing::TempDir() + "/friction.json";
+  const TemporaryFile given("friction.json");
   for (const json& file : {Example(), json{{"identifier", "energy-ml"}, {"friction", Example()}}}) {
-    WriteWholeFile(path, file.dump(2));
-    EXPECT_EQ(ReadFriction(path).parameters.at("coulomb"), 15.0);
+    WriteWholeFile(given.path(), file.dump(2));
+    EXPECT_EQ(ReadFriction(given.path()).parameters.at("coulomb"), 15.0);
   }
-  std::filesystem::remove(path);
-}
-
-TEST(FrictionJson, NamesTheLineThatIsNotJson) {
-  const std::string path = testing::TempDir() + "/broken.json";
-  WriteWholeFile(path, "{\n\"law\": \"coulomb\",\n}\n");
-  EXPECT_THAT(test::RefusalOf([&] { ReadFriction(path); }),
-              HasSubstr("broken.json:3: is not JSON"));
-  std::filesystem::remove(path);
-}
-
-TEST(FrictionJson, RefusesUnknownNamesWithTheNearest) {
-  ExpectRefused({{R"({"law": "viscos_coulomb"})", "did you mean 'viscous_coulomb'?"},
-                 {R"({"parameters": {"colomb": 1}})", "did you mean 'coulomb'?"},
-                 {R"({"termal": 1})", "did you mean 'thermal'?"}});
 }
 
 TEST(FrictionJson, TakesDefaultsForWhatMayBeLeftOut) {
@@ -72,21 +40,9 @@ TEST(FrictionJson, TakesDefaultsForWhatMayBeLeftOut) {
   EXPECT_EQ(FrictionFrom({Tree(object), "robot.json"}).parameters.at("stribeck_exponent"), 2);
 }
 
-TEST(FrictionJson, RefusesALevelAtRestBelowThatOfSliding) {
+TEST(FrictionJson, SurvivesARoundTripWithAndWithoutAllItsParts) {
   json object = Example();
-  object["law"] = "asymmetric_stribeck";
-  object["parameters"] = {{"viscous", 5.0},
-                          {"coulomb_positive", 15.0},
-                          {"coulomb_negative", 12.0},
-                          {"static_rise", 3.0},
-                          {"stribeck_velocity", 0.1}};
-  EXPECT_EQ(RefusalOf(object), "accepted");
-  object["parameters"]["static_rise"] = -1;
-  EXPECT_THAT(RefusalOf(object), HasSubstr("static_rise is -1; it must be a finite number from 0"));
-}
-
-TEST(FrictionJson, SurvivesARoundTripWithAllItsParts) {
-  json object = Example();
+  EXPECT_EQ(json(FrictionToTree(FrictionFrom({Tree(object), "robot.json"}))), object);
   object["thermal"]["second"] = {{"thermal_gain", -1.0}, {"thermal_time_constant", 20.0}};
   object["load_gain"] = 0.1;
   object["level_per_temperature"] = -0.2;
@@ -102,36 +58,49 @@ TEST(FrictionJson, SurvivesARoundTripWithAllItsParts) {
   EXPECT_EQ(json(FrictionToTree(FrictionFrom({Tree(object), "robot.json"}))), object);
 }
 
-TEST(FrictionJson, RefusesPartsThatMakeNoSenseTogether) {
-  ExpectRefused(
-      {{R"({"thermal": null, "level_per_temperature": -0.1})",
-        "level_per_temperature needs thermal"},
-       {R"({"thermal": null, "viscous_per_energy": -0.1})", "viscous_per_energy needs thermal"},
-       {R"({"thermal": null, "maps": [{"weights": [0.5, 0.25],
+TEST(FrictionJson, RefusesWhatIsUnknownImpossibleOrMakesNoSenseTogether) {
+  // what becomes of the example, a JSON merge patch, and what refuses that
+  const std::vector<std::pair<const char*, const char*>> rows{
+      // names
+      {R"({"law": "viscos_coulomb"})", "did you mean 'viscous_coulomb'?"},
+      {R"({"parameters": {"colomb": 1}})", "did you mean 'coulomb'?"},
+      {R"({"termal": 1})", "did you mean 'thermal'?"},
+      // parts that belong together
+      {R"({"thermal": null, "level_per_temperature": -0.1})",
+       "level_per_temperature needs thermal"},
+      {R"({"thermal": null, "viscous_per_energy": -0.1})", "viscous_per_energy needs thermal"},
+      {R"({"thermal": null, "maps": [{"weights": [0.5, 0.25],
             "axes": [{"quantity": "energy", "centres": [-1, 0], "width": 1}]}]})",
-        "a map over energy needs thermal"},
-       {R"({"viscous_per_energy": -0.1})", "their signs must differ"},
-       {R"({"level_per_temperature": 0.1})", "losses would cool the joint"},
-       {R"({"law": "coulomb", "parameters": {"viscous": null}, "viscous_per_energy": 0.1})",
-        "law coulomb has no viscous"},
-       {R"({"load_gain": -1})", "load_gain is '-1'"},
-       {R"({"maps": [{"weights": [0.5, 0.25],
+       "a map over energy needs thermal"},
+      {R"({"viscous_per_energy": -0.1})", "their signs must differ"},
+      {R"({"level_per_temperature": 0.1})", "losses would cool the joint"},
+      {R"({"law": "coulomb", "parameters": {"viscous": null}, "viscous_per_energy": 0.1})",
+       "law coulomb has no viscous"},
+      {R"({"load_gain": -1})", "load_gain is '-1'"},
+      {R"({"maps": [{"weights": [0.5, 0.25],
             "axes": [{"quantity": "motor_position", "centres": [0, 3], "width": 1, "period": 6}]}]})",
-        "has the period 6; the motor's angle lies on a circle"}});
-}
-
-TEST(FrictionJson, RefusesImpossibleValues) {
-  ExpectRefused({{R"({"parameters": {"coulomb": -1}})", "robot.json: coulomb is -1"},
-                 {R"({"parameters": {"coulomb": null}})", "lacks its parameter coulomb"},
-                 {R"({"thermal": {"thermal_time_constant": 0}})",
-                  "thermal.thermal_time_constant is '0'; it must be a number above 0"},
-                 {R"({"law": "stribeck", "parameters": {"static": 14, "stribeck_velocity": 0.1}})",
-                  "static is 14; it must be at least coulomb, 15"},
-                 {R"({"law": "stribeck", "parameters": {"static": 16, "stribeck_velocity": 0.1,
+       "has the period 6; the motor's angle lies on a circle"},
+      // values
+      {R"({"parameters": {"coulomb": -1}})", "robot.json: coulomb is -1"},
+      {R"({"parameters": {"coulomb": null}})", "lacks its parameter coulomb"},
+      {R"({"thermal": {"thermal_time_constant": 0}})",
+       "thermal.thermal_time_constant is '0'; it must be a number above 0"},
+      {R"({"law": "stribeck", "parameters": {"static": 14, "stribeck_velocity": 0.1}})",
+       "static is 14; it must be at least coulomb, 15"},
+      {R"({"law": "stribeck", "parameters": {"static": 16, "stribeck_velocity": 0.1,
             "stribeck_exponent": 11}})",
-                  "stribeck_exponent is 11"},
-                 {R"({"thermal": {"thermal_gain": "much"}})", "thermal.thermal_gain is 'much'"},
-                 {R"({"gear": 0})", "gear is 0"}});
+       "stribeck_exponent is 11"},
+      {R"({"law": "asymmetric_stribeck", "parameters": {"coulomb": null,
+            "coulomb_positive": 15, "coulomb_negative": 12, "static_rise": -1,
+            "stribeck_velocity": 0.1}})",
+       "static_rise is -1; it must be a finite number from 0"},
+      {R"({"thermal": {"thermal_gain": "much"}})", "thermal.thermal_gain is 'much'"},
+      {R"({"gear": 0})", "gear is 0"}};
+  for (const auto& [patch, refusal] : rows) {
+    json object = Example();
+    object.merge_patch(json::parse(patch));
+    EXPECT_THAT(RefusalOf(object), HasSubstr(refusal)) << patch;
+  }
   EXPECT_THAT(RefusalOf(json::array()), HasSubstr("must be a map"));
 }
 

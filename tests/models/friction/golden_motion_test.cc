@@ -49,12 +49,8 @@ TEST(GoldenMotion, IsWhatTheForwardModelTendsToForLawsWithABristle) {
     EXPECT_LT(error, 2 * 0.005 * most_heat) << name;
     EXPECT_NEAR(ErrorOfEvery(golden, 2) / error, 2, 0.5) << name;
     EXPECT_LT(error, 0.002 * Largest(golden.force)) << name;
-  }
-}
 
-TEST(GoldenMotion, BendsTheBristleOfTheForwardModelFromRest) {
-  for (const char* name : {"dahl", "lugre", "asymmetric_lugre"}) {
-    const test::GoldenMotion golden = test::ReadGoldenMotion(name);
+    // the bristle is bent from rest
     const Prediction p = AlongMotion(golden.friction).Predict(golden.trajectory);
     EXPECT_EQ(p.bristle[0], 0) << name;
     EXPECT_LT(Largest(p.bristle - golden.bristle), 0.002 * Largest(golden.bristle)) << name;

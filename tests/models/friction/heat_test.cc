@@ -19,23 +19,6 @@ void ExpectClose(double value, double expected) {
   EXPECT_NEAR(value, expected, kClosedForm * std::abs(expected));
 }
 
-/// E over time at a constant speed, by Eqs. (19)-(22). nominal: Fn, N.m; feedback: whether W sees
-/// E.
-struct ConstantSpeed {
-  double speed;
-  double nominal;
-  DiscreteThermal thermal;
-
-  double Energy(int steps) const {
-    double energy = 0;
-    for (int i = 0; i < steps; ++i) {
-      const double loss = Loss(speed, WarmForce(speed, nominal, energy));
-      energy = ThermalStep(thermal.gain, thermal.pole, energy, loss);
-    }
-    return energy;
-  }
-};
-
 TEST(Thermal, DiscretisesAsTheGoldenPairs) {
   const auto& golden = test::Golden()["c2d"];
   const auto check = [](const nlohmann::json& inp, double ke, double te) {
@@ -66,31 +49,18 @@ TEST(Thermal, StepFollowsTheGoldenFilter) {
   }
 }
 
-TEST(Thermal, WarmsAtConstantSpeedAsTheClosedForm) {
-  const auto& golden = test::Golden()["constant_speed"];
-  const ConstantSpeed run{golden["v"], 5 * double(golden["v"]) + 15, {golden["ke"], golden["te"]}};
-  for (size_t i = 1; i < golden["k"].size(); ++i) {
-    // a recursion of n steps rounds n times
-    const int steps = golden["k"][i];
-    const double expected = golden["E_closed"][i];
-    EXPECT_NEAR(run.Energy(steps), expected, (kClosedForm + 1e-15 * steps) * std::abs(expected));
-  }
-}
-
 TEST(Thermal, SettlesWhereTheContinuousFormulaSays) {
   // E settles at k v F0 / (1 - k v), whatever the step (paper, feedback of W through E)
   const double v = 0.5, k = -3, nominal = 17.5;
   for (double h : {0.001, 1.0, 15.0}) {
-    const ConstantSpeed run{v, nominal, Discretise({k, 600}, h)};
-    const int steps = static_cast<int>(20 * 240 / h);
-    EXPECT_NEAR(run.Energy(steps), k * v * nominal / (1 - k * v), 1e-6);
+    const DiscreteThermal thermal = Discretise({k, 600}, h);
+    double energy = 0;
+    for (int i = 0; i < 20 * 240 / h; ++i) {
+      const double loss = Loss(v, WarmForce(v, nominal, energy));
+      energy = ThermalStep(thermal.gain, thermal.pole, energy, loss);
+    }
+    EXPECT_NEAR(energy, k * v * nominal / (1 - k * v), 1e-6);
   }
-}
-
-TEST(Thermal, HoldsSteadyAtRest) {
-  const DiscreteThermal pair = Discretise({-3, 600}, 1.0);
-  EXPECT_EQ(ThermalStep(pair.gain, pair.pole, 0.0, Loss(0.0, WarmForce(0.0, 0.0, 0.0))), 0);
-  EXPECT_EQ(WarmForce(0.0, 0.0, -4.0), 0) << "sign(0) = 0: energy costs nothing at rest";
 }
 
 TEST(Thermal, KnowsWhenFrictionPushes) {
@@ -134,16 +104,7 @@ TEST(Heat, FeedsBothStagesWithTheSameLoss) {
   EXPECT_NEAR(second, -2, 1e-14);
 }
 
-TEST(Heat, LeavesColdJointsAsTheyAre) {
-  Friction friction = TwoStages();
-  friction.thermal.reset();
-  friction.second_thermal.reset();
-  const Heat heat = DiscretiseHeat(friction, 1);
-  EXPECT_EQ(heat.First(-4, {100}), -4);
-  EXPECT_EQ(heat.Second(0, {100}), 0);
-}
-
-Friction Asymmetric(double gain) {
+Friction AsymmetricFriction(double gain) {
   return {"asymmetric",
           {{"viscous", 2}, {"coulomb_positive", 5}, {"coulomb_negative", 7}},
           Thermal{gain, 30}};
@@ -152,7 +113,7 @@ Friction Asymmetric(double gain) {
 TEST(SettledEnergy, IsTheClosedFormOfALawAlone) {
   for (const double gain : {-0.3, -5.0, 0.2}) {
     for (const auto& [v, force] : {std::pair(0.7, 2 * 0.7 + 5), std::pair(-0.7, 2 * 0.7 + 7)}) {
-      const auto energy = SettledEnergy(Asymmetric(gain), v);
+      const auto energy = SettledEnergy(AsymmetricFriction(gain), v);
       ASSERT_TRUE(energy);
       ASSERT_EQ(energy->size(), 1u);
       const double k = gain * std::abs(v);
@@ -163,7 +124,7 @@ TEST(SettledEnergy, IsTheClosedFormOfALawAlone) {
 }
 
 TEST(SettledEnergy, IsWhereTwoStagesEndUp) {
-  Friction friction = Asymmetric(-0.2);
+  Friction friction = AsymmetricFriction(-0.2);
   friction.second_thermal = Thermal{-0.1, 300};
   friction.viscous_per_energy = 0.05;
   const auto energy = SettledEnergy(friction, 0.9);
@@ -181,7 +142,7 @@ TEST(SettledEnergy, IsWhereTwoStagesEndUp) {
 }
 
 TEST(SettledEnergy, AveragesAMapOverTheMotorsTurn) {
-  Friction friction = Asymmetric(-0.3);
+  Friction friction = AsymmetricFriction(-0.3);
   friction.gear = 50;
   FrictionMap ripple;
   ripple.axes = {{MapQuantity::motor_position, CircleAxis(2 * std::numbers::pi, 12)}};
@@ -194,15 +155,12 @@ TEST(SettledEnergy, AveragesAMapOverTheMotorsTurn) {
   EXPECT_NEAR(energy->front(), k * (2 * 0.5 + 5 + 1) / (1 - k), 1e-9);
 }
 
-TEST(SettledEnergy, IsNoneWithoutHeatAndNothingWhereLossesGrowForEver) {
-  Friction cold = Asymmetric(-1);
+TEST(SettledEnergy, IsZeroAtRestNoneWithoutHeatAndNothingWhereLossesGrowForEver) {
+  EXPECT_EQ(SettledEnergy(AsymmetricFriction(-0.3), 0), std::vector<double>{0});
+  Friction cold = AsymmetricFriction(-1);
   cold.thermal.reset();
   EXPECT_EQ(SettledEnergy(cold, 1), std::vector<double>{});
-  EXPECT_EQ(SettledEnergy(Asymmetric(2), 0.5), std::nullopt);
-}
-
-TEST(SettledEnergy, IsZeroAtRest) {
-  EXPECT_EQ(SettledEnergy(Asymmetric(-0.3), 0), std::vector<double>{0});
+  EXPECT_EQ(SettledEnergy(AsymmetricFriction(2), 0.5), std::nullopt);
 }
 
 }  // namespace

@@ -21,8 +21,6 @@ const std::vector<double> kVelocities{-2, -0.5, -1e-9, 0, 1e-9, 0.3, 1.7};  // r
 
 class EveryLaw : public testing::TestWithParam<Law> {};
 
-TEST_P(EveryLaw, IsFoundByName) { EXPECT_EQ(FindLaw(GetParam().name)->force, GetParam().force); }
-
 TEST_P(EveryLaw, HasACompleteTable) {
   std::set<std::string_view> names;
   for (const ParameterInfo& info : GetParam().parameters) {
@@ -40,7 +38,7 @@ TEST_P(EveryLaw, HasACompleteTable) {
 TEST_P(EveryLaw, MeansTheSameByANameAsEveryOtherLaw) {
   const auto row = [](const ParameterInfo& info) {
     return std::tuple(info.symbol, info.unit.rotary, info.unit.linear, info.lower, info.upper,
-                      info.default_value, info.meaning, info.given);
+                      info.default_value, info.meaning, info.given, info.part);
   };
   for (const Law& other : Laws()) {
     for (const ParameterInfo& theirs : other.parameters) {
@@ -147,10 +145,10 @@ TEST(Laws, FallFromTheStaticLevelToCoulombOverTheStribeckVelocity) {
   }
 }
 
-TEST(Laws, UnknownNameIsNull) { EXPECT_EQ(FindLaw("stribek"), nullptr); }
-
 TEST(LawPart, IsALevelInEveryLawAndAnythingElseAtMostOnce) {
+  EXPECT_EQ(PartOf("thermal_gain"), LawPart::other) << "which no law has";
   for (const Law& law : Laws()) {
+    for (const ParameterInfo& info : law.parameters) EXPECT_EQ(PartOf(info.name), info.part);
     EXPECT_TRUE(PlaceOf(LawPart::level, law)) << law.name;
     for (const LawPart part :
          {LawPart::slope, LawPart::rest_level, LawPart::rest_rise, LawPart::bristle}) {
@@ -159,14 +157,6 @@ TEST(LawPart, IsALevelInEveryLawAndAnythingElseAtMostOnce) {
     }
   }
 }
-
-TEST(LawPart, IsTheSameForANameInEveryLaw) {
-  for (const Law& law : Laws()) {
-    for (const ParameterInfo& info : law.parameters) EXPECT_EQ(PartOf(info.name), info.part);
-  }
-}
-
-TEST(LawPart, IsOtherForWhatNoLawHas) { EXPECT_EQ(PartOf("thermal_gain"), LawPart::other); }
 
 TEST(LawPart, TellsTheSlopeOfEveryForce) {
   for (const Law& law : Laws()) {

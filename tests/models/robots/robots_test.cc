@@ -12,18 +12,10 @@
 namespace warmjoint {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::DoubleNear;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::ThrowsMessage;
-
-std::vector<std::string> Names(const std::vector<RobotInfo>& robots) {
-  std::vector<std::string> names;
-  for (const RobotInfo& robot : robots) names.push_back(robot.name);
-  return names;
-}
 
 const RobotInfo& Find(const std::vector<RobotInfo>& robots, const std::string& name) {
   return *std::find_if(robots.begin(), robots.end(),
@@ -31,22 +23,8 @@ const RobotInfo& Find(const std::vector<RobotInfo>& robots, const std::string& n
 }
 
 TEST(Robots, AreTheFoldersOfModelsRobots) {
-  EXPECT_THAT(Names(Robots()),
+  EXPECT_THAT(RobotNames(),
               IsSupersetOf({"irb140_like", "linear_axis", "pendulum", "rotary", "yumi_like"}));
-}
-
-TEST(Robots, NameTheJointsFromTheBaseOutwards) {
-  const std::vector<RobotInfo> robots = Robots();
-  std::vector<std::string> joints;
-  for (const RobotJoint& joint : Find(robots, "yumi_like").joints) joints.push_back(joint.name);
-  EXPECT_THAT(joints, testing::ElementsAre("joint_1", "joint_2", "joint_7", "joint_3", "joint_4",
-                                           "joint_5", "joint_6"));
-}
-
-TEST(Robots, TellLinearJointsFromRotaryOnes) {
-  const std::vector<RobotInfo> robots = Robots();
-  EXPECT_EQ(Find(robots, "linear_axis").joints.at(0).kind, JointKind::linear);
-  EXPECT_EQ(Find(robots, "pendulum").joints.at(0).kind, JointKind::rotary);
 }
 
 TEST(Robots, HoldTheFrictionOfOneNamedJoint) {
@@ -61,15 +39,9 @@ TEST(Robots, HoldTheFrictionOfOneNamedJoint) {
               DoubleNear(2 * -3.1648, 1e-12));
 }
 
-TEST(RobotFolder, ListsAndFindsTheRobotsOfTheProject) {
-  EXPECT_THAT(RobotNames(), Contains("rotary"));
-  for (const std::string& name : RobotNames()) {
-    EXPECT_TRUE(std::filesystem::is_regular_file(FindRobot(name, "test"))) << name;
-  }
-}
-
-TEST(RobotFolder, TakesAPathAsItIs) {
+TEST(RobotFolder, FindsARobotByItsNameAndTakesAPathAsItIs) {
   const std::filesystem::path file = FindRobot("rotary", "test");
+  EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
   EXPECT_EQ(FindRobot(file.string(), "test"), file);
 }
 
@@ -86,35 +58,20 @@ TEST(RobotFolder, RefusesADataFolderWithoutRobots) {
   unsetenv("WARMJOINT_DATA");
 }
 
-TEST(ReadUrdf, GivesLinksAndJoints) {
-  const TemporaryFile file("robot.urdf",
-                           "<robot name='r'><link name='a'/><link name='b'/>"
-                           "<joint name='j' type='continuous'><parent link='a'/>"
-                           "<child link='b'/></joint></robot>");
-  EXPECT_EQ(ReadUrdf(file.path())->getJoint("j")->child_link_name, "b");
-}
-
-TEST(ReadUrdf, NamesFileAndJointOfAJointWithoutLimits) {
-  const TemporaryFile file("robot.urdf",
-                           "<robot name='r'><link name='a'/><link name='b'/>"
-                           "<joint name='elbow' type='revolute'><parent link='a'/>"
-                           "<child link='b'/></joint></robot>");
-  EXPECT_THAT([&] { ReadUrdf(file.path()); },
-              ThrowsMessage<BadInput>(AllOf(HasSubstr(file.path()), HasSubstr("elbow"))));
-}
-
-TEST(ReadUrdf, RefusesWhatIsNoXml) {
-  const TemporaryFile file("robot.urdf", "joints, links\n");
-  EXPECT_THAT([&] { ReadUrdf(file.path()); },
-              ThrowsMessage<BadInput>(HasSubstr("cannot be used as URDF")));
-}
-
-TEST(ReadUrdf, RefusesDepthThatWouldEndItsParser) {
+TEST(ReadUrdf, RefusesWhatIsNoRobotByItsFile) {
+  const std::string no_limits =
+      "<robot name='r'><link name='a'/><link name='b'/>"
+      "<joint name='elbow' type='revolute'><parent link='a'/><child link='b'/></joint></robot>";
+  // depth that would end its parser
   std::string deep = "<robot name='r'>\n";
   for (int i = 0; i < 200'000; ++i) deep += "<a>";
-  const TemporaryFile file("robot.urdf", deep);
-  EXPECT_THAT([&] { ReadUrdf(file.path()); },
-              ThrowsMessage<BadInput>(HasSubstr(":2: nests deeper than 500 elements")));
+  for (const auto& [text, named] :
+       {std::pair(no_limits, "elbow"),
+        std::pair(std::string("joints, links\n"), "cannot be used as URDF"),
+        std::pair(deep, ":2: nests deeper than 500 elements")}) {
+    const TemporaryFile file("robot.urdf", text);
+    test::ExpectNames(test::RefusalOf([&] { ReadUrdf(file.path()); }), file.path(), named);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A friction that any link of some grams can carry, for tests of attaching.
+// A friction that any link of some grams can carry, and a mesh, for tests of models.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -8,6 +8,10 @@
 #include <vector>
 
 namespace warmjoint::test {
+
+/// A mesh of four triangles, OBJ.
+inline constexpr char kTetrahedron[] =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 inline Friction LightFriction() { return {"coulomb", {{"coulomb", 0.5}}, Thermal{-0.1, 60}}; }
 

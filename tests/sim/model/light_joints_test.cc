@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 #include <warmjoint/attach.h>
 
-#include <ostream>
 #include <regex>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/model/friction_actuator.h"
 #include "sim/model/spec_elements.h"
+#include "tests/sim/plugin/friction_models.h"
 #include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
 
@@ -19,14 +18,20 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A friction, printed by the name of its law.
-struct Case {
-  Friction friction;
-};
-void PrintTo(const Case& of, std::ostream* stream) { *stream << of.friction.law; }
+/// Frictions that the light joints of LightJoints do not carry at 2 ms.
+const Friction kFrictions[] = {{"coulomb", {{"coulomb", 6}}, {}},
+                               {"viscous_coulomb", {{"coulomb", 0}, {"viscous", 30}}, {}},
+                               {"lugre",
+                                {{"coulomb", 1},
+                                 {"static", 1},
+                                 {"viscous", 0},
+                                 {"stribeck_velocity", 0.1},
+                                 {"bristle_stiffness", 1e5},
+                                 {"bristle_damping", 10}},
+                                {}}};
 
-/// An arm whose last two links weigh grams, with friction that none of its joints carries at 2 ms.
-class LightJoints : public testing::TestWithParam<Case> {
+/// An arm whose last two links weigh grams.
+class LightJoints : public testing::Test {
  protected:
   LightJoints() {
     WriteWholeFile(folder_.path() / "arm.xml",
@@ -38,57 +43,41 @@ class LightJoints : public testing::TestWithParam<Case> {
     </body></body></body></worldbody></mujoco>)");
   }
 
-  std::string Refusal(const AttachOptions& options) const {
+  std::string Refusal(const Friction& friction, const AttachOptions& options) const {
     return test::RefusalOf([&] {
-      AttachFriction(folder_.path() / "arm.xml", {{".*", GetParam().friction}},
-                     folder_.path() / "out.xml", options);
+      AttachFriction(folder_.path() / "arm.xml", {{".*", friction}}, folder_.path() / "out.xml",
+                     options);
     });
   }
 
   const ScratchDirectory folder_;
 };
 
-TEST_P(LightJoints, AreRefusedWithArmaturesThatAreThenAccepted) {
-  const std::string refusal = Refusal({});
-  EXPECT_THAT(refusal, Not(HasSubstr("--armature heavy")));
-  AttachOptions options;
-  const std::regex offer("--armature ([a-z]+)=([-+.e0-9]+)");
-  for (std::sregex_iterator i(refusal.begin(), refusal.end(), offer), end; i != end; ++i) {
-    options.armatures.push_back({(*i)[1], std::stod((*i)[2])});
+TEST_F(LightJoints, AreRefusedWithArmaturesOrATimestepThatAreThenAccepted) {
+  for (const Friction& friction : kFrictions) {
+    SCOPED_TRACE(friction.law);
+    const std::string refusal = Refusal(friction, {});
+    EXPECT_THAT(refusal, Not(HasSubstr("--armature heavy")));
+    AttachOptions heavier;
+    const std::regex offer("--armature ([a-z]+)=([-+.e0-9]+)");
+    for (std::sregex_iterator i(refusal.begin(), refusal.end(), offer), end; i != end; ++i) {
+      heavier.armatures.push_back({(*i)[1], std::stod((*i)[2])});
+    }
+    ASSERT_EQ(heavier.armatures.size(), 2u) << refusal;
+    EXPECT_EQ(Refusal(friction, heavier), "accepted");
+
+    // and not by much too large: a tenth less of the first is refused
+    heavier.armatures.front().value *= 0.9;
+    EXPECT_THAT(Refusal(friction, heavier), HasSubstr("wrist"));
+
+    std::smatch step;
+    ASSERT_TRUE(std::regex_search(refusal, step, std::regex("--timestep ([-+.e0-9]+)"))) << refusal;
+    AttachOptions shorter;
+    shorter.timestep = std::stod(step[1]);
+    EXPECT_LT(*shorter.timestep, 0.002);
+    EXPECT_EQ(Refusal(friction, shorter), "accepted");
   }
-  ASSERT_EQ(options.armatures.size(), 2u) << refusal;
-  EXPECT_EQ(Refusal(options), "accepted");
-
-  // and not by much too large: a tenth less of the first is refused
-  options.armatures.front().value *= 0.9;
-  EXPECT_THAT(Refusal(options), HasSubstr("wrist"));
 }
-
-TEST_P(LightJoints, AreRefusedWithATimestepThatIsThenAccepted) {
-  const std::string refusal = Refusal({});
-  std::smatch offer;
-  ASSERT_TRUE(std::regex_search(refusal, offer, std::regex("--timestep ([-+.e0-9]+)"))) << refusal;
-  AttachOptions options;
-  options.timestep = std::stod(offer[1]);
-  EXPECT_LT(*options.timestep, 0.002);
-  EXPECT_EQ(Refusal(options), "accepted");
-}
-
-Case OfLaw(const std::string& law, std::map<std::string, double> parameters) {
-  return {{law, std::move(parameters), {}}};
-}
-
-INSTANTIATE_TEST_SUITE_P(Frictions, LightJoints,
-                         testing::Values(OfLaw("coulomb", {{"coulomb", 6}}),
-                                         OfLaw("viscous_coulomb",
-                                               {{"coulomb", 0}, {"viscous", 30}}),
-                                         OfLaw("lugre", {{"coulomb", 1},
-                                                         {"static", 1},
-                                                         {"viscous", 0},
-                                                         {"stribeck_velocity", 0.1},
-                                                         {"bristle_stiffness", 1e5},
-                                                         {"bristle_damping", 10}})),
-                         [](const auto& of) { return of.param.friction.law; });
 
 /// Joints base (free), left.elbow, leftXelbow, ball (ball), slide (slide), a*b and one without name.
 class MatchJointsOf : public testing::Test {
@@ -97,9 +86,7 @@ class MatchJointsOf : public testing::Test {
     return MatchJoints(*spec_, pattern, {"robot.xml"});
   }
 
-  static SpecPtr Parse() {
-    char error[300] = "";
-    SpecPtr spec(mj_parseXMLString(R"(<mujoco><worldbody>
+  const SpecPtr spec_ = test::ParseXml(R"(<mujoco><worldbody>
       <body><freejoint name="base"/><geom size="0.1"/>
       <body><joint name="left.elbow"/><geom size="0.1"/>
       <body><joint name="leftXelbow"/><geom size="0.1"/>
@@ -107,13 +94,7 @@ class MatchJointsOf : public testing::Test {
       <body><joint name="slide" type="slide"/><geom size="0.1"/>
       <body><joint name="a*b"/><geom size="0.1"/>
       <body><joint/><geom size="0.1"/>
-      </body></body></body></body></body></body></body></worldbody></mujoco>)",
-                                   nullptr, error, sizeof(error)));
-    EXPECT_TRUE(spec) << error;
-    return spec;
-  }
-
-  const SpecPtr spec_ = Parse();
+      </body></body></body></body></body></body></body></worldbody></mujoco>)");
 };
 
 TEST_F(MatchJointsOf, TakesTheNameOfAJointLiterally) {

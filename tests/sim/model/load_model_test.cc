@@ -7,6 +7,7 @@
 #include "models/foundation/atomic_file.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/sim/model/light_friction.h"
+#include "tests/sim/plugin/friction_models.h"
 #include "tests/support/refusal.h"
 #include "tests/tools/scratch_directory.h"
 
@@ -43,16 +44,6 @@ std::string DrivenBy(const std::string& plugin) {
 constexpr char kInertial[] =
     R"(<inertial><mass value="2"/>
     <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>)";
-
-TEST(LoadModel, ReadsUrdfWithItsMassesAndLimits) {
-  const TemporaryFile file("arm.urdf", Arm(kInertial));
-  const LoadedModel loaded = LoadModel(file.path());
-  EXPECT_TRUE(loaded.notices.empty());
-  const int joint = mj_name2id(loaded.model.get(), mjOBJ_JOINT, "hinge");
-  ASSERT_GE(joint, 0);
-  EXPECT_EQ(loaded.model->body_mass[loaded.model->jnt_bodyid[joint]], 2);
-  EXPECT_EQ(loaded.model->jnt_range[2 * joint + 1], 1);
-}
 
 TEST(LoadModel, RefusesWhatItCannotBuildByFileAndElement) {
   const struct {
@@ -125,17 +116,10 @@ constexpr char kModel[] = R"(<mujoco>
   <keyframe><key qpos="0.12345678901234567"/></keyframe>
 </mujoco>)";
 
-SpecPtr Parse(const std::string& text) {
-  char error[300] = "";
-  SpecPtr spec(mj_parseXMLString(text.c_str(), nullptr, error, sizeof(error)));
-  EXPECT_TRUE(spec) << error;
-  return spec;
-}
-
 TEST(ModelToXml, KeepsEveryBit) {
-  const SpecPtr spec = Parse(kModel);
+  const SpecPtr spec = test::ParseXml(kModel);
   const ModelPtr a(mj_compile(spec.get(), nullptr));
-  const SpecPtr again = Parse(ModelToXml(*spec, {}));
+  const SpecPtr again = test::ParseXml(ModelToXml(*spec, {}));
   const ModelPtr b(mj_compile(again.get(), nullptr));
   EXPECT_EQ(a->opt.timestep, b->opt.timestep);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(a->body_pos[3 + i], b->body_pos[3 + i]);
@@ -149,23 +133,19 @@ TEST(ModelToXml, KeepsEveryBit) {
 }
 
 TEST(ModelToXml, KeepsTheNotationOfTheModel) {
-  const std::string text = ModelToXml(*Parse(kModel), {});
+  const std::string text = ModelToXml(*test::ParseXml(kModel), {});
   test::ExpectNamed(text, {"euler=", "fromto=", "<position", "class=\"thin\"", "<frame"});
   EXPECT_EQ(text.find("<general"), std::string::npos);
 }
-
-/// A mesh of four triangles.
-constexpr char kTetrahedron[] =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 /// A URDF of one moving link in a folder of its own, with a package beside it.
 class UrdfMeshes : public testing::Test {
  protected:
   UrdfMeshes() {
     fs::create_directories(package_ / "meshes");
-    WriteWholeFile(package_ / "meshes" / "link.obj", kTetrahedron);
+    WriteWholeFile(package_ / "meshes" / "link.obj", test::kTetrahedron);
     fs::create_directory(urdf_.parent_path());
-    WriteWholeFile(urdf_.parent_path() / "near.obj", kTetrahedron);
+    WriteWholeFile(urdf_.parent_path() / "near.obj", test::kTetrahedron);
   }
 
   /// Writes the URDF with these <visual> and <collision> elements.
@@ -191,20 +171,26 @@ TEST_F(UrdfMeshes, KeepWhatIsOnlyToBeSeen) {
   // seen, not touched, and without mass
   EXPECT_EQ(loaded.model->geom_contype[0], 0);
   EXPECT_EQ(loaded.model->body_mass[1], 2);
+  // and the hinge's limits
+  EXPECT_EQ(loaded.model->jnt_range[0], -1);
+  EXPECT_EQ(loaded.model->jnt_range[1], 1);
 }
 
-TEST_F(UrdfMeshes, ObeyAUrdfThatDiscardsItsVisuals) {
-  Write(Shape("visual", "near.obj"), "<mujoco><compiler discardvisual=\"true\"/></mujoco>");
-  EXPECT_EQ(LoadModel(urdf_).model->ngeom, 0);
-}
-
-TEST_F(UrdfMeshes, KeepVisualsBesideOtherSettingsOfTheUrdf) {
-  for (const char* compiler : {"", "<compiler balanceinertia=\"true\"/>"}) {
-    Write(Shape("visual", "near.obj"),
-          "<mujoco><option timestep=\"0.003\"/>" + std::string(compiler) + "</mujoco>");
+TEST_F(UrdfMeshes, ObeyTheSettingsOfTheUrdf) {
+  const struct {
+    std::string settings;
+    int visuals;
+    double timestep;
+  } cases[] = {
+      {R"(<compiler discardvisual="true"/>)", 0, 0.002},
+      {R"(<option timestep="0.003"/>)", 1, 0.003},
+      {R"(<option timestep="0.003"/><compiler balanceinertia="true"/>)", 1, 0.003},
+  };
+  for (const auto& [settings, visuals, timestep] : cases) {
+    Write(Shape("visual", "near.obj"), "<mujoco>" + settings + "</mujoco>");
     const LoadedModel loaded = LoadModel(urdf_);
-    EXPECT_EQ(loaded.model->ngeom, 1);
-    EXPECT_EQ(loaded.model->opt.timestep, 0.003);
+    EXPECT_EQ(loaded.model->ngeom, visuals) << settings;
+    EXPECT_EQ(loaded.model->opt.timestep, timestep) << settings;
   }
 }
 
@@ -242,30 +228,27 @@ TEST_F(UrdfMeshes, RefuseAPackageThatLacksTheFile) {
                     {urdf_, "other.obj", "--package arm_description="});
 }
 
-class MinimalModelOf : public testing::TestWithParam<JointKind> {};
-
-TEST_P(MinimalModelOf, EitherKindRunsAndIsBraked) {
+TEST(MinimalModel, OfEitherKindRunsAndIsBraked) {
   const Friction friction{"asymmetric",
                           {{"viscous", 203.5}, {"coulomb_positive", 1}, {"coulomb_negative", 2}},
                           Thermal{-0.1, 60},
                           0,
                           50};
   const ScratchDirectory scratch;
-  WriteWholeFile(scratch.path() / "friction.xml", MinimalModel(friction, GetParam()));
-  const LoadedModel loaded = LoadModel(scratch.path() / "friction.xml");
-  const mjModel* m = loaded.model.get();
-  EXPECT_EQ(m->jnt_type[0], GetParam() == JointKind::linear ? mjJNT_SLIDE : mjJNT_HINGE);
+  for (const JointKind kind : {JointKind::rotary, JointKind::linear}) {
+    WriteWholeFile(scratch.path() / "friction.xml", MinimalModel(friction, kind));
+    const LoadedModel loaded = LoadModel(scratch.path() / "friction.xml");
+    const mjModel* m = loaded.model.get();
+    EXPECT_EQ(m->jnt_type[0], kind == JointKind::linear ? mjJNT_SLIDE : mjJNT_HINGE);
 
-  const DataPtr data(mj_makeData(m));
-  data->qvel[0] = -1;
-  mj_step(m, data.get());
-  // F = kv v - kc- at v = -1, by the law's own numbers
-  EXPECT_DOUBLE_EQ(data->actuator_force[0], 203.5 + 2);
-  EXPECT_GT(data->qvel[0], -1);
+    const DataPtr data(mj_makeData(m));
+    data->qvel[0] = -1;
+    mj_step(m, data.get());
+    // F = kv v - kc- at v = -1, by the law's own numbers
+    EXPECT_DOUBLE_EQ(data->actuator_force[0], 203.5 + 2);
+    EXPECT_GT(data->qvel[0], -1);
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(Joint, MinimalModelOf,
-                         testing::Values(JointKind::rotary, JointKind::linear));
 
 }  // namespace
 }  // namespace warmjoint

@@ -216,9 +216,9 @@ struct ToAndFro {
       position[i] = position[i - 1] + kSampleStep * velocity[i - 1];
     }
   }
-  VectorXd Torque(const Disturbances& disturbances) const {
+  VectorXd Torque(const Set& set) const {
     Scenario scenario;
-    scenario.disturbances = disturbances;
+    set(scenario.disturbances);
     Simulation recording;
     recording.truth.velocity = velocity;
     Measurements& log = recording.measurements;
@@ -229,12 +229,8 @@ struct ToAndFro {
   }
 };
 
-TEST(HiddenForces, NoneByDefault) { EXPECT_EQ(ToAndFro().Torque({}).cwiseAbs().maxCoeff(), 0); }
-
 TEST(HiddenForces, BacklashLacksItsLevelOverItsWay) {
-  Disturbances d;
-  d.hidden.backlash = {3, 0.4};
-  const VectorXd torque = ToAndFro().Torque(d);
+  const VectorXd torque = ToAndFro().Torque([](auto& set) { set.hidden.backlash = {3, 0.4}; });
   // 0.4 rad take 0.8 s; the sample of the turn has still gone nothing
   EXPECT_EQ(torque[400], 3);
   EXPECT_EQ(torque[479], 3);
@@ -243,9 +239,7 @@ TEST(HiddenForces, BacklashLacksItsLevelOverItsWay) {
 }
 
 TEST(HiddenForces, HysteresisDiesAwayWithTheWay) {
-  Disturbances d;
-  d.hidden.hysteresis = {3, 0.2};
-  const VectorXd torque = ToAndFro().Torque(d);
+  const VectorXd torque = ToAndFro().Torque([](auto& set) { set.hidden.hysteresis = {3, 0.2}; });
   for (const int k : {0, 10, 100}) {
     EXPECT_NEAR(torque[400 + k], 3 * std::exp(-0.5 * kSampleStep * k / 0.2), 1e-9) << k;
   }
@@ -254,9 +248,7 @@ TEST(HiddenForces, HysteresisDiesAwayWithTheWay) {
 TEST(HiddenForces, MemoryFollowsTheSpeedLate) {
   ToAndFro motion;
   motion.velocity.tail(801).setConstant(1);  // from 0.5 to 1 in size
-  Disturbances d;
-  d.hidden.memory = {4, 0.5};
-  const VectorXd torque = motion.Torque(d);
+  const VectorXd torque = motion.Torque([](auto& set) { set.hidden.memory = {4, 0.5}; });
   EXPECT_EQ(torque[700], 0);
   for (const int k : {1, 50, 200}) {
     EXPECT_NEAR(torque[800 + k], -4 * 0.5 * std::exp(-kSampleStep * k / 0.5), 1e-9) << k;
@@ -265,11 +257,11 @@ TEST(HiddenForces, MemoryFollowsTheSpeedLate) {
 
 TEST(HiddenForces, DragRippleAndSpringAreFormulas) {
   const ToAndFro motion;
-  Disturbances d;
-  d.hidden.quadratic_drag.coefficient = 2;
-  d.hidden.ripple = {0.3, 0.7};
-  d.hidden.spring.stiffness = 5;
-  const VectorXd torque = motion.Torque(d);
+  const VectorXd torque = motion.Torque([](Disturbances& set) {
+    set.hidden.quadratic_drag.coefficient = 2;
+    set.hidden.ripple = {0.3, 0.7};
+    set.hidden.spring.stiffness = 5;
+  });
   for (const int i : {37, 700, 1200}) {
     const double v = motion.velocity[i], p = motion.position[i];
     const double ripple = 0.3 * std::sin(2 * std::numbers::pi * p / 0.7);
@@ -280,9 +272,8 @@ TEST(HiddenForces, DragRippleAndSpringAreFormulas) {
 TEST(HiddenForces, InertiaActsWhileTheSpeedChanges) {
   ToAndFro motion;
   motion.velocity = 0.2 * motion.time;
-  Disturbances d;
-  d.hidden.inertia.inertia = 3;
-  EXPECT_NEAR(motion.Torque(d)[500], 0.6, 1e-9);
+  const VectorXd torque = motion.Torque([](auto& set) { set.hidden.inertia.inertia = 3; });
+  EXPECT_NEAR(torque[500], 0.6, 1e-9);
 }
 
 /// Two hours at 1 Hz; position, velocity and torque are plain functions of time.

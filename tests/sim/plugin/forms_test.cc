@@ -11,12 +11,13 @@ namespace {
 
 using namespace test;
 
-double Difference(const Model& a, const Model& b, double seconds, double ambient) {
+/// Largest difference of two arms' positions over two seconds in surroundings 10 K warmer, rad.
+double Difference(const Model& a, const Model& b) {
   const Data da(mj_makeData(a.get())), db(mj_makeData(b.get()));
-  SetAmbient(a.get(), da.get(), Form::actuator, ambient);
-  SetAmbient(b.get(), db.get(), Form::passive, ambient);
+  SetAmbient(a.get(), da.get(), Form::actuator, 10);
+  SetAmbient(b.get(), db.get(), Form::passive, 10);
   double worst = 0;
-  while (da->time < seconds) {
+  while (da->time < 2) {
     DriveArm(a.get(), da.get(), 1);
     DriveArm(b.get(), db.get(), 1);
     for (int k = 0; k < kArmJoints; ++k) {
@@ -39,40 +40,24 @@ TEST(PluginForms, MoveAlikeWithEveryLawAndIntegrator) {
       const Model a = MustCompile(ArmXml(friction, Form::actuator, integrator));
       const Model b = MustCompile(ArmXml(friction, Form::passive, integrator));
       // the forces are summed in another order; joints near a reversal amplify the last bit
-      EXPECT_LT(Difference(a, b, 2, 10), 1e-11) << friction.law << " " << integrator;
+      EXPECT_LT(Difference(a, b), 1e-11) << friction.law << " " << integrator;
     }
   }
 }
 
-TEST(PluginForms, MoveAlikeForTwentySecondsUnderGravity) {
-  const Friction friction = FrictionsOfEveryLaw()[2];
-  const Model a = MustCompile(ArmXml(friction, Form::actuator, "implicitfast"));
-  const Model b = MustCompile(ArmXml(friction, Form::passive, "implicitfast"));
-  EXPECT_LT(Difference(a, b, 20, 0), 1e-12);
-}
-
-TEST(PluginPassive, LeavesTheRobotsOwnNumbersAsTheyWere) {
-  const Model m = MustCompile(ArmXml(FrictionsOfEveryLaw()[0], Form::passive, "implicitfast"));
-  EXPECT_EQ(m->nu, kArmJoints);
-  EXPECT_EQ(m->na, 0);
-  const Data d(mj_makeData(m.get()));
-  DriveArm(m.get(), d.get(), 300);
-  mj_forward(m.get(), d.get());
-  // the motors alone are in qfrc_actuator
-  for (int k = 0; k < kArmJoints; ++k) {
-    EXPECT_EQ(d->qfrc_actuator[k], d->ctrl[k]);
-    EXPECT_NE(d->qfrc_passive[k], -0.2 * d->qvel[k]);
-  }
-}
-
-TEST(PluginPassive, WorksBesideALimitOfTheMotorsForce) {
+TEST(PluginPassive, LeavesTheMotorsForcesAndALimitOfThemAsTheyWere) {
   std::string xml = ArmXml(FrictionsOfEveryLaw()[0], Form::passive, "implicitfast");
   xml.insert(xml.find("axis="), R"(actuatorfrcrange="-1 1" )");
   const Model m = MustCompile(xml);
   const Data d(mj_makeData(m.get()));
-  d->ctrl[0] = 5;
-  mj_step(m.get(), d.get());
-  EXPECT_EQ(d->qfrc_actuator[0], 1);
+  DriveArm(m.get(), d.get(), 300);
+  mj_forward(m.get(), d.get());
+  EXPECT_GT(d->ctrl[0], 1);
+  // the motors alone are in qfrc_actuator
+  for (int k = 0; k < kArmJoints; ++k) {
+    EXPECT_EQ(d->qfrc_actuator[k], k == 0 ? 1 : d->ctrl[k]);
+    EXPECT_NE(d->qfrc_passive[k], -0.2 * d->qvel[k]);
+  }
 }
 
 TEST(PluginSensors, ReadWhatTheFrictionDoes) {

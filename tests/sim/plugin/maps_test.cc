@@ -2,16 +2,15 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "models/foundation/atomic_file.h"
 #include "models/friction/friction_json.h"
-#include "models/friction/joint_friction.h"
 #include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
 #include "tests/sim/plugin/friction_models.h"
+#include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
 namespace {
@@ -63,54 +62,22 @@ std::vector<double> Swing(const mjModel* m) {
   return {d->qpos[0], d->qvel[0], d->act[0], d->act[1], d->act[2]};
 }
 
-TEST(PluginMaps, SlideAtTheForceOfTheModel) {
-  const Friction friction = Rippled();
-  const JointFriction expected(friction);
-  const Model m = MustCompile(LinkXml(InlineXml(friction), kSwing, R"(armature="1")"));
-  const Data d(mj_makeData(m.get()));
-  for (int i = 0; i < 500; ++i) {
-    d->qvel[0] = 0.8;
-    mj_step(m.get(), d.get());
-  }
-  for (int i = 0; i < 200; ++i) {
-    d->qvel[0] = 0.8;
-    const double energy = d->act[1] + d->act[2];
-    mj_forward(m.get(), d.get());
-    const JointPlace place{d->qpos[0], energy, d->qfrc_bias[0]};
-    // the bristle follows the level within a step; sums of a few terms of 5 N.m
-    ASSERT_NEAR(-d->actuator_force[0], expected.SlidingForce(0.8, place), 1e-13);
-    mj_step(m.get(), d.get());
-  }
-}
-
-TEST(PluginMaps, AreTheSameFromAFileAndInline) {
-  const std::string path = testing::TempDir() + "/rippled.json";
+TEST(PluginMaps, AreTheSameInlineAndFromAFileInAFolderOrBesideTheModel) {
+  const ScratchDirectory folder;
+  const std::string path = folder.path() / "rippled.json";
   WriteWholeFile(path, FrictionToTree(Rippled()).dump());
-  const Model inline_model = MustCompile(LinkXml(InlineXml(Rippled()), kSwing));
-  const Model from_file = MustCompile(
-      LinkXml(ActuatorXml(fmt::format(R"(<config key="file" value="{}"/>)", path)), kSwing));
-  const Model in_folder =
-      MustCompile(LinkXml(ActuatorXml(fmt::format(R"(<config key="file" value="rippled.json"/>)"
-                                                  R"(<config key="folder" value="{}"/>)",
-                                                  testing::TempDir())),
-                          kSwing));
-  const std::vector<double> state = Swing(inline_model.get());
+  const std::vector<double> state = Swing(MustCompile(LinkXml(InlineXml(Rippled()), kSwing)).get());
   EXPECT_LT(state[3], -0.01) << "should be warm";
-  EXPECT_EQ(Swing(from_file.get()), state);
-  EXPECT_EQ(Swing(in_folder.get()), state);
-  std::filesystem::remove(path);
-}
 
-TEST(PluginMaps, AFileLiesBesideTheModelThatThisProgramLoads) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "beside";
-  std::filesystem::create_directories(folder);
-  WriteWholeFile(folder / "rippled.json", FrictionToTree(Rippled()).dump());
-  const std::string actuator = ActuatorXml(R"(<config key="file" value="rippled.json"/>)");
-  WriteWholeFile(folder / "link.xml", LinkXml(actuator, kSwing));
-  const LoadedModel loaded = LoadModel(folder / "link.xml");
-  EXPECT_EQ(Swing(loaded.model.get()),
-            Swing(MustCompile(LinkXml(InlineXml(Rippled()), kSwing)).get()));
-  std::filesystem::remove_all(folder);
+  const std::string whole = fmt::format(R"(<config key="file" value="{}"/>)", path);
+  EXPECT_EQ(Swing(MustCompile(LinkXml(ActuatorXml(whole), kSwing)).get()), state);
+  const std::string name = R"(<config key="file" value="rippled.json"/>)";
+  const std::string in_folder =
+      name + fmt::format(R"(<config key="folder" value="{}"/>)", folder.path().string());
+  EXPECT_EQ(Swing(MustCompile(LinkXml(ActuatorXml(in_folder), kSwing)).get()), state);
+  // a model that this program loads may name a file beside it
+  WriteWholeFile(folder.path() / "link.xml", LinkXml(ActuatorXml(name), kSwing));
+  EXPECT_EQ(Swing(LoadModel(folder.path() / "link.xml").model.get()), state);
 }
 
 TEST(PluginLoad, RaisesTheLevelByTheLoadThatTheJointTransmits) {

@@ -16,12 +16,11 @@ using namespace test;
 
 /// The arm with sensors of its friction, at a step, s.
 Model SensedArm(const Friction& friction, Form form, const std::string& integrator, double step) {
-  std::string xml = ArmXml(friction, form, integrator);
-  const std::string timestep = R"(timestep="0.001")";
-  xml.replace(xml.find(timestep), timestep.size(), fmt::format(R"(timestep="{}")", step));
-  return MustCompile(xml.insert(
-      xml.rfind("</mujoco>"),
-      R"(<sensor><plugin name="s" plugin="warmjoint.friction" instance="arm"/></sensor>)"));
+  std::string xml = SensedArmXml(friction, form);
+  const std::string options = R"(timestep="0.001" integrator="implicitfast")";
+  return MustCompile(
+      xml.replace(xml.find(options), options.size(),
+                  fmt::format(R"(timestep="{}" integrator="{}")", step, integrator)));
 }
 
 /// What friction has taken, J, over a run.

@@ -53,8 +53,9 @@ TEST(PluginHeat, FollowsTheClosedFormAtConstantSpeedAtAnyStep) {
 }
 
 /// Speeds of the link from a start in each of 1.2 s.
-std::vector<double> Slowing(const std::string& sections, const std::string& joint, double start) {
-  const Model m = MustCompile(LinkXml(sections, kNoGravity, joint));
+std::vector<double> Slowing(const std::string& sections, const std::string& joint, double start,
+                            const std::string& option = kNoGravity) {
+  const Model m = MustCompile(LinkXml(sections, option, joint));
   const Data d(mj_makeData(m.get()));
   d->qvel[0] = start;
   std::vector<double> speeds;
@@ -83,16 +84,11 @@ TEST(PluginSliding, MovesAsNativeDampingAndFrictionlossDo) {
 }
 
 TEST(PluginSliding, SlowsUnderRk4ByItsLevel) {
-  const char* option = R"(timestep="0.001" integrator="RK4" gravity="0 0 0")";
-  const Model ours =
-      MustCompile(LinkXml(FrictionSection({{"law", "coulomb"}, {"coulomb", "6"}}), option));
-  const Data d(mj_makeData(ours.get()));
-  d->qvel[0] = 30;
-  mj_step(ours.get(), d.get());
-  // 6 N.m on 0.25 kg.m^2 and the inertial's 1e-9
-  const double start = d->qvel[0];
-  for (int i = 0; i < 1000; ++i) mj_step(ours.get(), d.get());
-  EXPECT_NEAR(d->qvel[0], start - 6 / (0.25 + 1e-9), 1e-10);
+  const auto coulomb = FrictionSection({{"law", "coulomb"}, {"coulomb", "6"}});
+  const auto speeds =
+      Slowing(coulomb, "", 30, R"(timestep="0.001" integrator="RK4" gravity="0 0 0")");
+  // a second of 6 N.m on 0.25 kg.m^2 and the inertial's 1e-9
+  EXPECT_NEAR(speeds[1000], speeds[0] - 6 / (0.25 + 1e-9), 1e-10);
 }
 
 const Config kLugre{{"law", "lugre"},

@@ -73,10 +73,6 @@ TEST_F(InitialEnergyOfAFile, SettledIsTheClosedForm) {
   const std::vector<double> energies = InitialEnergies("settled:0.2", Warm(false), "a file");
   ASSERT_EQ(energies.size(), 1U);
   EXPECT_NEAR(energies[0], settled, 1e-9);
-  EXPECT_THAT([&] { InitialEnergies("settled:fast", Warm(false), "a file"); },
-              ThrowsMessage<BadInput>(HasSubstr("rad/s")));
-  EXPECT_THAT([&] { InitialEnergies("warm", Warm(false), "a file"); },
-              ThrowsMessage<BadInput>(HasSubstr("cold, end or settled:SPEED")));
 }
 
 TEST(ProjectFile, HoldsTheOptionsThatDescribeALog) {

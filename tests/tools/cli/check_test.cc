@@ -10,11 +10,11 @@
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/cli/in_a_folder.h"
 #include "tests/tools/cli/little_files.h"
-#include "tools/cli/recording_options.h"
 
 namespace warmjoint {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -34,9 +34,8 @@ class CheckTogether : public InAFolder {
 };
 
 TEST_F(CheckTogether, EachHasARowAndItsOwnCheck) {
-  const ProgramAnswer text = Program({"check", "a.csv", "half.csv"});
-  EXPECT_EQ(text.status, 0);
-  EXPECT_THAT(text.out, HasSubstr("torque in"));
+  EXPECT_THAT(Call({"check", "a.csv", "half.csv"}).out,
+              AllOf(HasSubstr("a.csv"), HasSubstr("half.csv"), HasSubstr("torque in")));
   const auto told = Json({"check", "a.csv", "half.csv"});
   ASSERT_EQ(told.at("recordings").size(), 2u);
   EXPECT_EQ(told.at("recordings")[0].at("verdict"), "ok");
@@ -47,24 +46,21 @@ TEST_F(CheckTogether, EachHasARowAndItsOwnCheck) {
 TEST_F(CheckTogether, OneThatCannotBeReadIsTheWorst) {
   const ProgramAnswer text = Program({"check", "a.csv", "broken.csv"});
   EXPECT_EQ(text.status, 2);
-  EXPECT_THAT(text.out, HasSubstr("unreadable"));
-  EXPECT_THAT(text.out, HasSubstr("has no column"));
-  EXPECT_THAT(text.out, HasSubstr("motion      "));
+  EXPECT_THAT(text.out, AllOf(HasSubstr("unreadable"), HasSubstr("has no column"),
+                              HasSubstr("motion      ")));
   const auto told = Json({"check", "broken.csv", "a.csv"});
   EXPECT_EQ(told.at("recordings")[0].at("verdict"), "unreadable");
   EXPECT_EQ(told.at("recordings")[1].at("verdict"), "ok");
 
   // alone it is refused, and options are refused before any file is read
   EXPECT_THAT(Program({"check", "broken.csv"}).out, Not(HasSubstr("verdict")));
-  EXPECT_EQ(Program({"check", "a.csv", "half.csv", "--gear", "0"}).status, 2);
-  EXPECT_THAT(Program({"check", "a.csv", "half.csv", "--gear", "0"}).out,
-              Not(HasSubstr("unreadable")));
+  const ProgramAnswer options = Program({"check", "a.csv", "half.csv", "--gear", "0"});
+  EXPECT_EQ(options.status, 2);
+  EXPECT_THAT(options.out, Not(HasSubstr("unreadable")));
 }
 
 TEST_F(CheckTogether, TellsThatTheFirstCannotBeDrawn) {
-  const ProgramAnswer answer = Program({"check", "broken.csv", "a.csv", "--plot", "log.png"});
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("log.png"));
+  EXPECT_THAT(Refusal({"check", "broken.csv", "a.csv", "--plot", "log.png"}), HasSubstr("log.png"));
   EXPECT_FALSE(std::filesystem::exists(at("log.png")));
 }
 
@@ -103,23 +99,18 @@ class TakesProject : public InAFolder {
     WriteWholeFile(at("logs/warmjoint.yaml"), kProject);
   }
 
-  ProgramAnswer Identify(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"identify", at("logs/log.csv"), "--identifier", "nominal-ls", "-o",
-                               at("estimate.json")});
-    return RunWarmjoint(more);
-  }
+  const std::vector<std::string> identify_{"identify",   "logs/log.csv", "--identifier",
+                                           "nominal-ls", "-o",           "estimate.json"};
   nlohmann::json Written() const { return JsonFile("estimate.json"); }
 };
 
 TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
-  const ProgramAnswer check = RunWarmjoint({"check", at("logs/log.csv"), "--format", "json"});
-  EXPECT_EQ(check.status, 0) << check.err;
+  const ProgramAnswer check = Call({"check", "logs/log.csv", "--format", "json"});
   EXPECT_TRUE(nlohmann::json::parse(check.out).is_object()) << "its words go to stderr";
   EXPECT_THAT(check.err, HasSubstr("warmjoint.yaml: map position=q_deg,time=t_s"));
   EXPECT_THAT(check.err, HasSubstr("gear 100 (--no-project leaves it out)\n"));
 
-  const ProgramAnswer identify = Identify();
-  EXPECT_EQ(identify.status, 0) << identify.err;
+  Call(identify_);
   const auto estimate = Written();
   // a ripple of 0.2 N.m in place of noise over 320 samples
   EXPECT_NEAR(estimate.at("parameters").at("coulomb").at("value").get<double>(), 15, 0.1);
@@ -128,14 +119,13 @@ TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
   EXPECT_EQ(estimate.at("project").at("values").at("scale"), nlohmann::json({"torque=-1"}));
   EXPECT_EQ(estimate.at("recording").at("gear"), 100);
 
-  const ProgramAnswer plot = RunWarmjoint(
-      {"plot", at("estimate.json"), "--recording", at("logs/log.csv"), "-o", at("pictures")});
-  EXPECT_EQ(plot.status, 0) << plot.err;
+  const ProgramAnswer plot =
+      Call({"plot", "estimate.json", "--recording", "logs/log.csv", "-o", "pictures"});
   EXPECT_THAT(plot.err, HasSubstr("warmjoint.yaml: map"));
 }
 
 TEST_F(TakesProject, YieldsToTheCommandLine) {
-  EXPECT_EQ(Identify({"--gear", "7", "--scale", "torque=-2"}).status, 0);
+  Call(With(identify_, {"--gear", "7", "--scale", "torque=-2"}));
   const auto estimate = Written();
   EXPECT_EQ(estimate.at("recording").at("gear"), 7);
   EXPECT_NEAR(estimate.at("parameters").at("coulomb").at("value").get<double>(), 30, 0.2);
@@ -143,30 +133,25 @@ TEST_F(TakesProject, YieldsToTheCommandLine) {
   EXPECT_FALSE(estimate.at("project").at("values").contains("scale"));
 
   // of a map it keeps the columns that are not named
-  const ProgramAnswer other = Identify({"--map", "torque=dq"});
+  const ProgramAnswer other = Program(With(identify_, {"--map", "torque=dq"}));
   EXPECT_EQ(Written().at("recording").at("map").size(), 4u) << other.err;
   EXPECT_THAT(Written().at("recording").at("map"), testing::Contains("torque=dq"));
 }
 
 TEST_F(TakesProject, IsLeftOutWhenAsked) {
-  const ProgramAnswer answer = Identify({"--no-project"});
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("has no column 'time'"));
-  EXPECT_THAT(answer.err, Not(HasSubstr("warmjoint.yaml")));
+  EXPECT_THAT(Refusal(With(identify_, {"--no-project"})),
+              AllOf(HasSubstr("has no column 'time'"), Not(HasSubstr("warmjoint.yaml"))));
 }
 
 TEST_F(TakesProject, RefusesFilesThatDisagreeOrAreNone) {
   WriteWholeFile(at("other.csv"), ForeignLog());
-  const ProgramAnswer two = RunWarmjoint({"check", at("logs/log.csv"), at("other.csv")});
-  EXPECT_EQ(two.status, 2);
-  EXPECT_THAT(two.err, HasSubstr("does not lie beside the project file of the other recordings"));
+  EXPECT_THAT(Refusal({"check", "logs/log.csv", "other.csv"}),
+              HasSubstr("does not lie beside the project file of the other recordings"));
   WriteWholeFile(at("logs/warmjoint.yaml"), "gear: 2\ncommand: touch P\n");
-  const ProgramAnswer command = Identify();
-  EXPECT_EQ(command.status, 2);
-  EXPECT_THAT(command.err, HasSubstr("warmjoint.yaml:2: 'command' does not belong here"));
+  EXPECT_THAT(Refusal(identify_), HasSubstr("warmjoint.yaml:2: 'command' does not belong here"));
   fs::remove(at("logs/warmjoint.yaml"));
   fs::create_directory(at("logs/warmjoint.yaml"));
-  EXPECT_THAT(Identify().err, HasSubstr("is not a regular file"));
+  EXPECT_THAT(Program(identify_).err, HasSubstr("is not a regular file"));
 }
 
 TEST_F(TakesProject, LetsAnEstimateFindItsRecordingFromAnotherFolder) {

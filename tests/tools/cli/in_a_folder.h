@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -21,6 +23,16 @@ class InAFolder : public testing::Test {
     return nlohmann::json::parse(File(name));
   }
 
+  /// The bytes of every file below a folder, by its path in there, databases apart.
+  std::map<std::string, std::string> FilesOf(const std::string& folder) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(at(folder))) {
+      if (!entry.is_regular_file() || entry.path().extension() == ".sqlite") continue;
+      files[std::filesystem::relative(entry.path(), at(folder))] = ReadWholeFile(entry.path());
+    }
+    return files;
+  }
+
   /// Runs the program there.
   ProgramAnswer Program(const std::vector<std::string>& arguments) const {
     return RunWarmjoint(arguments, {scratch_.path(), {}});
@@ -33,10 +45,17 @@ class InAFolder : public testing::Test {
     return answer;
   }
 
+  /// What it says where it must refuse.
+  std::string Refusal(const std::vector<std::string>& arguments) const {
+    const ProgramAnswer answer = Program(arguments);
+    EXPECT_EQ(answer.status, 2) << answer.err;
+    return answer.err;
+  }
+
   /// What it prints as JSON.
-  nlohmann::json Json(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(), {"--format", "json"});
-    return nlohmann::json::parse(Program(arguments).out, nullptr, false);
+  nlohmann::json Json(const std::vector<std::string>& arguments) const {
+    const std::string out = Program(With(arguments, {"--format", "json"})).out;
+    return nlohmann::json::parse(out, nullptr, false);
   }
 
   const ScratchDirectory scratch_;
@@ -47,9 +66,7 @@ class WithASuite : public InAFolder {
  protected:
   std::vector<std::string> Command(const std::string& directory,
                                    const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> command{"run", suite_, "-o", at(directory)};
-    command.insert(command.end(), more.begin(), more.end());
-    return command;
+    return With({"run", suite_, "-o", at(directory)}, more);
   }
 
   const std::string suite_ = at("little.yaml");

@@ -34,9 +34,8 @@ TEST_F(PredictTest, TellsHowWellAStoredEstimateFitsAnotherRecording) {
   // the ripple that stands in for noise is below 0.2 N.m
   EXPECT_LT(told.at("metrics").at("rmse").get<double>(), 0.2);
   EXPECT_GT(told.at("metrics").at("fit").get<double>(), 98);
-}
 
-TEST_F(PredictTest, WritesPredictionsAndResiduals) {
+  // as text, with the predictions and residuals in a file
   EXPECT_THAT(Call({"predict", "e.json", "other.csv", "-o", "p.csv"}).out, HasSubstr("RMSE N.m"));
   const std::string csv = File("p.csv");
   EXPECT_THAT(csv, HasSubstr("time,position,velocity,torque,predicted,residual,energy,compared\n"));
@@ -48,9 +47,8 @@ TEST_F(PredictTest, RefusesAnEstimateWithoutFriction) {
   json["friction"] = nullptr;
   json["status"] = "inadequate_model";
   WriteWholeFile(at("void.json"), json.dump());
-  const ProgramAnswer answer = Program({"predict", "void.json", "other.csv"});
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("is inadequate_model and holds no friction"));
+  EXPECT_THAT(Refusal({"predict", "void.json", "other.csv"}),
+              HasSubstr("is inadequate_model and holds no friction"));
 }
 
 TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
@@ -65,9 +63,8 @@ TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   EXPECT_FALSE(estimate.at("friction").is_null());
 
   // a torque is no current
-  const ProgramAnswer refused = Program({"identify", "log.csv", "--torque-constant", "2"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("give --unit torque=A"));
+  EXPECT_THAT(Refusal({"identify", "log.csv", "--torque-constant", "2"}),
+              HasSubstr("give --unit torque=A"));
 }
 
 constexpr int kFirst = 3600, kPause = 300, kSecond = 3600;  // s, a sample each
@@ -167,26 +164,18 @@ TEST_F(FollowTest, PredictsWithTheHeatThatWasLeft) {
 }
 
 TEST_F(FollowTest, RefusesWhatCannotFollow) {
-  const auto refusal = [&](const std::vector<std::string>& arguments) {
-    const ProgramAnswer answer = Program(arguments);
-    EXPECT_EQ(answer.status, 2) << answer.err;
-    return answer.err;
-  };
-  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json"}),
-              HasSubstr("share no clock: give --pause SECONDS"));
-  EXPECT_THAT(refusal({"identify", "day2.csv", "--pause", "300"}),
+  const std::vector<std::string> follows{"identify", "day2.csv", "--follows", "day1.json"};
+  const std::vector<std::string> paused = With(follows, {"--pause", "300"});
+  EXPECT_THAT(Refusal(follows), HasSubstr("share no clock: give --pause SECONDS"));
+  EXPECT_THAT(Refusal({"identify", "day2.csv", "--pause", "300"}),
               HasSubstr("name that with --follows"));
-  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json", "--pause", "-1"}),
-              HasSubstr("0 or more"));
-  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json", "--pause", "300",
-                       "--identifier", "nominal-ls"}),
+  EXPECT_THAT(Refusal(With(follows, {"--pause", "-1"})), HasSubstr("0 or more"));
+  EXPECT_THAT(Refusal(With(paused, {"--identifier", "nominal-ls"})),
               HasSubstr("nominal-ls cannot estimate E(0); use one of: energy-ml"));
-  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "day1.json", "--pause", "300",
-                       "--start", "estimated"}),
-              HasSubstr("leave one of them"));
-  EXPECT_THAT(refusal({"identify", "day1.csv", "day2.csv", "--follows", "day1.json"}),
+  EXPECT_THAT(Refusal(With(paused, {"--start", "estimated"})), HasSubstr("leave one of them"));
+  EXPECT_THAT(Refusal({"identify", "day1.csv", "day2.csv", "--follows", "day1.json"}),
               HasSubstr("is for one recording"));
-  EXPECT_THAT(refusal({"predict", "day1.json", "day2.csv", "--follows", "day1.json", "--initial",
+  EXPECT_THAT(Refusal({"predict", "day1.json", "day2.csv", "--follows", "day1.json", "--initial",
                        "end", "--pause", "3"}),
               HasSubstr("leave one"));
 
@@ -195,7 +184,7 @@ TEST_F(FollowTest, RefusesWhatCannotFollow) {
                      "-o", "bad.json"})
                 .status,
             3);
-  EXPECT_THAT(refusal({"identify", "day2.csv", "--follows", "bad.json", "--pause", "300"}),
+  EXPECT_THAT(Refusal({"identify", "day2.csv", "--follows", "bad.json", "--pause", "300"}),
               HasSubstr("tells of no heat at its end"));
 }
 

@@ -7,13 +7,13 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/folders.h"
+#include "tests/tools/cli/in_a_folder.h"
 #include "tests/tools/cli/little_files.h"
-#include "tests/tools/cli/run_program.h"
-#include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -77,7 +77,15 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"simulate", "scenario.yaml"}, "--output is required"},
       {{"simulate", "scenario.yaml", "-o", "d", "--set", "noise.torqe=1"}, "'torque'"},
       {{"simulate", "scenario.yaml", "-o", "d", "--set", "noise.torque=loud"}, "number"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "noise.torque=-1"}, "-1"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "noise"}, "not of the form key=value"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "friction.parameters.viscous=fast"},
+       "fast"},
       {{"simulate", "scenario.yaml", "-o", "d", "--set", "plant=mujocco"}, "mujoco"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "plant=mujoco", "--set", "robot=pendulum",
+        "--set", "joint=elbow"},
+       "elbow"},
+      {{"simulate", "unknown.yaml", "-o", "d"}, "unknown.yaml:10: "},
       {{"simulate", "scenario.yaml", "-o", "d", "--seed", "-1"}, "from 0"},
       {{"simulate", "scenario.yaml", "-o", "d", "--format", "hdf5"}, "'h5'"},
       // suites
@@ -96,6 +104,9 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"merge", "a", "b"}, "-o"},
       {{"status", "nothing"}, "nothing"},
       {{"plot", "nothing", "-o", "d"}, "nothing"},
+      {{"plot", "kernels", "--size", "5x5", "-o", "d"}, "'5x5' is no size"},
+      {{"plot", "kernels", "--figure", "9", "-o", "d"},
+       "figure 9 of the paper (motor_fit) needs an estimate with a map over the motor's angle"},
       // robots
       {{"attach", "pendulm", "--joint", "hinge=f.json", "-o", "d.xml"}, "'pendulum'"},
       {{"attach", "pendulum", "--joint", "hinge", "-o", "d.xml"}, "NAME=FILE"},
@@ -136,26 +147,28 @@ std::set<std::string> Holdings(const fs::path& folder) {
   return holdings;
 }
 
-TEST(WrongUsage, IsToldBrieflyWithTheNearestRightThing) {
-  ASSERT_GE(WrongUsages().size(), 40u);
-  const ScratchDirectory scratch;
-  WriteRecordingFile(scratch.path() / "log.csv", 200,
-                     [](int i) { return (i / 20 % 2 ? -1 : 1) * (i / 40 % 2 ? 0.5 : 1.0); });
-  WriteWholeFile(scratch.path() / "scenario.yaml", TableOneYaml(60));
-  WriteWholeFile(scratch.path() / "suite.yaml", TableOneSuite(1, "  - {name: nominal-ls}\n"));
-  const std::set<std::string> before = Holdings(scratch.path());
+using Refusals = InAFolder;
 
-  for (const WrongUsage& usage : WrongUsages()) {
-    std::string typed = "warmjoint";
-    for (const std::string& argument : usage.arguments) typed += " " + argument;
-    const ProgramAnswer answer = RunWarmjoint(usage.arguments, {scratch.path(), {}});
-    EXPECT_EQ(answer.status, 2) << typed;
-    EXPECT_EQ(answer.out, "") << typed;
-    EXPECT_THAT(answer.err, testing::HasSubstr(usage.right)) << typed;
-    EXPECT_LE(answer.err.size(), 300u) << typed << "\n" << answer.err;
-    EXPECT_EQ(Holdings(scratch.path()), before) << typed;
+TEST_F(Refusals, OfWrongUsagesAreBriefWithTheNearestRightThing) {
+  WriteRecordingFile(at("log.csv"), 200,
+                     [](int i) { return (i / 20 % 2 ? -1 : 1) * (i / 40 % 2 ? 0.5 : 1.0); });
+  WriteWholeFile(at("scenario.yaml"), TableOneYaml(60));
+  WriteWholeFile(at("unknown.yaml"), TableOneYaml(60) + "speeed: 3\n");
+  WriteWholeFile(at("suite.yaml"), TableOneSuite(1, "  - {name: nominal-ls}\n"));
+  const std::set<std::string> before = Holdings(scratch_.path());
+
+  for (const auto& [arguments, right] : WrongUsages()) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const ProgramAnswer answer = Program(arguments);
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_EQ(answer.out, "");
+    EXPECT_THAT(answer.err, HasSubstr(right));
+    EXPECT_LE(answer.err.size(), 300u) << answer.err;
+    EXPECT_EQ(Holdings(scratch_.path()), before);
   }
 }
+
+const std::string kHeader = "time,position,velocity,torque\n";
 
 struct BadRecording {
   std::string name;
@@ -163,80 +176,42 @@ struct BadRecording {
   std::string message;  // part of what must be said
 };
 
-void PrintTo(const BadRecording& recording, std::ostream* stream) { *stream << recording.name; }
+const std::vector<BadRecording> kBadRecordings{
+    {"empty file", "", "empty"},
+    {"missing column", "time,position,velocity\n0,0,1\n1,1,1\n2,2,1\n", "torque"},
+    {"text in a number", kHeader + "0,0,1,2\n1,1,1,2x\n2,2,1,3\n", ":3: "},
+    {"NaN", kHeader + "0,0,1,2\n1,1,1,nan\n2,2,1,3\n", "1 of 3 rows lack a number (torque)"},
+    {"time backwards", kHeader + "0,0,1,2\n2,1,1,2\n1,2,1,3\n", ":4: "},
+    {"duplicate times", kHeader + "0,0,1,2\n1,1,1,2\n1,2,1,3\n", ":4: "},
+    {"two samples", kHeader + "0,0,1,2\n1,1,1,3\n", "at least 3"},
+    {"no header", "0 s,0,1,2\n1 s,1,1,2\n2 s,2,1,3\n",
+     "it begins with '0 s,0,1,2'. Name its 4 columns, for example --columns"},
+    {"constant torque", kHeader + "0,0,1,2\n1,1,1,2\n2,2,1,2\n", "torque"}};
 
-class BadRecordings : public testing::TestWithParam<BadRecording> {};
+TEST_F(Refusals, OfBadRecordingsNameTheFaultAndLeaveNothingBehind) {
+  for (const auto& [name, text, message] : kBadRecordings) {
+    SCOPED_TRACE(name);
+    WriteWholeFile(at("log.csv"), text);
+    const std::string check = Refusal({"check", "log.csv"});
+    EXPECT_THAT(check, AllOf(HasSubstr("log.csv"), HasSubstr(message)));
 
-TEST_P(BadRecordings, AreRefusedAndLeaveNothingBehind) {
-  const ScratchDirectory scratch;
-  const std::string recording = scratch.path() / "log.csv";
-  WriteWholeFile(recording, GetParam().text);
-
-  const ProgramAnswer check = RunWarmjoint({"check", recording});
-  EXPECT_EQ(check.status, 2);
-  EXPECT_THAT(check.err, HasSubstr("log.csv"));
-  EXPECT_THAT(check.err, HasSubstr(GetParam().message));
-
-  const ProgramAnswer identify =
-      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "-o",
-                    scratch.path() / "e.json", "--mjcf", scratch.path() / "f.xml"});
-  EXPECT_EQ(identify.status, 2);
-  EXPECT_EQ(identify.out, "");
-  EXPECT_EQ(identify.err, check.err);
-  for (const auto& entry : std::filesystem::directory_iterator(scratch.path())) {
-    EXPECT_EQ(entry.path().filename(), "log.csv") << "left behind";
+    const ProgramAnswer identify = Program(
+        {"identify", "log.csv", "--identifier", "nominal-ls", "-o", "e.json", "--mjcf", "f.xml"});
+    EXPECT_EQ(identify.status, 2);
+    EXPECT_EQ(identify.out, "");
+    EXPECT_EQ(identify.err, check);
+    EXPECT_EQ(Holdings(scratch_.path()).size(), 1u) << "left behind";
   }
 }
-
-const std::string kHeader = "time,position,velocity,torque\n";
-
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, BadRecordings,
-    testing::Values(
-        BadRecording{"EmptyFile", "", "empty"},
-        BadRecording{"MissingColumn", "time,position,velocity\n0,0,1\n1,1,1\n2,2,1\n", "torque"},
-        BadRecording{"TextInANumber", kHeader + "0,0,1,2\n1,1,1,2x\n2,2,1,3\n", ":3: "},
-        BadRecording{"NaN", kHeader + "0,0,1,2\n1,1,1,nan\n2,2,1,3\n",
-                     "1 of 3 rows lack a number (torque)"},
-        BadRecording{"TimeBackwards", kHeader + "0,0,1,2\n2,1,1,2\n1,2,1,3\n", ":4: "},
-        BadRecording{"DuplicateTimes", kHeader + "0,0,1,2\n1,1,1,2\n1,2,1,3\n", ":4: "},
-        BadRecording{"TwoSamples", kHeader + "0,0,1,2\n1,1,1,3\n", "at least 3"},
-        BadRecording{"NoHeader", "0 s,0,1,2\n1 s,1,1,2\n2 s,2,1,3\n",
-                     "it begins with '0 s,0,1,2'. Name its 4 columns, for example --columns"},
-        BadRecording{"ConstantTorque", kHeader + "0,0,1,2\n1,1,1,2\n2,2,1,2\n", "torque"}),
-    [](const auto& suite) { return suite.param.name; });
 
 /// Text of any length and content that a file or an option may hold.
 const std::string kLong = std::string(20000, 'x') + "\x1b[31m";
 
 struct LongInput {
   std::string name;
-  std::string file;                    // its content
-  std::vector<std::string> arguments;  // FILE stands for its path
+  std::string file;  // the content of given.txt
+  std::vector<std::string> arguments;
 };
-
-void PrintTo(const LongInput& input, std::ostream* stream) { *stream << input.name; }
-
-class LongInputs : public testing::TestWithParam<LongInput> {};
-
-TEST_P(LongInputs, AreRefusedInFewWords) {
-  const ScratchDirectory scratch;
-  const std::string file = scratch.path() / (GetParam().name + ".txt");
-  WriteWholeFile(file, GetParam().file);
-  std::vector<std::string> arguments = GetParam().arguments;
-  for (std::string& argument : arguments) {
-    if (const std::size_t at = argument.find("FILE"); at != std::string::npos) {
-      argument.replace(at, 4, file);
-    }
-    if (argument == "OUT") argument = scratch.path() / "out";
-  }
-  const ProgramAnswer answer = RunWarmjoint(arguments);
-  EXPECT_EQ(answer.status, 2);
-  // the longest that is not the input's own: a list of 24 known names beside an excerpt of 60
-  EXPECT_LT(answer.err.size(), 900u) << answer.err;
-  EXPECT_EQ(answer.err.find('\x1b'), std::string::npos) << "controls the terminal";
-  EXPECT_NE(answer.err, "");
-}
 
 const std::string kYaml = "plant: ideal\nduration: ";
 
@@ -246,30 +221,38 @@ std::string ManyColumns() {
   return header + "c\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, LongInputs,
-    testing::Values(
-        LongInput{"cell", kHeader + "0,0,1," + kLong + "\n", {"check", "FILE"}},
-        LongInput{"column", kLong + ",1\n0,0\n", {"check", "FILE"}},
-        LongInput{"columns", ManyColumns(), {"check", "FILE"}},
-        LongInput{"mapped", kHeader, {"check", "FILE", "--map", "torque=" + kLong}},
-        LongInput{"unit", kHeader, {"check", "FILE", "--unit", "torque=" + kLong}},
-        LongInput{"pair", kHeader, {"check", "FILE", "--map", kLong}},
-        LongInput{"value", kYaml + kLong, {"simulate", "FILE", "-o", "OUT"}},
-        LongInput{"key", kLong + ": 3\n", {"simulate", "FILE", "-o", "OUT"}},
-        LongInput{"word", "plant: " + kLong, {"simulate", "FILE", "-o", "OUT"}},
-        LongInput{
-            "setting", kYaml + "3", {"simulate", "FILE", "-o", "OUT", "--set", "seed=" + kLong}},
-        LongInput{"option",
-                  kHeader,
-                  {"identify", "FILE", "--identifier", "energy-ml", "--set", "law=" + kLong}},
-        LongInput{"option_name", kHeader, {"identify", "FILE", "--set", kLong + "=1"}},
-        LongInput{"identifier", kHeader, {"identify", "FILE", "--identifier", kLong}},
-        LongInput{"argument", "", {"identify", "FILE", "--" + kLong}},
-        LongInput{"subcommand", "", {kLong}},
-        LongInput{"shard", "", {"run", "FILE", "-o", "OUT", "--shard", kLong}},
-        LongInput{"no_json", kLong, {"attach", "pendulum", "-o", "OUT", "--joint", "hinge=FILE"}}),
-    [](const auto& suite) { return suite.param.name; });
+const std::vector<LongInput> kLongInputs{
+    {"cell", kHeader + "0,0,1," + kLong + "\n", {"check", "given.txt"}},
+    {"column", kLong + ",1\n0,0\n", {"check", "given.txt"}},
+    {"columns", ManyColumns(), {"check", "given.txt"}},
+    {"mapped", kHeader, {"check", "given.txt", "--map", "torque=" + kLong}},
+    {"unit", kHeader, {"check", "given.txt", "--unit", "torque=" + kLong}},
+    {"pair", kHeader, {"check", "given.txt", "--map", kLong}},
+    {"value", kYaml + kLong, {"simulate", "given.txt", "-o", "out"}},
+    {"key", kLong + ": 3\n", {"simulate", "given.txt", "-o", "out"}},
+    {"word", "plant: " + kLong, {"simulate", "given.txt", "-o", "out"}},
+    {"setting", kYaml + "3", {"simulate", "given.txt", "-o", "out", "--set", "seed=" + kLong}},
+    {"option",
+     kHeader,
+     {"identify", "given.txt", "--identifier", "energy-ml", "--set", "law=" + kLong}},
+    {"option name", kHeader, {"identify", "given.txt", "--set", kLong + "=1"}},
+    {"identifier", kHeader, {"identify", "given.txt", "--identifier", kLong}},
+    {"argument", "", {"identify", "given.txt", "--" + kLong}},
+    {"subcommand", "", {kLong}},
+    {"shard", "", {"run", "given.txt", "-o", "out", "--shard", kLong}},
+    {"no JSON", kLong, {"attach", "pendulum", "-o", "out", "--joint", "hinge=given.txt"}}};
+
+TEST_F(Refusals, OfLongInputsAreInFewWords) {
+  for (const auto& [name, file, arguments] : kLongInputs) {
+    SCOPED_TRACE(name);
+    WriteWholeFile(at("given.txt"), file);
+    const std::string err = Refusal(arguments);
+    // the longest that is not the input's own: a list of 24 known names beside an excerpt of 60
+    EXPECT_LT(err.size(), 900u) << err;
+    EXPECT_EQ(err.find('\x1b'), std::string::npos) << "controls the terminal";
+    EXPECT_NE(err, "");
+  }
+}
 
 }  // namespace
 }  // namespace warmjoint

@@ -51,12 +51,16 @@ int Wait(pid_t child) {
 }
 
 std::vector<std::string> WithProgram(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{test::BuildFolder() / "warmjoint"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return words;
+  return With({test::BuildFolder() / "warmjoint"}, arguments);
 }
 
 }  // namespace
+
+std::vector<std::string> With(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 ProgramAnswer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where) {
   const ScratchDirectory scratch;

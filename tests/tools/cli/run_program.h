@@ -22,6 +22,9 @@ struct Surroundings {
   std::map<std::string, std::string> environment;  // more variables
 };
 
+/// The words of a command, and more behind them.
+std::vector<std::string> With(std::vector<std::string> words, const std::vector<std::string>& more);
+
 /// Runs build/warmjoint with the arguments to its end.
 ProgramAnswer RunWarmjoint(const std::vector<std::string>& arguments,
                            const Surroundings& where = {});

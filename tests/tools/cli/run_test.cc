@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -48,48 +47,36 @@ class Run : public WithASuite {
     for (const auto& row : board.at("rows")) rows.push_back(row.at("identifier"));
     return rows;
   }
+
+  /// The files of two runs whose bytes differ, or that one side lacks.
+  std::set<std::string> Different(const std::string& a, const std::string& b) const {
+    const auto left = FilesOf(a), right = FilesOf(b);
+    std::set<std::string> different;
+    for (const auto& [path, bytes] : left) {
+      if (!right.contains(path) || right.at(path) != bytes) different.insert(path);
+    }
+    for (const auto& [path, bytes] : right) {
+      if (!left.contains(path)) different.insert(path);
+    }
+    return different;
+  }
 };
-
-/// Every file of a run by its path in there, the database apart.
-std::map<std::string, std::string> FilesOf(const std::filesystem::path& directory) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
-    if (!entry.is_regular_file() || entry.path().extension() == ".sqlite") continue;
-    files[std::filesystem::relative(entry.path(), directory)] = ReadWholeFile(entry.path());
-  }
-  return files;
-}
-
-/// The paths whose bytes differ, or that one side lacks.
-std::set<std::string> Different(const std::filesystem::path& a, const std::filesystem::path& b) {
-  const auto left = FilesOf(a), right = FilesOf(b);
-  std::set<std::string> different;
-  for (const auto& [path, bytes] : left) {
-    if (!right.contains(path) || right.at(path) != bytes) different.insert(path);
-  }
-  for (const auto& [path, bytes] : right) {
-    if (!left.contains(path)) different.insert(path);
-  }
-  return different;
-}
 
 TEST_F(Run, EveryFileHasTheSameBytesForAnyNumberOfThreads) {
   Call(Command("one", {"--jobs", "1", "--keep-recordings"}));
-  EXPECT_EQ(FilesOf(at("one")).size(), 4u + 2 * 40u);
+  EXPECT_EQ(FilesOf("one").size(), 4u + 2 * 40u);
   for (const std::string jobs : {"2", "8"}) {
-    ASSERT_EQ(RunWarmjoint(Command(jobs, {"--jobs", jobs, "--keep-recordings"})).status, 0);
-    EXPECT_THAT(Different(at("one"), at(jobs)), testing::IsEmpty());
+    Call(Command(jobs, {"--jobs", jobs, "--keep-recordings"}));
+    EXPECT_THAT(Different("one", jobs), testing::IsEmpty());
   }
 }
 
 TEST_F(Run, TakesSeedsOf64BitsAndNoNegativeOnes) {
   const std::string largest = "18446744073709551615";
   Call(Command("run", {"--realizations", "2", "--seed", largest}));
-  EXPECT_EQ(RunWarmjoint({"compare", at("run")}).status, 0) << "its own suite.yaml";
+  Call({"compare", "run"});  // reads its own suite.yaml
   for (const std::string seed : {"-1", "18446744073709551616", "1.5"}) {
-    const ProgramAnswer answer = RunWarmjoint(Command("none", {"--seed", seed}));
-    EXPECT_EQ(answer.status, 2);
-    EXPECT_THAT(answer.err, HasSubstr("--seed: is '" + seed + "'"));
+    EXPECT_THAT(Refusal(Command("none", {"--seed", seed})), HasSubstr("--seed: is '" + seed + "'"));
   }
 }
 
@@ -99,9 +86,10 @@ TEST_F(Run, AnEditedCopyOfTheSuiteIsNotBelieved) {
   std::string text = ReadWholeFile(copy);
   text.resize(text.find("  - {name: energy-als"));
   WriteWholeFile(copy, text);
-  const ProgramAnswer answer = RunWarmjoint({"compare", at("run"), "--format", "json"});
+  const ProgramAnswer answer = Call({"compare", "run", "--format", "json"});
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("rows").size(), 2u);
   EXPECT_THAT(answer.err, HasSubstr("suite.yaml was edited"));
+  EXPECT_EQ(Call({"compare", "run", "--quiet"}).err, "") << "it is a notice";
 }
 
 TEST_F(Run, GivesTheSameBytesAfterBeingKilledAgainAndAgain) {
@@ -112,7 +100,7 @@ TEST_F(Run, GivesTheSameBytesAfterBeingKilledAgainAndAgain) {
     RunAndSignal(Command("killed", {"--jobs", "1"}), SIGKILL, delay);
   }
   Call(Command("killed"));
-  EXPECT_THAT(Different(at("killed"), at("whole")), testing::IsEmpty());
+  EXPECT_THAT(Different("killed", "whole"), testing::IsEmpty());
 }
 
 TEST_F(Run, IsInterruptedWithStatus130AndGoesOn) {
@@ -126,18 +114,14 @@ TEST_F(Run, IsInterruptedWithStatus130AndGoesOn) {
 TEST_F(Run, AnotherRunInTheSameDirectoryIsRefusedWithWhatDiffers) {
   Call(Command("run", {"--realizations", "2"}));
   const std::string results = Results("run");
-  const auto refusal = [&](const std::vector<std::string>& more) {
-    const ProgramAnswer answer = RunWarmjoint(Command("run", more));
-    EXPECT_EQ(answer.status, 2);
-    return answer.err;
-  };
-  EXPECT_THAT(refusal({"--realizations", "3"}),
+  EXPECT_THAT(Refusal(Command("run", {"--realizations", "3"})),
               HasSubstr("realizations: 2 in the directory, 3 asked"));
-  EXPECT_THAT(refusal({"--realizations", "2", "--seed", "9"}),
+  EXPECT_THAT(Refusal(Command("run", {"--realizations", "2", "--seed", "9"})),
               HasSubstr("seed: 3 in the directory, 9 asked"));
-  EXPECT_THAT(refusal({"--realizations", "2", "--identifier", "em"}), HasSubstr("identifiers"));
+  EXPECT_THAT(Refusal(Command("run", {"--realizations", "2", "--identifier", "em"})),
+              HasSubstr("identifiers"));
   EXPECT_EQ(Results("run"), results);
-  EXPECT_EQ(RunWarmjoint(Command("run", {"--realizations", "2"})).status, 0) << "same run";
+  Call(Command("run", {"--realizations", "2"}));  // the same run
 }
 
 TEST_F(Run, ShardsMergeToTheBytesOfTheWhole) {
@@ -145,12 +129,11 @@ TEST_F(Run, ShardsMergeToTheBytesOfTheWhole) {
   Call(Command("first", {"--shard", "1/2"}));
   Call(Command("second", {"--shard", "2/2"}));
   Call({"merge", "first", "second", "-o", "merged"});
-  EXPECT_THAT(Different(at("merged"), at("whole")), testing::IsEmpty());
+  EXPECT_THAT(Different("merged", "whole"), testing::IsEmpty());
   EXPECT_LT(Results("first").size(), Results("whole").size());
 
-  const ProgramAnswer twice = Program({"merge", "first", "first", "-o", "twice"});
-  EXPECT_EQ(twice.status, 2);
-  EXPECT_THAT(twice.err, HasSubstr("holds realization 0"));
+  EXPECT_THAT(Refusal({"merge", "first", "first", "-o", "twice"}),
+              HasSubstr("holds realization 0, which another shard"));
   EXPECT_FALSE(std::filesystem::exists(at("twice"))) << "left behind";
 
   const ProgramAnswer half = Call({"merge", "second", "-o", "half"});
@@ -162,10 +145,8 @@ TEST_F(Run, ReplaysOneRealizationBitForBit) {
   Call(Command("run", {"--realizations", "4", "--keep-recordings"}));
   Call({"simulate", "--from", "run", "--realization", "3", "-o", "replay"});
   EXPECT_EQ(File("replay/truth.json"), File("run/recordings/variant-0/realization-3.truth.json"));
-  const ProgramAnswer beyond =
-      Program({"simulate", "--from", "run", "--realization", "4", "-o", "none"});
-  EXPECT_EQ(beyond.status, 2);
-  EXPECT_THAT(beyond.err, HasSubstr("has 0 to 3"));
+  EXPECT_THAT(Refusal({"simulate", "--from", "run", "--realization", "4", "-o", "none"}),
+              HasSubstr("has 0 to 3"));
 }
 
 TEST_F(Run, IdentifiersOfOthersStandBesideOurs) {
@@ -195,8 +176,7 @@ TEST_F(Run, IdentifiersOfOthersStandBesideOurs) {
 
 TEST_F(Run, IsDoneWhenAllResultsAreVerdictsButNotWithoutAnyAnswer) {
   const ProgramAnswer verdicts =
-      RunWarmjoint(Command("run", {"--realizations", "2", "--identifier", "nominal-ls"}));
-  EXPECT_EQ(verdicts.status, 0) << verdicts.err;
+      Call(Command("run", {"--realizations", "2", "--identifier", "nominal-ls"}));
   EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 rejected by their own tests;"));
   const ProgramAnswer silence = RunWarmjoint(Command(
       "silent", {"--realizations", "2", "--identifier", "broken=false {recording} {estimate}"}));
@@ -210,24 +190,18 @@ TEST_F(Run, IsDoneWhenAllResultsAreVerdictsButNotWithoutAnyAnswer) {
 TEST_F(Run, SaysOfTheWholeWhatItsShardsDoNot) {
   const std::vector<std::string> more{"--realizations", "2", "--identifier",
                                       "broken=false {recording} {estimate}"};
-  std::vector<std::string> parts;
-  for (const std::string shard : {"1/2", "2/2"}) {
-    parts.push_back(at(shard.substr(0, 1)));
-    std::vector<std::string> command = Command(shard.substr(0, 1), more);
-    command.insert(command.end(), {"--shard", shard});
-    EXPECT_EQ(RunWarmjoint(command).status, 0);
-  }
-  EXPECT_EQ(RunWarmjoint({"merge", parts[0], "-o", at("half")}).status, 0);
-  const ProgramAnswer whole = RunWarmjoint({"merge", parts[0], parts[1], "-o", at("whole")});
+  Call(With(Command("first", more), {"--shard", "1/2"}));
+  Call(With(Command("second", more), {"--shard", "2/2"}));
+  Call({"merge", "first", "-o", "half"});
+  const ProgramAnswer whole = Program({"merge", "first", "second", "-o", "whole"});
   EXPECT_EQ(whole.status, 5);
   EXPECT_THAT(whole.err, HasSubstr("broken answered in no realization"));
 
-  std::vector<std::string> planned = Command("planned", more);
-  planned.insert(planned.end(), {"--local-shards", "1", "--shards", "2"});
-  const ProgramAnswer first = RunWarmjoint(planned);
+  const auto planned = With(Command("planned", more), {"--local-shards", "1", "--shards", "2"});
+  const ProgramAnswer first = Program(planned);
   EXPECT_EQ(first.status, 5) << first.err;
-  EXPECT_EQ(RunWarmjoint({"status", at("planned")}).status, 0);
-  EXPECT_EQ(RunWarmjoint(planned).status, 5) << "also when all is there";
+  Call({"status", "planned"});
+  EXPECT_EQ(Program(planned).status, 5) << "also when all is there";
 }
 
 /// A script beside the suite that answers with a level.
@@ -242,14 +216,13 @@ TEST_F(Run, ACommandJoinsTheSuitesIdentifiersWithItsFilesByBareName) {
   const ProgramAnswer added =
       Call({"run", "little.yaml", "-o", "added", "--realizations", "2", "--identifier",
             "+mine=sh mine.sh {recording} {estimate}", "--identifier", "+energy-ml"});
-  const ProgramAnswer twice = Program({"run", "little.yaml", "-o", "twice", "--identifier",
-                                       "+em=sh mine.sh {recording} {estimate}"});
   EXPECT_THAT(RowsOf("added"),
               testing::UnorderedElementsAre("nominal-ls", "em", "mine", "energy-ml"));
   EXPECT_THAT(added.out, HasSubstr("8 results"));
   EXPECT_THAT(added.out, Not(HasSubstr("without an answer")));
-  EXPECT_EQ(twice.status, 2);
-  EXPECT_THAT(twice.err, HasSubstr("there is a 'em' already"));
+  EXPECT_THAT(Refusal({"run", "little.yaml", "-o", "twice", "--identifier",
+                       "+em=sh mine.sh {recording} {estimate}"}),
+              HasSubstr("there is a 'em' already"));
 }
 
 TEST_F(Run, ACommandOfASuiteFindsItsFilesBesideTheSuite) {
@@ -257,19 +230,16 @@ TEST_F(Run, ACommandOfASuiteFindsItsFilesBesideTheSuite) {
   WriteWholeFile(suite_, SuiteText() +
                              "  - {name: mine, command: \"sh mine.sh {recording} "
                              "{estimate}\"}\n");
-  const ProgramAnswer asked = RunWarmjoint(Command("run", {"--realizations", "2"}));
-  EXPECT_EQ(asked.status, 2);
-  EXPECT_THAT(asked.err, HasSubstr("--allow-commands"));
-  const std::vector<std::string> more{"--realizations", "2", "--allow-commands"};
-  const ProgramAnswer allowed = RunWarmjoint(Command("run", more));
+  EXPECT_THAT(Refusal(Command("run", {"--realizations", "2"})), HasSubstr("--allow-commands"));
+  // from a folder that does not hold them
+  const ProgramAnswer allowed =
+      RunWarmjoint(Command("run", {"--realizations", "2", "--allow-commands"}));
   EXPECT_EQ(allowed.status, 0) << allowed.err;
   EXPECT_THAT(allowed.err, Not(HasSubstr("warning"))) << "the suite stays hidden from it";
   EXPECT_THAT(RowsOf("run"), testing::Contains("mine"));
 
   // its own copy of the suite is the same run
-  std::vector<std::string> again = Command("run", {"--allow-commands"});
-  again[1] = at("run") + "/suite.yaml";
-  EXPECT_EQ(RunWarmjoint(again).status, 0);
+  Call({"run", "run/suite.yaml", "-o", "run", "--allow-commands"});
 }
 
 TEST_F(Run, NoticesJointsThatDoNotFollow) {
@@ -304,14 +274,12 @@ TEST_F(Run, CommandsOfASuiteNeedConsent) {
       "  - {name: external, label: theirs, options: {command: \"touch P {recording} "
       "{estimate}\"}}\n";
   WriteWholeFile(suite_, SuiteText() + entry);
-  const std::vector<std::string> two{"--realizations", "2"};
-  const ProgramAnswer asked = RunWarmjoint(Command("run", two));
-  EXPECT_EQ(asked.status, 2);
-  EXPECT_THAT(asked.err, HasSubstr("runs the command 'touch P"));
-  EXPECT_THAT(asked.err, HasSubstr("--allow-commands"));
+  EXPECT_THAT(
+      Refusal(Command("run", {"--realizations", "2"})),
+      testing::AllOf(HasSubstr("runs the command 'touch P"), HasSubstr("--allow-commands")));
   EXPECT_FALSE(std::filesystem::exists(at("run")));
-  EXPECT_EQ(RunWarmjoint(Command("ours", {"--realizations", "2", "--identifier", "em"})).status, 0)
-      << "it is not run";
+  // where others are chosen, it is not run
+  Call(Command("ours", {"--realizations", "2", "--identifier", "em"}));
 
   // touch answers nothing: the run is complete and says so
   const ProgramAnswer allowed =

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <warmjoint/simulation.h>
 
-#include <fstream>
-
 #include "models/foundation/atomic_file.h"
 #include "scenarios/read_scenario.h"
 #include "tests/tools/cli/in_a_folder.h"
@@ -14,26 +12,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Ten minutes of Table I, ten lines long.
-const std::string kScenario = TableOneYaml(600) + "seed: 1\n";
-
+/// Ten minutes of Table I.
 class Simulate : public InAFolder {
  protected:
-  Simulate() { WriteWholeFile(at("scenario.yaml"), kScenario); }
+  Simulate() { WriteWholeFile(at("scenario.yaml"), TableOneYaml(600) + "seed: 1\n"); }
   ProgramAnswer Into(const std::string& name, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> command{"simulate", "scenario.yaml", "-o", name};
-    command.insert(command.end(), more.begin(), more.end());
-    return Program(command);
-  }
-
-  /// A refusal with this message that leaves nothing but the scenario.
-  void ExpectRefusal(const std::vector<std::string>& more, const std::string& message) const {
-    const ProgramAnswer answer = Into("out", more);
-    EXPECT_EQ(answer.status, 2) << message;
-    EXPECT_THAT(answer.err, HasSubstr(message));
-    for (const auto& entry : std::filesystem::directory_iterator(scratch_.path())) {
-      EXPECT_EQ(entry.path().filename(), "scenario.yaml") << "left behind";
-    }
+    return Program(With({"simulate", "scenario.yaml", "-o", name}, more));
   }
 };
 
@@ -61,23 +45,15 @@ TEST_F(Simulate, SeedRealizationAndSettingsChangeTheRecording) {
   EXPECT_EQ(ReadTruth(at("quiet/truth.json")).torque_noise, 0.25);
 }
 
-TEST_F(Simulate, WritesHdf5ThatIdentifyReads) {
-  ASSERT_EQ(Into("out", {"--format", "h5"}).status, 0);
-  // it is a joint that warms up
-  EXPECT_THAT(
-      Program({"identify", "out/recording.h5", "--identifier", "nominal-ls", "--holdout", "0"}).out,
-      HasSubstr("Try --identifier energy-ml"));
-}
-
 TEST_F(Simulate, ReplacesAnOlderRecordingButNothingElse) {
   ASSERT_EQ(Into("out").status, 0);
   ASSERT_EQ(Into("out", {"--format", "h5"}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(at("out/recording.csv")));
+  EXPECT_EQ(Json({"check", "out/recording.h5"}).at("sampling").at("samples"), 600);
 
-  std::ofstream(at("out/notes.txt")) << "mine";
-  const ProgramAnswer answer = Into("out");
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("holds 'notes.txt', which would be lost"));
+  WriteWholeFile(at("out/notes.txt"), "mine");
+  EXPECT_THAT(Refusal({"simulate", "scenario.yaml", "-o", "out"}),
+              HasSubstr("holds 'notes.txt', which would be lost"));
   EXPECT_TRUE(std::filesystem::exists(at("out/recording.h5")));
 }
 
@@ -86,11 +62,9 @@ TEST_F(Simulate, NoticesAJointThatDoesNotFollowItsMotion) {
                                         "--set", "joint=hinge",    "--set", "duration=60",
                                         "--set", "timestep=0.002", "--set", "motion.speeds=[0.1]"};
   const auto with = [&](const std::string& name, const std::string& bandwidth) {
-    std::vector<std::string> more = engine;
-    if (!bandwidth.empty()) {
-      more.insert(more.end(), {"--set", "controller.bandwidth=" + bandwidth});
-    }
-    const ProgramAnswer answer = Into(name, more);
+    std::vector<std::string> more;
+    if (!bandwidth.empty()) more = {"--set", "controller.bandwidth=" + bandwidth};
+    const ProgramAnswer answer = Into(name, With(engine, more));
     EXPECT_EQ(answer.status, 0) << answer.err;
     return answer.err;
   };
@@ -100,17 +74,6 @@ TEST_F(Simulate, NoticesAJointThatDoesNotFollowItsMotion) {
   EXPECT_EQ(with("chosen", ""), "");
   EXPECT_EQ(with("zero", "0"), "");
   EXPECT_EQ(File("zero/recording.csv"), File("chosen/recording.csv"));
-}
-
-TEST_F(Simulate, RefusesWhatCannotBeAndLeavesNothingBehind) {
-  ExpectRefusal({"--set", "noise.torqu=1"}, "torque");
-  ExpectRefusal({"--set", "noise.torque=-1"}, "-1");
-  ExpectRefusal({"--set", "noise"}, "not of the form key=value");
-  ExpectRefusal({"--set", "plant=mujoco", "--set", "robot=pendulum", "--set", "joint=elbow"},
-                "elbow");
-  ExpectRefusal({"--set", "friction.parameters.viscous=fast"}, "fast");
-  WriteWholeFile(at("scenario.yaml"), kScenario + "speeed: 3\n");
-  ExpectRefusal({}, "scenario.yaml:11: ");
 }
 
 TEST_F(Simulate, CarriesARecordingOutAgain) {

@@ -82,9 +82,8 @@ TEST_F(PlannedRun, ADryRunStopsAtThePlanWhoseScriptWorksByHand) {
 
 TEST_F(PlannedRun, AShardThatIsKilledBeginsAnew) {
   const std::vector<std::string> many{"--realizations", "600"};
-  const auto with = [&](std::vector<std::string> more) {
-    more.insert(more.end(), many.begin(), many.end());
-    return Command("run", more);
+  const auto with = [&](const std::vector<std::string>& more) {
+    return Command("run", With(more, many));
   };
   ASSERT_EQ(RunWarmjoint(with({"--local-shards", "1", "--shards", "2", "--dry-run"})).status, 0);
   // a process that has not yet taken over its signals dies of them
@@ -102,9 +101,7 @@ TEST_F(PlannedRun, AShardThatIsKilledBeginsAnew) {
 TEST_F(PlannedRun, RefusesAnotherSuiteAnotherPartAndAnotherNumberOfShards) {
   ASSERT_EQ(Run("run", {"--local-shards", "1", "--shards", "2", "--dry-run"}).status, 0);
   const auto refusal = [&](const std::vector<std::string>& more) {
-    const ProgramAnswer answer = Run("run", more);
-    EXPECT_EQ(answer.status, 2);
-    return answer.err;
+    return Refusal(Command("run", more));
   };
   EXPECT_THAT(refusal({"--local-shards", "1", "--seed", "4"}),
               HasSubstr("seed: 3 in the directory, 4 asked"));
@@ -177,17 +174,14 @@ TEST_F(SubmittedRun, IsAnArrayAndAMergeAfterIt) {
 }
 
 TEST_F(SubmittedRun, IsRefusedWithTheNumberThatFitsTheCluster) {
-  const ProgramAnswer answer = Run("run", {"--slurm", "--shards", "10"});
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, HasSubstr("give --shards 9"));
+  EXPECT_THAT(Refusal(Command("run", {"--slurm", "--shards", "10"})), HasSubstr("give --shards 9"));
   EXPECT_FALSE(std::filesystem::exists(at("run/slurm/plan.json")));
 }
 
 TEST_F(SubmittedRun, WhatSlurmRefusesIsMissing) {
   WriteWholeFile(at("refused"), "");
-  const ProgramAnswer answer = Run("run", {"--slurm", "--shards", "2"});
-  EXPECT_EQ(answer.status, 2);
-  EXPECT_THAT(answer.err, AllOf(HasSubstr("Invalid partition"), HasSubstr("--resubmit")));
+  EXPECT_THAT(Refusal(Command("run", {"--slurm", "--shards", "2"})),
+              AllOf(HasSubstr("Invalid partition"), HasSubstr("--resubmit")));
   std::filesystem::remove(at("refused"));
   Script("squeue", "exit 1");
   EXPECT_THAT(RunWarmjoint({"status", at("run"), "--resubmit"}).err,

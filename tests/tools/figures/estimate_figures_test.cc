@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "tests/support/judging.h"
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"
 #include "tools/figures/symbols.h"
@@ -46,18 +46,10 @@ EstimateView ExampleView() {
 }
 
 TEST(EstimateFigures, AreTidyAndNamedAsTheirFiles) {
-  const EstimateView view = ExampleView();
-  std::set<std::string> names;
+  const auto shown = LookAtAll(EstimateFigures(), ExampleView());
   for (const EstimateFigure& one : EstimateFigures()) {
-    SCOPED_TRACE(one.name);
-    const std::optional<Figure> figure = one.make(view);
     // the envelope of a ripple would guess a wrong warming
-    ASSERT_EQ(figure.has_value(), one.name != "envelope");
-    if (!figure) continue;
-    EXPECT_EQ(figure->name, one.name);
-    EXPECT_FALSE(one.summary.empty());
-    EXPECT_TRUE(names.insert(one.name).second) << "taken";
-    Look(*figure);
+    EXPECT_EQ(shown.contains(one.name), one.name != "envelope") << one.name;
   }
 }
 
@@ -74,27 +66,20 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
   view.estimate.friction.reset();
   view.estimate.trace.clear();
   view = MakeEstimateView(view.estimate, Prepare(*view.measurements));
-  std::vector<std::string> shown;
-  for (const EstimateFigure& one : EstimateFigures()) {
-    const auto figure = one.make(view);
-    if (!figure) continue;
-    shown.push_back(one.name);
-    EXPECT_FALSE(Look(*figure).plots.empty()) << one.name;
+  std::vector<std::string> names;
+  for (const auto& [name, shown] : LookAtAll(EstimateFigures(), view)) {
+    names.push_back(name);
+    EXPECT_FALSE(shown.plots.empty()) << name;
   }
-  EXPECT_THAT(shown, testing::ElementsAre("fit", "log", "hysteresis", "motor_angle"));
-}
-
-/// An answer that knows no warming about a joint that warms, as its file holds it after a verdict.
-Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> options) {
-  const Identifier& identifier = FindIdentifier("nominal-ls");
-  Estimate estimate = IdentifyAndCheck(identifier, {log, identifier.options.Read(options), {}});
-  EXPECT_NE(estimate.status, Status::ok);
-  return EstimateFrom({EstimateToTree(estimate), "estimate.json"});
+  EXPECT_THAT(names, testing::UnorderedElementsAre("fit", "log", "hysteresis", "motor_angle"));
 }
 
 TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {
   const PreparedLog log = Prepare(WarmRecording().measurements);
-  const Estimate refused = Refused(log, {{"law", "coulomb"}});
+  // a law that knows no warming of a joint that warms, as its file holds it after a verdict
+  const Estimate answer = test::Answer("nominal-ls", log, {{"law", "coulomb"}});
+  const Estimate refused = EstimateFrom({EstimateToTree(answer), "estimate.json"});
+  ASSERT_NE(refused.status, Status::ok);
   ASSERT_FALSE(refused.friction.has_value());
   const EstimateView view = ViewOwnRecording(refused, log);
   ASSERT_TRUE(view.fit->has_fit);

@@ -113,7 +113,7 @@ ErrorByIteration Example() {
   return data;
 }
 
-TEST(ErrorByIteration, DrawsMediansInTheIdentifiersColours) {
+TEST(ErrorByIteration, DrawsMediansAndBandsOfQuartilesInTheIdentifiersColours) {
   const Shown drawn = Look(MakeErrorByIteration(Example()));
   ASSERT_EQ(drawn.plots.size(), 2u);
   const ShownPlot& npe = PlotNamed(drawn, "Normalised parameter error");
@@ -128,11 +128,7 @@ TEST(ErrorByIteration, DrawsMediansInTheIdentifiersColours) {
   const ShownPlot& rmse = PlotNamed(drawn, "Root mean square error of the fit");
   EXPECT_EQ(SeriesNamed(rmse, "noise").y, std::pair(0.5, 0.5));
   EXPECT_EQ(SeriesNamed(rmse, "energy-als 50").y, std::pair(0.55, 0.8));
-}
 
-TEST(ErrorByIteration, ShowsTheQuartilesAsABandOfTheSameColour) {
-  const Shown drawn = Look(MakeErrorByIteration(Example()));
-  const ShownPlot& npe = PlotNamed(drawn, "Normalised parameter error");
   // the band of energy-als 500 stands alone at its end: median 1 %, quartiles 0.8 and 1.2 %
   const ShownSeries* band = nullptr;
   for (const ShownSeries& series : npe.series) {

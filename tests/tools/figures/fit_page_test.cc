@@ -4,11 +4,9 @@
 
 #include <Eigen/LU>
 
-#include "identification/answer/identify.h"
-#include "identification/identifier.h"
-#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
+#include "tests/support/judging.h"
 #include "tests/support/warm_recording.h"
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/warm_recording.h"
@@ -21,12 +19,6 @@ namespace warmjoint::figures {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string AllText(const Words& words) {
-  std::string text;
-  for (const Words::Paragraph& paragraph : words.paragraphs) text += paragraph.text + "\n";
-  return text;
-}
 
 TEST(FitPage, TellsTheStoryOfAWarmFit) {
   const WarmRecording warm;
@@ -53,9 +45,19 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
   warm.estimate.status = Status::not_identifiable;
   warm.estimate.message = "one speed alone";
   const FitView view = warm.View();
-  EXPECT_THAT(AllText(VerdictOf(view)),
-              HasSubstr("there are no numbers to use.\nOne speed alone."));
+  for (const char* words : {"there are no numbers to use.", "One speed alone."}) {
+    EXPECT_THAT(VerdictOf(view).paragraphs,
+                testing::Contains(testing::Field(&Words::Paragraph::text, HasSubstr(words))));
+  }
   Look(MakeFitPage(view));
+}
+
+/// Three kernels over position with these weights.
+FrictionMap ThreeKernels(const std::vector<double>& weights) {
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
+  map.weights = weights;
+  return map;
 }
 
 TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
@@ -67,19 +69,13 @@ TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
     });
   };
   EXPECT_EQ(bands(), 4) << "cold and warm, either way";
-  FrictionMap map;
-  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
-  map.weights = {0.1, 0, -0.1};
-  warm.estimate.friction->maps = {map};
+  warm.estimate.friction->maps = {ThreeKernels({0.1, 0, -0.1})};
   EXPECT_EQ(bands(), 0);
 }
 
 TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
   WarmRecording warm;
-  FrictionMap map;
-  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
-  map.weights = {4, 4, 4};
-  warm.estimate.friction->maps = {map};
+  warm.estimate.friction->maps = {ThreeKernels({4, 4, 4})};
   warm.estimate.friction->parameters["coulomb"] = 11;
   const Plot plot = FrictionCurve(warm.View());
   // 11 + 5 v of the law and 4 of the map, forwards at the fastest
@@ -142,27 +138,11 @@ TEST(FrictionSpread, HasTheFrictionsShareOfTheCovariance) {
               std::sqrt(row.dot(spread.covariance * row)), 1e-9);
 }
 
-struct Identified {
-  PreparedLog log;
-  Estimate estimate;
-};
-
-Identified Identify(const Measurements& m, const std::map<std::string, std::string>& given) {
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = identifier.options.Read(given);
-  PreparedLog log = Prepare(m);
-  Estimate estimate = IdentifyAndCheck(identifier, {log, options, {}});
-  return {std::move(log), std::move(estimate)};
-}
-
-Friction Warm() {
-  Friction friction = test::TableOne();
-  friction.thermal->time_constant = 100;
-  return friction;
-}
-
 TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
-  const auto [log, estimate] = Identify(test::Excited(Warm(), 12000, 4), {{"gravity", "sincos"}});
+  Friction warm = test::TableOne();
+  warm.thermal->time_constant = 100;
+  const PreparedLog log = Prepare(test::Excited(warm, 12000, 4));
+  const Estimate estimate = test::Answer("energy-ml", log, {{"gravity", "sincos"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ASSERT_TRUE(estimate.Find("inertia"));
   const FitView view = MakeFitView(log, estimate);
@@ -185,10 +165,7 @@ TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
   const auto& scatter =
       std::get<Scatter>(std::get<Plot>(predicted->panels[0].content).series[0].shape);
   EXPECT_GT(scatter.y.maxCoeff(), view.fitted.maxCoeff() + 1) << "the fitted torque has all parts";
-  for (const EstimateFigure& one : EstimateFigures()) {
-    SCOPED_TRACE(one.name);
-    if (const auto figure = one.make({estimate, m, view, std::nullopt})) Look(*figure);
-  }
+  LookAtAll(EstimateFigures(), EstimateView{estimate, m, view, std::nullopt});
 }
 
 /// The labels of all axes of a figure, one behind the other.
@@ -206,7 +183,8 @@ TEST(FitView, OfACurrentSaysAmperesEverywhere) {
   Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.3, 1);
   m.torque_unit = "A";
-  const auto [log, estimate] = Identify(m, {});
+  const PreparedLog log = Prepare(m);
+  const Estimate estimate = test::Answer("energy-ml", log);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   const FitView view = MakeFitView(log, estimate);
   int figures = 0;

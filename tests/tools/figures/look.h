@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/figures/figure.h"
 
@@ -101,6 +104,22 @@ inline Shown Look(const Figure& figure) {
       EXPECT_TRUE(axis->lower < axis->upper) << figure.name << ": '" << axis->label << "'";
       EXPECT_TRUE(axis->scale == Scale::linear || axis->lower > 0) << axis->label;
     }
+  }
+  return shown;
+}
+
+/// What those figures of a family show that the view has data for, by their names, which are those of their files.
+template <typename View>
+std::map<std::string, Shown> LookAtAll(const std::vector<NamedFigure<View>>& family,
+                                       const View& view) {
+  std::map<std::string, Shown> shown;
+  for (const NamedFigure<View>& one : family) {
+    SCOPED_TRACE(one.name);
+    EXPECT_FALSE(one.summary.empty());
+    const std::optional<Figure> figure = one.make(view);
+    if (!figure) continue;
+    EXPECT_EQ(figure->name, one.name);
+    EXPECT_TRUE(shown.emplace(one.name, Look(*figure)).second) << "taken";
   }
   return shown;
 }

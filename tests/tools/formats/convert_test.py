@@ -141,8 +141,7 @@ class Convert(unittest.TestCase):
         self.assertIn("an index is at most 1", self.refusal(log, "--map", "position=state[2]"))
         self.assertIn("did you mean 'tau'?", self.refusal(log, "--map", "torque=taus"))
 
-    def test_parquet_stamps(self):
-        log = self.folder / "log.parquet"
+        # stamps as times
         stamps = pyarrow.array(EPOCH * 10**9 + numpy.round(TIME * 1e9).astype(numpy.int64), pyarrow.timestamp("ns"))
         pyarrow.parquet.write_table(pyarrow.table({"time": stamps, "position": POSITION, "torque": TORQUE}), log)
         found = self.columns(log, "--map", "time=time,position=position,torque=torque")

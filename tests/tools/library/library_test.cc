@@ -9,9 +9,11 @@
 
 #include <array>
 #include <functional>
+#include <sstream>
 #include <thread>
 
 #include "models/robots/robot_folder.h"
+#include "tests/support/folders.h"
 #include "tests/support/refusal.h"
 #include "tests/tools/cli/in_a_folder.h"
 #include "tests/tools/cli/little_files.h"
@@ -40,74 +42,68 @@ struct Asked {
   double (*velocity)(int) = SeveralSpeeds;
 };
 
-void PrintTo(const Asked& asked, std::ostream* stream) { *stream << asked.name; }
-
-class IdentifyAsTheCommand : public InAFolder, public testing::WithParamInterface<Asked> {};
+const std::vector<Asked> kAsked{
+    {"Defaults", {}, [](auto&, auto&, auto&) {}},
+    {"Refused",
+     {"--identifier", "nominal-ls"},
+     [](auto&, auto& settings, auto&) { settings.identifier = "nominal-ls"; },
+     Status::not_identifiable,
+     OneSpeed},
+    {"LinearJointInOtherUnits",
+     {"--identifier", "nominal-ls", "--unit", "position=mm,velocity=mm/s,torque=kN", "--joint",
+      "linear", "--gear", "3", "--scale", "torque=0.5"},
+     [](auto& source, auto& settings, auto&) {
+       settings.identifier = "nominal-ls";
+       source.read.unit = {{"torque", "kN"}, {"position", "mm"}, {"velocity", "mm/s"}};
+       source.read.joint = JointKind::linear;
+       source.read.gear = 3;
+       source.read.scale = {{"torque", 0.5}};
+     }},
+    {"OptionsGravityAndTrimmedHolds",
+     {"--identifier", "nominal-ls", "--set", "law=asymmetric", "--gravity", "sincos", "--trim", "1",
+      "--shortest-hold", "2", "--start", "unknown", "--relevance", "0.05", "--holdout", "0.4"},
+     [](auto& source, auto& settings, auto& holdout) {
+       settings.identifier = "nominal-ls";
+       settings.options = {{"law", "asymmetric"}};
+       settings.gravity = FittedGravity::sincos;
+       settings.start = StartBelief::unknown;
+       settings.relevance = 0.05;
+       holdout.fraction = 0.4;
+       source.prepare = {1, 2};
+     }},
+    {"ACurrentWhichMuJoCoDoesNotKnow",
+     {"--identifier", "nominal-ls", "--unit", "torque=A"},
+     [](auto& source, auto& settings, auto&) {
+       settings.identifier = "nominal-ls";
+       source.read.unit = {{"torque", "A"}};
+     }}};
 
 class Library : public InAFolder {};
 
-TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
+TEST_F(Library, IdentifiesToTheSameFileAsTheCommandToTheLastByte) {
   const std::string log = at("log.csv"), file = at("estimate.json");
-  WriteRecordingFile(log, 480, GetParam().velocity);
-  std::vector<std::string> arguments{"identify", log, "-o", file};
-  arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
-  const ProgramAnswer answer = RunWarmjoint(arguments);
-  ASSERT_EQ(answer.status, GetParam().status == Status::ok ? 0 : 3) << answer.err;
+  for (const Asked& asked : kAsked) {
+    SCOPED_TRACE(asked.name);
+    WriteRecordingFile(log, 480, asked.velocity);
+    const ProgramAnswer answer = RunWarmjoint(With({"identify", log, "-o", file}, asked.arguments));
+    EXPECT_EQ(answer.status, asked.status == Status::ok ? 0 : 3) << answer.err;
 
-  RecordingSource source{{log}, {}, {}};
-  IdentifySettings settings;
-  HoldOutSource holdout;
-  GetParam().set(source, settings, holdout);
-  Estimate estimate = Identify(Prepare(ReadRecordings(source), source.prepare), settings, holdout);
-  EXPECT_EQ(estimate.status, GetParam().status) << estimate.message;
-  estimate.recording = source;
-  WriteEstimate(estimate, at("ours.json"));
-  EXPECT_EQ(File("ours.json"), File("estimate.json"));
+    RecordingSource source{{log}, {}, {}};
+    IdentifySettings settings;
+    HoldOutSource holdout;
+    asked.set(source, settings, holdout);
+    Estimate estimate =
+        Identify(Prepare(ReadRecordings(source), source.prepare), settings, holdout);
+    EXPECT_EQ(estimate.status, asked.status) << estimate.message;
+    estimate.recording = source;
+    WriteEstimate(estimate, at("ours.json"));
+    EXPECT_EQ(File("ours.json"), File("estimate.json"));
 
-  // and there and back as values
-  WriteEstimate(ReadEstimate(file), at("back.json"));
-  EXPECT_EQ(File("back.json"), File("estimate.json"));
+    // and there and back as values
+    WriteEstimate(ReadEstimate(file), at("back.json"));
+    EXPECT_EQ(File("back.json"), File("estimate.json"));
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Logs, IdentifyAsTheCommand,
-    testing::Values(
-        Asked{"Defaults", {}, [](auto&, auto&, auto&) {}},
-        Asked{"Refused",
-              {"--identifier", "nominal-ls"},
-              [](auto&, auto& settings, auto&) { settings.identifier = "nominal-ls"; },
-              Status::not_identifiable,
-              OneSpeed},
-        Asked{"LinearJointInOtherUnits",
-              {"--identifier", "nominal-ls", "--unit", "position=mm,velocity=mm/s,torque=kN",
-               "--joint", "linear", "--gear", "3", "--scale", "torque=0.5"},
-              [](auto& source, auto& settings, auto&) {
-                settings.identifier = "nominal-ls";
-                source.read.unit = {{"torque", "kN"}, {"position", "mm"}, {"velocity", "mm/s"}};
-                source.read.joint = JointKind::linear;
-                source.read.gear = 3;
-                source.read.scale = {{"torque", 0.5}};
-              }},
-        Asked{"OptionsGravityAndTrimmedHolds",
-              {"--identifier", "nominal-ls", "--set", "law=asymmetric", "--gravity", "sincos",
-               "--trim", "1", "--shortest-hold", "2", "--start", "unknown", "--relevance", "0.05",
-               "--holdout", "0.4"},
-              [](auto& source, auto& settings, auto& holdout) {
-                settings.identifier = "nominal-ls";
-                settings.options = {{"law", "asymmetric"}};
-                settings.gravity = FittedGravity::sincos;
-                settings.start = StartBelief::unknown;
-                settings.relevance = 0.05;
-                holdout.fraction = 0.4;
-                source.prepare = {1, 2};
-              }},
-        Asked{"ACurrentWhichMuJoCoDoesNotKnow",
-              {"--identifier", "nominal-ls", "--unit", "torque=A"},
-              [](auto& source, auto& settings, auto&) {
-                settings.identifier = "nominal-ls";
-                source.read.unit = {{"torque", "A"}};
-              }}),
-    [](const auto& asked) { return asked.param.name; });
 
 TEST_F(Library, FollowsAnEarlierRecordingAsTheCommand) {
   const std::string log = at("log.csv"), earlier = at("earlier.json"), file = at("estimate.json");
@@ -125,17 +121,8 @@ TEST_F(Library, FollowsAnEarlierRecordingAsTheCommand) {
   EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 0.5);
 }
 
-TEST(Identify, RefusesSettingsWithTheBoundOrTheNearestName) {
+TEST(Identify, RefusesAShareToHoldOutThatIsNone) {
   const PreparedLog log = Prepare(TableOneRun(600).measurements);
-  const auto refusal = [&](const std::function<void(IdentifySettings&)>& change) {
-    IdentifySettings settings;
-    settings.identifier = "energy-ml";
-    change(settings);
-    return test::RefusalOf([&] { Identify(log, settings); });
-  };
-  EXPECT_THAT(refusal([](auto& s) { s.identifier = "nominal-sl"; }), HasSubstr("'nominal-ls'"));
-  EXPECT_THAT(refusal([](auto& s) { s.options = {{"lwa", "coulomb"}}; }), HasSubstr("'law'"));
-  EXPECT_THAT(refusal([](auto& s) { s.relevance = 2; }), HasSubstr("at most 1"));
   EXPECT_THAT(test::RefusalOf([&] { Identify(log, {}, {1, {}}); }), HasSubstr("below 1"));
 }
 
@@ -181,14 +168,6 @@ TEST_F(Library, ReadsVectorsAsAFileOfThem) {
               HasSubstr("absent.csv"));
 }
 
-TEST_F(Library, ChecksAsTheCommand) {
-  const std::string log = at("log.csv");
-  WriteRecordingFile(log, 480);
-  const RecordingCheck check = CheckRecording(Prepare(ReadRecordings({{log}, {}, {}})));
-  EXPECT_EQ(CheckToText(check), RunWarmjoint({"check", log}).out);
-  EXPECT_EQ(check.motion.levels.size(), 8u);
-}
-
 TEST_F(Library, WritesTheModelOfTheCommandInBothForms) {
   const auto theirs = at("theirs.xml"), ours = at("ours.xml");
   const std::string friction = DataFolder() / "models/robots/yumi_like/friction.json";
@@ -210,21 +189,6 @@ TEST_F(Library, WritesTheModelOfTheCommandInBothForms) {
     EXPECT_EQ(File("ours.xml"), File("theirs.xml"));
     EXPECT_EQ(attached.joints.size(), 7u);
   }
-}
-
-TEST_F(Library, RefusesToAttachAndWritesNothing) {
-  const auto out = at("out.xml");
-  const FrictionForJoint hinge{"hinge",
-                               ReadFriction(DataFolder() / "models/robots/pendulum/friction.json")};
-  const auto refusal = [&](const FrictionForJoint& friction, const AttachOptions& options) {
-    return test::RefusalOf(
-        [&] { AttachFriction(FindRobot("pendulum", "model"), {friction}, out, options); });
-  };
-  EXPECT_THAT(refusal({"hing", hinge.friction}, {}), HasSubstr("'hinge'"));
-  EXPECT_THAT(refusal(hinge, {.timestep = 0}), HasSubstr("above 0"));
-  EXPECT_THAT(refusal(hinge, {.armatures = {{"hinge", -1}}}), HasSubstr("0 or more"));
-  EXPECT_THAT(refusal(hinge, {.packages = {{"robot", "absent"}}}), HasSubstr("not a folder"));
-  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST_F(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
@@ -284,6 +248,15 @@ TEST_F(Library, HasTheScoreOfTheLeaderboard) {
   EXPECT_NE(test::RefusalOf(
                 [] { NormalisedParameterError(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 0)); }),
             "accepted");
+}
+
+TEST(Readme, ShowsTheProgramThatIsTested) {
+  // each line of the program, indented
+  std::istringstream program(ReadWholeFile(test::SourceFolder() / "tests/consumer/main.cc"));
+  std::string shown;
+  for (std::string line; std::getline(program, line);)
+    shown += line.empty() ? "\n" : "    " + line + "\n";
+  EXPECT_THAT(ReadWholeFile(test::SourceFolder() / "tools/include/README.md"), HasSubstr(shown));
 }
 
 TEST(Version, IsThatOfTheProgramAndOfTheHeaders) {

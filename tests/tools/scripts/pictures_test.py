@@ -191,9 +191,6 @@ class Pictures(unittest.TestCase):
         self.assertTrue(axes.get_xlabel() and axes.get_legend())
         self.assertRaises(ValueError, self.draw.draw, self.named("kernels"), ax=axes)
 
-    def test_what_has_no_room_says_so(self):
-        self.assertRaises(self.draw.TooSmall, self.draw.draw, self.named("kernels"), "paper", width=20, height=20)
-
     def test_a_python_without_matplotlib_is_one_sentence(self):
         bare = self.all.at("bare")
         bare.write_text("#!/bin/sh\nexit 1\n")

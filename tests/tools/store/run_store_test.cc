@@ -110,10 +110,6 @@ TEST_F(RunStoreTest, GoesOnWithTheSameRunAlone) {
   Make("run", {});
   EXPECT_NO_THROW(Make("run", {}));
   RunDescription other = LittleRun();
-  other.suite_yaml.replace(other.suite_yaml.find("seed: 7"), 7, "seed: 8");
-  EXPECT_THAT([&] { RunStore::CreateOrResume(Path("run"), other); },
-              ThrowsMessage<BadInput>(HasSubstr("seed: 7 in the directory, 8 asked")));
-  other = LittleRun();
   other.versions = {{"warmjoint", "0.2.0"}};
   EXPECT_THAT([&] { RunStore::CreateOrResume(Path("run"), other); },
               ThrowsMessage<BadInput>(HasSubstr("warmjoint 0.1.0")));
@@ -160,7 +156,7 @@ TEST_F(RunStoreTest, StartsAnewWhereNothingWasStoredYet) {
   EXPECT_TRUE(ResultsOf(RunStore::OpenToRead(Path("run"))).empty());
 }
 
-TEST_F(RunStoreTest, GathersShardsOnce) {
+TEST_F(RunStoreTest, GathersShards) {
   Make("one", {0, 2});
   Make("two", {3, 1});
   RunStore merged = Make("merged", {});
@@ -168,50 +164,41 @@ TEST_F(RunStoreTest, GathersShardsOnce) {
   EXPECT_EQ(merged.Finished().size(), 4u);
   EXPECT_EQ(ResultsOf(merged)[2].realization, 1);
   EXPECT_THAT(merged.ReadTrace({0, 3}, 0).values, ElementsAre(0, 1.5f, 1, 0.5f));
-  EXPECT_THAT(
-      [&] {
-        Make("twice", {}).Gather({Path("one"), Path("one")});
-      },
-      ThrowsMessage<BadInput>(HasSubstr("holds realization 0, which another shard")));
 }
 
 /// A change that makes a store unusable, and what the refusal says of it.
 struct Damage {
-  const char* name;
   const char* sql;
   const char* told;
 };
 
-class DamagedStore : public RunStoreTest, public testing::WithParamInterface<Damage> {};
+constexpr Damage kDamages[]{
+    {"PRAGMA user_version = 2", "schema version 2"},
+    {"UPDATE result SET identifier = identifier + 1000", "identifier 1000"},
+    {"UPDATE result SET variant = 1", "variant 1"},
+    {"UPDATE result SET realization = -9 - realization", "realization -10"},
+    {"UPDATE trace SET columns = 'a,b,c'", "do not fill its 3 columns"},
+    {"DROP TABLE trace; CREATE VIEW trace AS WITH RECURSIVE n(i) AS (SELECT 1 UNION"
+     " ALL SELECT i + 1 FROM n) SELECT * FROM n",
+     "cannot be used as a run's database"},
+    {"DROP TABLE result", "no such table"}};
 
-TEST_P(DamagedStore, IsRefusedWithItsPlace) {
-  Make("run", {0, 1});
-  SQLite::Database(Path("run/results.sqlite"), SQLite::OPEN_READWRITE).exec(GetParam().sql);
-  const auto read = [&] {
-    const RunStore store = RunStore::OpenToRead(Path("run"));
-    for (const Result& result : ResultsOf(store)) {
-      store.ReadTrace({result.variant, result.realization}, result.identifier);
-    }
-  };
-  EXPECT_THAT(read, ThrowsMessage<BadInput>(
-                        testing::AllOf(HasSubstr("results.sqlite: "), HasSubstr(GetParam().told))));
+TEST_F(RunStoreTest, RefusesADamagedStoreWithThePlace) {
+  for (const auto& [sql, told] : kDamages) {
+    SCOPED_TRACE(sql);
+    std::filesystem::remove_all(Path("run"));
+    Make("run", {0, 1});
+    SQLite::Database(Path("run/results.sqlite"), SQLite::OPEN_READWRITE).exec(sql);
+    const auto read = [&] {
+      const RunStore store = RunStore::OpenToRead(Path("run"));
+      for (const Result& result : ResultsOf(store)) {
+        store.ReadTrace({result.variant, result.realization}, result.identifier);
+      }
+    };
+    EXPECT_THAT(read, ThrowsMessage<BadInput>(
+                          testing::AllOf(HasSubstr("results.sqlite: "), HasSubstr(told))));
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    RunStore, DamagedStore,
-    testing::Values(
-        Damage{"OlderSchema", "PRAGMA user_version = 2", "schema version 2"},
-        Damage{"Identifier", "UPDATE result SET identifier = identifier + 1000", "identifier 1000"},
-        Damage{"Variant", "UPDATE result SET variant = 1", "variant 1"},
-        Damage{"Realization", "UPDATE result SET realization = -9 - realization",
-               "realization -10"},
-        Damage{"Trace", "UPDATE trace SET columns = 'a,b,c'", "do not fill its 3 columns"},
-        Damage{"ViewForTable",
-               "DROP TABLE trace; CREATE VIEW trace AS WITH RECURSIVE n(i) AS (SELECT 1 UNION"
-               " ALL SELECT i + 1 FROM n) SELECT * FROM n",
-               "cannot be used as a run's database"},
-        Damage{"NoTable", "DROP TABLE result", "no such table"}),
-    [](const auto& damage) { return damage.param.name; });
 
 TEST_F(RunStoreTest, RefusesAFileThatIsCutOrNoDatabase) {
   Make("run", {0, 1, 2, 3});

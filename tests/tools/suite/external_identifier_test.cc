@@ -33,26 +33,32 @@ Measurements Log() {
   return log;
 }
 
-/// What a line of shell answers; file: its $1.
-Estimate Ask(const std::string& command, const std::string& limit = "20",
-             const std::string& file = "") {
+/// An identifier that is a line of shell; file: its $1.
+SuiteIdentifier Shell(const std::string& command, const std::string& limit = "20",
+                      const std::string& file = "") {
   const std::string line =
       JoinCommand({"/bin/sh", "-c", command + " # {recording} {estimate}", "sh", file});
-  const SuiteIdentifier identifier{
-      kExternal, "theirs", {{"command", line}, {"time_limit", limit}}, {}};
-  const Measurements log = Log();
-  return PrepareExternal(identifier, {}, {}, kConfinement)(Prepare(log), {});
+  return {kExternal, "theirs", {{"command", line}, {"time_limit", limit}}, {}};
 }
 
-/// How the command fails, and why: "status: message".
-std::string Failure(const std::string& command, const std::string& limit = "20",
-                    const std::string& file = "") {
+/// What it answers about the log.
+Estimate Ask(const SuiteIdentifier& identifier) {
+  return PrepareExternal(identifier, {}, {}, kConfinement)(Prepare(Log()), {});
+}
+
+/// How it fails, and why: "status: message".
+std::string FailureOf(const SuiteIdentifier& identifier) {
   try {
-    Ask(command, limit, file);
+    Ask(identifier);
   } catch (const NoAnswer& failure) {
     return failure.status + ": " + failure.what();
   }
   return "";
+}
+
+std::string Failure(const std::string& command, const std::string& limit = "20",
+                    const std::string& file = "") {
+  return FailureOf(Shell(command, limit, file));
 }
 
 /// A command of a suite in a folder with some files.
@@ -105,11 +111,11 @@ TEST(ExternalIdentifier, IsNamedWithItsCommand) {
 }
 
 TEST(ExternalIdentifier, AnswersWithAnEstimate) {
-  const Estimate estimate =
-      Ask(R"(echo '{"status": "ok", "recording": "of mine", "follows": 1, "project": [],)"
-          R"( "parameters": {"coulomb": {"value": 2, "unit": "N.m", "std": null,)"
-          R"( "interval95": null}}, "friction": {"law": "coulomb", "parameters": {"coulomb": 2}}}')"
-          " > estimate.json");
+  const Estimate estimate = Ask(Shell(
+      R"(echo '{"status": "ok", "recording": "of mine", "follows": 1, "project": [],)"
+      R"( "parameters": {"coulomb": {"value": 2, "unit": "N.m", "std": null,)"
+      R"( "interval95": null}}, "friction": {"law": "coulomb", "parameters": {"coulomb": 2}}}')"
+      " > estimate.json"));
   EXPECT_EQ(estimate.status, Status::ok);
   EXPECT_EQ(estimate.Find("coulomb")->value, 2);
   EXPECT_FALSE(estimate.recording || estimate.follows) << "these are ours to say";
@@ -120,8 +126,8 @@ TEST(ExternalIdentifier, AnswersWithAnEstimate) {
 TEST(ExternalIdentifier, CompletesTheDiscretePair) {
   const std::string value = R"("unit": "", "std": null, "interval95": null})";
   const Estimate estimate =
-      Ask(R"(echo '{"status": "ok", "parameters": {"thermal_gain": {"value": -3, )" + value +
-          R"(, "thermal_time_constant": {"value": 600, )" + value + "}}' > estimate.json");
+      Ask(Shell(R"(echo '{"status": "ok", "parameters": {"thermal_gain": {"value": -3, )" + value +
+                R"(, "thermal_time_constant": {"value": 600, )" + value + "}}' > estimate.json"));
   // 1 s between the samples; k (1 - exp(-h/tau)) with k -3 and tau 600 s
   EXPECT_NEAR(estimate.Find("thermal_gain_discrete")->value, -0.0049958, 5e-8);
   EXPECT_NEAR(estimate.Find("thermal_pole")->value, std::exp(-1 / 600.0), 1e-15);
@@ -184,14 +190,7 @@ TEST(ExternalIdentifier, AProgramOutOfReachIsToldWithItsRemedy) {
   std::ofstream(shims.path() / "python3") << "#!/bin/sh\nexec " + interpreter + " \"$@\"\n";
   std::filesystem::permissions(shims.path() / "python3", std::filesystem::perms(0755));
   const auto failure = [](const std::string& program) {
-    const Measurements log = Log();
-    try {
-      PrepareExternal(ReadExternal("a=" + program + " -c 'exit 7' {recording} {estimate}"), {})(
-          Prepare(log), {});
-    } catch (const NoAnswer& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return FailureOf(ReadExternal("a=" + program + " -c 'exit 7' {recording} {estimate}"));
   };
   EXPECT_THAT(failure(shims.path() / "python3"),
               HasSubstr("name the interpreter by its full path"));
@@ -206,14 +205,9 @@ TEST(ExternalIdentifier, FoldersNamesAreNoCommands) {
   std::filesystem::permissions(evil / "id.sh", std::filesystem::perms(0700));
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(evil);
-  const SuiteIdentifier identifier = ReadExternal("a=./id.sh 'a  b' {recording} {estimate}");
-  const Measurements log = Log();
-  try {
-    PrepareExternal(identifier, {}, {}, kConfinement)(Prepare(log), {});
-    ADD_FAILURE() << "answered";
-  } catch (const NoAnswer& failure) {
-    EXPECT_STREQ(failure.what(), "wrote no estimate") << "it ran, and to its end";
-  }
+  EXPECT_EQ(FailureOf(ReadExternal("a=./id.sh 'a  b' {recording} {estimate}")),
+            "bad_answer: wrote no estimate")
+      << "it ran, and to its end";
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(evil), {}), 1) << "P was made";
   std::filesystem::current_path(before);
 }

@@ -36,9 +36,8 @@ TEST(ChooseIdentifiers, TakesAllOfASuiteUnlessSomeAreNamed) {
   EXPECT_THAT(Labels({"nominal-ls", "long"}), ElementsAre("nominal-ls", "long"));
   EXPECT_THAT(Labels({"energy-als"}), ElementsAre("short", "long"));
   EXPECT_THAT(Labels({"long", "energy-als"}), ElementsAre("long", "short")) << "each once";
-}
 
-TEST(ChooseIdentifiers, AddsToThem) {
+  // a + adds to them
   EXPECT_THAT(Labels({"+energy-ml"}), ElementsAre("short", "long", "nominal-ls", "energy-ml"));
   EXPECT_THAT(Labels({"+energy-ml", "long"}), ElementsAre("energy-ml", "long"));
 }

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "models/foundation/bad_input.h"
+#include "tests/support/refusal.h"
 #include "tests/tools/figures/look.h"
 #include "tools/figures/run/simulation_figures.h"
 #include "tools/scene/context.h"
@@ -154,15 +154,7 @@ TEST(WarmRobot, IsNothingWithoutARobotOrWarming) {
 }
 
 TEST(SimulationFigures, AreNamedAsTheirFiles) {
-  const SimulationView view = ExampleSimulation();
-  for (const SimulationFigure& one : SimulationFigures()) {
-    const auto figure = one.make(view);
-    if (figure) {
-      EXPECT_EQ(figure->name, one.name);
-      Look(*figure);
-    }
-    EXPECT_FALSE(one.summary.empty());
-  }
+  LookAtAll(SimulationFigures(), ExampleSimulation());
 }
 
 /// Sets an environment variable for as long as it lives.
@@ -184,12 +176,8 @@ TEST(GlContext, IsTheOneThatTheVariableForces) {
 
 TEST(GlContext, RefusesAnUnknownKind) {
   Variable forced("osmessa");
-  try {
-    MakeGlContext();
-    FAIL() << "accepted";
-  } catch (const BadInput& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("WARMJOINT_GL: unknown value 'osmessa'; did you mean"));
-  }
+  EXPECT_THAT(test::RefusalOf([] { MakeGlContext(); }),
+              HasSubstr("WARMJOINT_GL: unknown value 'osmessa'; did you mean"));
 }
 
 }  // namespace
