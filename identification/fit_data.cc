@@ -15,7 +15,6 @@ constexpr double kLargest = 1e75;  // why: its fourth power, a squared power, is
 
 /// Complains of the first number in `values` that is not finite.
 std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& values) {
-  if (values.allFinite()) return std::nullopt;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     return fmt::format("{} is {} at sample {}; remove or repair that sample", name, values[i], i);
@@ -70,21 +69,6 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
   return std::nullopt;
 }
 
-std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
-  const std::string_view table = info.unit.For(measurements.joint);
-  const std::string_view torque = kTorqueUnit.For(measurements.joint);
-  if (measurements.torque_unit == torque) return std::string(table);
-
-  // the thermal gain is torque over torque times velocity
-  if (table == kThermalGainUnit.For(measurements.joint)) {
-    return measurements.joint == JointKind::rotary ? "s/rad" : "s/m";
-  }
-
-  // the log's unit of torque takes the place of the table's
-  if (table.substr(0, torque.size()) != torque) return std::string(table);
-  return measurements.torque_unit + std::string(table.substr(torque.size()));
-}
-
 std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& measurements,
                        const Selection& selection) {
   // which speeds there are, and whether in both directions
@@ -98,15 +82,6 @@ std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& 
       "speeds that differ clearly, for example a tenth of the highest and the highest{}",
       names, speed.minCoeff(), speed.maxCoeff(), unit,
       one_direction ? " in one direction alone" : "", one_direction ? ", in both directions" : "");
-}
-
-std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
-                       const LogSamples& measurements, const Selection& selection) {
-  std::vector<std::string> names;
-  for (const Eigen::Index i : mixed) {
-    names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
-  }
-  return Indistinct(names, measurements, selection);
 }
 
 }  // namespace warmjoint

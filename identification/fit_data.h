@@ -1,11 +1,8 @@
 // What every identifier does first: look at the data, and say what they lack.
 #pragma once
 
-#include <warmjoint/friction.h>
-
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "identification/identifier.h"
@@ -40,17 +37,9 @@ typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& given,
 /// `parameters`, or a constant torque. Empty where the data can be used.
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);
 
-/// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
-/// stands for the torque.
-std::string UnitFor(const ParameterInfo& info, const Measurements& measurements);
-
 /// Names of the columns that cannot be told apart, and the motion that would: one sentence.
 /// mixed: names of law parameters.
 std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& measurements,
                        const Selection& selection);
-
-/// The same of a law's columns. mixed: their indices.
-std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
-                       const LogSamples& measurements, const Selection& selection);
 
 }  // namespace warmjoint

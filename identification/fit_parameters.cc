@@ -13,6 +13,8 @@
 namespace warmjoint {
 namespace {
 
+constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag";
+
 constexpr ParameterInfo kInertiaInfo{kInertiaName, "M", {"N.m.s^2/rad", "N.s^2/m", -1, 2}, 0,
                                      kInfinity,    0,   "torque over acceleration"};
 
@@ -23,6 +25,37 @@ constexpr ParameterInfo kTorqueLagInfo{kTorqueLagName,
                                        kInfinity,
                                        0,
                                        "time constant of the torque's lag"};
+
+/// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
+/// stands for the torque.
+std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
+  const std::string_view table = info.unit.For(measurements.joint);
+  const std::string_view torque = kTorqueUnit.For(measurements.joint);
+  if (measurements.torque_unit == torque) return std::string(table);
+
+  // the thermal gain is torque over torque times velocity
+  if (table == kThermalGainUnit.For(measurements.joint)) {
+    return measurements.joint == JointKind::rotary ? "s/rad" : "s/m";
+  }
+
+  // the log's unit of torque takes the place of the table's
+  if (table.substr(0, torque.size()) != torque) return std::string(table);
+  return measurements.torque_unit + std::string(table.substr(torque.size()));
+}
+
+/// A parameter of any table with its value.
+FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
+                            const Measurements& measurements) {
+  return {.name = std::string(info.name),
+          .role = role,
+          .value = value,
+          .unit = UnitFor(info, measurements),
+          .lower = info.lower,
+          .upper = info.upper,
+          .displacement_power = info.unit.displacement,
+          .time_power = info.unit.time,
+          .part = info.part};
+}
 
 }  // namespace
 
@@ -44,22 +77,6 @@ std::string NameOf(Role role, int which) {
   }
   assert(false);
   return "";
-}
-
-FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
-                            const Measurements& measurements) {
-  return {std::string(info.name),
-          role,
-          value,
-          UnitFor(info, measurements),
-          Coordinate::value,
-          info.lower,
-          info.upper,
-          true,
-          true,
-          info.unit.displacement,
-          info.unit.time,
-          info.part};
 }
 
 std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,

@@ -7,22 +7,15 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "identification/fit.h"
 
 namespace warmjoint {
 
-inline constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag";
-
 /// The name of the which-th row with a role, of those whose names depend neither on the law nor on the
 /// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia and lag.
 std::string NameOf(Role role, int which = 0);
-
-/// A parameter of any table with its value.
-FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
-                            const Measurements& measurements);
 
 /// The law's parameters. values: [d] in the order of its table.
 std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,

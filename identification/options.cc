@@ -7,21 +7,6 @@
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint {
-namespace {
-
-/// "number > 0 <= 1"
-std::string KindWithin(std::string kind, const Bounds& bounds) {
-  const auto add = [&](const char* relation, double bound) {
-    if (std::isfinite(bound)) kind += fmt::format(" {} {}", relation, bound);
-  };
-  add(">", bounds.above);
-  add(">=", bounds.at_least);
-  add("<", bounds.below);
-  add("<=", bounds.at_most);
-  return kind;
-}
-
-}  // namespace
 
 void ReadValue(const Node& node, OptionRange* value, const FieldInfo&) {
   const std::string text = node.Text();
@@ -44,12 +29,15 @@ std::string OptionLister::TextOf(const Tree& value) {
   return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
 }
 
-std::string OptionLister::Allowed(double, const Bounds& bounds) {
-  return KindWithin("number", bounds);
-}
-
-std::string OptionLister::Allowed(int, const Bounds& bounds) {
-  return KindWithin("integer", bounds);
+std::string OptionLister::KindWithin(std::string kind, const Bounds& bounds) {
+  const auto add = [&](const char* relation, double bound) {
+    if (std::isfinite(bound)) kind += fmt::format(" {} {}", relation, bound);
+  };
+  add(">", bounds.above);
+  add(">=", bounds.at_least);
+  add("<", bounds.below);
+  add("<=", bounds.at_most);
+  return kind;
 }
 
 bool Options::Has(std::string_view name) const {

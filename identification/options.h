@@ -73,8 +73,10 @@ class OptionLister {
 
  private:
   static std::string TextOf(const Tree& value);
-  static std::string Allowed(double, const Bounds& bounds);
-  static std::string Allowed(int, const Bounds& bounds);
+  /// "number > 0 <= 1"
+  static std::string KindWithin(std::string kind, const Bounds& bounds);
+  static std::string Allowed(double, const Bounds& bounds) { return KindWithin("number", bounds); }
+  static std::string Allowed(int, const Bounds& bounds) { return KindWithin("integer", bounds); }
   static std::string Allowed(const std::string&, const Bounds&) { return "text"; }
   static std::string Allowed(const OptionRange&, const Bounds&) { return "range"; }
   template <HasWords E>

@@ -17,8 +17,6 @@ struct Distribution {
   double b = 0;  // upper bound or standard deviation
 
   double Draw(RandomStream& random) const;
-
-  bool operator==(const Distribution&) const = default;
 };
 
 inline std::span<const Word<Distribution::Kind>> WordsOf(Distribution::Kind) {

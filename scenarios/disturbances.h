@@ -4,8 +4,9 @@
 #include <warmjoint/field.h>
 #include <warmjoint/friction.h>
 
+#include <cmath>
+#include <numbers>
 #include <optional>
-#include <string_view>
 
 #include "scenarios/sensor_faults.h"
 
@@ -25,8 +26,6 @@ struct Outliers {
     a->Field("one_sided", &one_sided,
              WithDefault("", "1: what is added is never negative", {.at_least = 0, .at_most = 1}));
   }
-
-  bool operator==(const Outliers&) const = default;
 };
 
 /// n[i+1] = a n[i] + sqrt(1 - a^2) deviation w[i],
@@ -41,8 +40,6 @@ struct ColouredNoise {
     a->Field("correlation_time", &correlation_time,
              Needed("s", "of its autocorrelation", kPositive));
   }
-
-  bool operator==(const ColouredNoise&) const = default;
 };
 
 /// Its deviation is of_torque |f| + of_speed |v|, with the friction f and the speed v.
@@ -57,8 +54,6 @@ struct UnevenNoise {
     a->Field("of_speed", &of_speed,
              WithDefault("N.m.s/rad", "its deviation for each unit of speed", kNotNegative));
   }
-
-  bool operator==(const UnevenNoise&) const = default;
 };
 
 /// amplitude sin(2 pi t / period + phase), the phase drawn for each realization.
@@ -71,8 +66,6 @@ struct PeriodicTorque {
     a->Field("amplitude", &amplitude, Needed("N.m", "size of the sine"));
     a->Field("period", &period, Needed("s", "of the sine; its phase is drawn", kPositive));
   }
-
-  bool operator==(const PeriodicTorque&) const = default;
 };
 
 /// G = sine sin p + cosine cos p of Eq. (6). Ideal plant only: a robot has its own.
@@ -85,8 +78,6 @@ struct Gravity {
     a->Field("sine", &sine, WithDefault("N.m", "share of sin p"));
     a->Field("cosine", &cosine, WithDefault("N.m", "share of cos p"));
   }
-
-  bool operator==(const Gravity&) const = default;
 };
 
 /// The level of friction follows the ambient temperature: amplitude sin(2 pi t / period) joins E,
@@ -100,8 +91,6 @@ struct AmbientDrift {
     a->Field("amplitude", &amplitude, Needed("N.m", "size of the sine"));
     a->Field("period", &period, Needed("s", "of the sine", kPositive));
   }
-
-  bool operator==(const AmbientDrift&) const = default;
 };
 
 /// The ambient temperature swings about the one at which the law's parameters hold: a rise of
@@ -111,15 +100,15 @@ struct AmbientTemperature {
   double period = 1;
 
   /// Ts - T0 at t (s), K.
-  double RiseAt(double t) const;
+  double RiseAt(double t) const {
+    return amplitude == 0 ? 0 : amplitude * std::sin(2 * std::numbers::pi * t / period);
+  }
 
   template <class A>
   void Serialize(A* a) {
     a->Field("amplitude", &amplitude, Needed("K", "size of the sine"));
     a->Field("period", &period, Needed("s", "of the sine", kPositive));
   }
-
-  bool operator==(const AmbientTemperature&) const = default;
 };
 
 /// The load that the joint transmits: 0 and `load` in turn, each for half a period; friction grows
@@ -135,11 +124,9 @@ struct LoadChange {
     a->Field("gain", &gain, Needed("", "growth of the level for each unit of load", kNotNegative));
     a->Field("period", &period, Needed("s", "of the load", kPositive));
   }
-
-  bool operator==(const LoadChange&) const = default;
 };
 
-struct TorqueLag {
+struct FirstOrderLag {
   double time_constant = 0;
 
   template <class A>
@@ -147,31 +134,6 @@ struct TorqueLag {
     a->Field("time_constant", &time_constant,
              Needed("s", "of the low-pass; 0: none", kNotNegative));
   }
-
-  bool operator==(const TorqueLag&) const = default;
-};
-
-struct VelocityFilter {
-  double time_constant = 0;
-
-  template <class A>
-  void Serialize(A* a) {
-    a->Field("time_constant", &time_constant,
-             Needed("s", "of the low-pass; 0: none", kNotNegative));
-  }
-
-  bool operator==(const VelocityFilter&) const = default;
-};
-
-struct StalePosition {
-  int samples = 0;
-
-  template <class A>
-  void Serialize(A* a) {
-    a->Field("samples", &samples, Needed("", "how many samples it is late", kNotNegative));
-  }
-
-  bool operator==(const StalePosition&) const = default;
 };
 
 struct Encoder {
@@ -181,8 +143,6 @@ struct Encoder {
   void Serialize(A* a) {
     a->Field("resolution", &resolution, Needed("rad", "size of a step; 0: none", kNotNegative));
   }
-
-  bool operator==(const Encoder&) const = default;
 };
 
 struct HoldParity {
@@ -192,8 +152,6 @@ struct HoldParity {
   void Serialize(A* a) {
     a->Field("level", &level, Needed("N.m", "against the motion, in the second, fourth, ... hold"));
   }
-
-  bool operator==(const HoldParity&) const = default;
 };
 
 struct StepInTime {
@@ -205,8 +163,6 @@ struct StepInTime {
     a->Field("level", &level, Needed("N.m", "against the motion, from then on"));
     a->Field("time", &time, Needed("s", "of the change", kNotNegative));
   }
-
-  bool operator==(const StepInTime&) const = default;
 };
 
 /// level exp(-t / time_constant)
@@ -219,8 +175,6 @@ struct RunIn {
     a->Field("level", &level, Needed("N.m", "against the motion, at the start"));
     a->Field("time_constant", &time_constant, Needed("s", "of its decay", kPositive));
   }
-
-  bool operator==(const RunIn&) const = default;
 };
 
 // Forces that no model of an identifier holds.
@@ -234,8 +188,6 @@ struct Backlash {
     a->Field("level", &level, Needed("N.m", "what the friction lacks"));
     a->Field("way", &way, Needed("rad", "distance over which it lacks that", kNotNegative));
   }
-
-  bool operator==(const Backlash&) const = default;
 };
 
 /// The friction lacks level exp(-s / way) after the distance s.
@@ -248,8 +200,6 @@ struct Hysteresis {
     a->Field("level", &level, Needed("N.m", "what it lacks at first"));
     a->Field("way", &way, Needed("rad", "distance over which it returns to 63 %", kPositive));
   }
-
-  bool operator==(const Hysteresis&) const = default;
 };
 
 /// slope (u - |v|) joins the level, u being |v| after a first-order low-pass.
@@ -262,8 +212,6 @@ struct Memory {
     a->Field("slope", &slope, Needed("N.m.s/rad", "of the friction over the speed"));
     a->Field("time_constant", &time_constant, Needed("s", "of the low-pass", kPositive));
   }
-
-  bool operator==(const Memory&) const = default;
 };
 
 /// coefficient v |v|
@@ -274,8 +222,6 @@ struct QuadraticDrag {
   void Serialize(A* a) {
     a->Field("coefficient", &coefficient, Needed("N.m.s^2/rad^2", "of the square of the speed"));
   }
-
-  bool operator==(const QuadraticDrag&) const = default;
 };
 
 /// amplitude sin(2 pi p / period)
@@ -288,8 +234,6 @@ struct Ripple {
     a->Field("amplitude", &amplitude, Needed("N.m", "size of the sine"));
     a->Field("period", &period, Needed("rad", "of the sine", kPositive));
   }
-
-  bool operator==(const Ripple&) const = default;
 };
 
 /// stiffness p
@@ -300,8 +244,6 @@ struct Spring {
   void Serialize(A* a) {
     a->Field("stiffness", &stiffness, Needed("N.m/rad", "of the spring"));
   }
-
-  bool operator==(const Spring&) const = default;
 };
 
 /// inertia dv/dt; between the samples where speeds are held.
@@ -312,8 +254,6 @@ struct Inertia {
   void Serialize(A* a) {
     a->Field("inertia", &inertia, Needed("kg.m^2", "of the mass", kNotNegative));
   }
-
-  bool operator==(const Inertia&) const = default;
 };
 
 struct HiddenForces {
@@ -342,8 +282,6 @@ struct HiddenForces {
     a->Field("spring", &spring, LeftOut("a spring between joint and base"));
     a->Field("inertia", &inertia, LeftOut("the torque that accelerates a mass stays in the log"));
   }
-
-  bool operator==(const HiddenForces&) const = default;
 };
 
 struct Disturbances {
@@ -355,9 +293,8 @@ struct Disturbances {
   AmbientDrift ambient_drift;
   AmbientTemperature ambient_temperature;
   LoadChange load_change;
-  TorqueLag torque_lag;
-  VelocityFilter velocity_filter;
-  StalePosition stale_position;
+  FirstOrderLag torque_lag, velocity_filter;
+  Delay stale_position;
   Encoder encoder;
   HoldParity hold_parity;
   StepInTime step_in_time;
@@ -407,11 +344,6 @@ struct Disturbances {
     hidden.Serialize(a);
     faults.Serialize(a);
   }
-
-  bool operator==(const Disturbances&) const;
 };
-
-/// Name of the first disturbance that only the ideal plant knows; empty where there is none.
-std::string_view IdealOnly(const Disturbances& disturbances);
 
 }  // namespace warmjoint

@@ -17,17 +17,11 @@ class VelocitySequence {
       : motion_(motion), travels_(travels), random_(random) {}
 
   double Next() {
-    const double velocity = At(segment_);
-    ++segment_;
-    return velocity;
-  }
-
- private:
-  double At(size_t segment) {
+    const size_t segment = segment_++;
     const double turn = segment % 2 == 0 ? 1.0 : -1.0;
     switch (motion_.order) {
       case SegmentOrder::alternating:
-        return turn * (motion_.speed_draws ? Draw() : Alternating(segment));
+        return turn * (motion_.speeds.draws ? Draw() : Alternating(segment));
       case SegmentOrder::in_order:
         return turn * InOrder(segment);
       case SegmentOrder::shuffled:
@@ -36,24 +30,25 @@ class VelocitySequence {
     return 0;
   }
 
-  double Draw() { return std::abs(motion_.speed_draws->Draw(random_)); }
+ private:
+  double Draw() { return std::abs(motion_.speeds.draws->Draw(random_)); }
 
   double Alternating(size_t segment) const {
     // an even list is shifted after each round, so that each speed gets both signs
-    const size_t n = motion_.speed_list.size();
+    const size_t n = motion_.speeds.list.size();
     const size_t shift = n % 2 == 0 ? segment / n : 0;
-    return motion_.speed_list[(segment + shift) % n];
+    return motion_.speeds.list[(segment + shift) % n];
   }
 
   double InOrder(size_t segment) {
-    if (!motion_.speed_draws) return motion_.speed_list[segment / 2 % motion_.speed_list.size()];
+    if (!motion_.speeds.draws) return motion_.speeds.list[segment / 2 % motion_.speeds.list.size()];
     // one draw for the way there and back
     if (segment % 2 == 0) pair_speed_ = Draw();
     return pair_speed_;
   }
 
   double Shuffled() {
-    if (motion_.speed_draws) {
+    if (motion_.speeds.draws) {
       const double speed = Draw();
       return random_.Below(2) == 0 ? speed : -speed;
     }
@@ -66,7 +61,7 @@ class VelocitySequence {
 
   /// All speeds in both signs, in an order by chance (Fisher-Yates).
   void FillRound() {
-    for (double speed : motion_.speed_list) round_.insert(round_.end(), {speed, -speed});
+    for (double speed : motion_.speeds.list) round_.insert(round_.end(), {speed, -speed});
     for (size_t i = round_.size() - 1; i > 0; --i)
       std::swap(round_[i], round_[random_.Below(i + 1)]);
   }
@@ -153,7 +148,7 @@ std::vector<MotionSegment> PlanPhases(const std::vector<MotionPhase>& phases, do
 
 std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
                                                       std::pair<double, double> joint_limits) {
-  return motion.travel_between_joint_limits ? joint_limits : motion.travel;
+  return motion.travel.joint_limits ? joint_limits : motion.travel.limits;
 }
 
 double StartPosition(const Motion& motion, std::pair<double, double> joint_limits) {
@@ -161,8 +156,6 @@ double StartPosition(const Motion& motion, std::pair<double, double> joint_limit
   const auto limits = TravelLimits(motion, joint_limits);
   return limits ? limits->first : motion.start;
 }
-
-bool Motion::operator==(const Motion&) const = default;
 
 bool Motion::CornersAscend() const {
   const auto not_after = [](const VelocityCorner& a, const VelocityCorner& b) {

@@ -1,10 +1,11 @@
 // Piecewise constant-velocity motion: the plan that a plant carries out.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -43,8 +44,6 @@ struct Rests {
     a->Field("rest", &rest,
              Needed("s", "length of a rest", kPositive, "give the seconds of a rest"));
   }
-
-  bool operator==(const Rests&) const = default;
 };
 
 struct MotionPhase;
@@ -53,8 +52,6 @@ struct MotionPhase;
 struct VelocityCorner {
   double time = 0;      // s, from the start of the recording
   double velocity = 0;  // rad/s or m/s, signed
-
-  bool operator==(const VelocityCorner&) const = default;
 };
 
 /// Fourier excitation: the velocity is a sum of cosines and sines of a period and its harmonics, their
@@ -75,8 +72,6 @@ struct FourierMotion {
     a->Field("speed", &speed,
              Needed("rad/s", "largest speed", kPositive, "give the largest speed, rad/s or m/s"));
   }
-
-  bool operator==(const FourierMotion&) const = default;
 };
 
 /// Pick and place: from one place to the next, drawn uniformly between two limits, by ramps of one
@@ -86,6 +81,15 @@ struct MovesBetween {
   double speed = 0;
   double acceleration = 0;
   double pause = 0;
+
+  /// s; a move whose ramps are shorter is left out.
+  static constexpr double kShortestRamp = 1e-6;
+
+  /// Of a move between the limits, s.
+  double LongestRamp() const {
+    return std::min(speed / acceleration,
+                    std::sqrt((between.second - between.first) / acceleration));
+  }
 
   template <class A>
   void Serialize(A* a) {
@@ -98,9 +102,11 @@ struct MovesBetween {
         "acceleration", &acceleration,
         Needed("rad/s^2", "of the ramps", kPositive, "give that of the ramps, rad/s^2 or m/s^2"));
     a->Field("pause", &pause, WithDefault("s", "at each place", kNotNegative));
+    // of places drawn uniformly, 99 % are then far enough from the last
+    a->Check(
+        LongestRamp() >= 10 * kShortestRamp, "",
+        "moves with ramps of 1e-5 s or more: widen `between`, raise speed or lower acceleration");
   }
-
-  bool operator==(const MovesBetween&) const = default;
 };
 
 /// Speeds as a file has them: a list, or a distribution.
@@ -113,8 +119,8 @@ Tree WriteValue(const Speeds& value);
 
 /// What a motion travels between as a file has it: two limits, or the words joint_limits.
 struct Travel {
-  std::optional<std::pair<double, double>> limits;  // rad or m
-  bool joint_limits = false;
+  std::optional<std::pair<double, double>> limits;  // lower, upper, rad or m
+  bool joint_limits = false;                        // the robot's own
 };
 void ReadValue(const Node& node, Travel* value, const FieldInfo& info);
 Tree WriteValue(const Travel& value);
@@ -126,11 +132,9 @@ Tree WriteValue(const VelocityCorner& value);
 /// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit;
 /// or phases of such motions; or a velocity that is given by its corners, as a recorded one is.
 struct Motion {
-  std::vector<double> speed_list;           // rad/s or m/s, positive; used in turn
-  std::optional<Distribution> speed_draws;  // instead of the list: a new draw for each segment
-  double hold = 0;                          // s for each segment; 0: travel between limits
-  std::optional<std::pair<double, double>> travel;  // lower, upper, rad or m
-  bool travel_between_joint_limits = false;         // travel between the robot's own limits
+  Speeds speeds;    // a list is used in turn; else a new draw for each segment
+  double hold = 0;  // s for each segment; 0: travel between limits
+  Travel travel;
   SegmentOrder order = SegmentOrder::alternating;
   std::optional<Rests> rests;
   std::vector<MotionPhase> phases;       // instead of all above: in turn, again from the first
@@ -140,7 +144,7 @@ struct Motion {
   std::optional<MovesBetween> moves;     // instead of all above
 
   /// Speeds that are held or between limits, without phases.
-  bool steady() const { return !speed_list.empty() || speed_draws; }
+  bool steady() const { return !speeds.list.empty() || speeds.draws; }
   /// Whether the corners follow each other in time.
   bool CornersAscend() const;
 
@@ -149,8 +153,6 @@ struct Motion {
   /// The members of a motion that holds speeds.
   template <class A>
   void SerializeHeld(A* a);
-
-  bool operator==(const Motion&) const;
 };
 
 /// A motion for a time, as part of a longer one. It holds speeds; it neither travels nor has
@@ -161,18 +163,13 @@ struct MotionPhase {
 
   template <class A>
   void Serialize(A* a);
-
-  bool operator==(const MotionPhase&) const = default;
 };
 
 template <class A>
 void Motion::SerializeHeld(A* a) {
   constexpr auto left_out = AtDefault::left_out;
-  Speeds speeds{speed_list, speed_draws};
   a->Field("speeds", &speeds,
            WithDefault("rad/s", "a list, or a distribution from which each segment draws"));
-  speed_list = speeds.list;
-  speed_draws = speeds.draws;
   a->Field(
       "hold", &hold,
       {.unit = "s", .bounds = {.above = 0}, .meaning = "at each speed", .at_default = left_out});
@@ -186,14 +183,11 @@ template <class A>
 void Motion::Serialize(A* a) {
   constexpr auto left_out = AtDefault::left_out;
   SerializeHeld(a);
-  Travel ends{travel, travel_between_joint_limits};
   a->Field(
-      "travel", &ends,
+      "travel", &travel,
       WithDefault(
           "rad",
           "each speed until a limit is reached, in place of `hold`; or the robot's own limits"));
-  travel = ends.limits;
-  travel_between_joint_limits = ends.joint_limits;
 
   // other kinds of motion, each by a key of its own
   a->Field("phases", &phases, LeftOut("motions and rests in turn"));
@@ -210,7 +204,7 @@ void Motion::Serialize(A* a) {
   // one kind, with its own keys alone
   const int kinds = steady() + !phases.empty() + !corners.empty() + bool(fourier) + bool(moves);
   a->Check(kinds == 1, "", "a map with one of speeds, phases, corners, fourier and moves");
-  const int ends_given = (hold > 0) + bool(travel) + travel_between_joint_limits;
+  const int ends_given = (hold > 0) + bool(travel.limits) + travel.joint_limits;
   a->Check(!steady() || ends_given == 1, "",
            "a map with one of hold: seconds, and travel: [lower, upper] or joint_limits");
   a->Check(steady() || (ends_given == 0 && !rests), "",

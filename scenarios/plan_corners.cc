@@ -66,7 +66,7 @@ std::vector<VelocityCorner> PlanMoves(const MovesBetween& moves, double duration
     const double speed = std::min(moves.speed, std::sqrt(moves.acceleration * distance));
     const double ramp = speed / moves.acceleration;
     const double steady = speed > 0 ? distance / speed - ramp : 0;
-    if (ramp < 1e-6) continue;
+    if (ramp < MovesBetween::kShortestRamp) continue;
     // ramp, steady speed, ramp and pause
     const double velocity = std::copysign(speed, target - place);
     corners.push_back({time += ramp, velocity});

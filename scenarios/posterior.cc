@@ -3,7 +3,6 @@
 #include <warmjoint/parameter_covariance.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
@@ -68,8 +67,6 @@ Posterior PosteriorFrom(const Node& node, const Friction& friction) {
   CheckCovariance(posterior.covariance, node.place());
   return posterior;
 }
-
-Tree PosteriorToTree(const Posterior& posterior) { return WriteFields(posterior); }
 
 Posterior PosteriorOfEstimate(const Node& estimate, const Friction& friction) {
   const auto node = estimate.Find("covariance");

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,17 +30,12 @@ struct Posterior {
     a->Check(covariance.rows() == covariance.cols() && covariance.rows() == std::ssize(parameters),
              "covariance", "a matrix with a row and a column for each parameter");
   }
-
-  bool operator==(const Posterior& other) const {
-    return parameters == other.parameters && covariance == other.covariance;
-  }
 };
 
 /// {parameters[], covariance[][]}. Throws BadInput for a parameter that `friction` does not
 /// have, and for a matrix that is no covariance: not square, not symmetric, or with a negative variance
 /// in some direction.
 Posterior PosteriorFrom(const Node& node, const Friction& friction);
-Tree PosteriorToTree(const Posterior& posterior);
 
 /// What estimate.json says of its friction's parameters: the rows and columns of its covariance that are
 /// the friction's; gravity, inertia and the start are integrated out. Throws BadInput where the estimate

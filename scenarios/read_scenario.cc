@@ -37,8 +37,10 @@ void CheckCounts(const Node& duration, const Scenario& scenario) {
 
 /// What acts must be known to the plant, and act on something.
 void CheckDisturbances(const Node& node, const Scenario& scenario) {
-  const std::string_view ideal_only = IdealOnly(scenario.disturbances);
-  if (scenario.plant != PlantKind::ideal && !ideal_only.empty()) {
+  // what is at its default is not written
+  const Tree given = WriteFields(scenario.disturbances);
+  for (const char* ideal_only : {"gravity", "ambient_drift", "load_change", "second_heat"}) {
+    if (scenario.plant == PlantKind::ideal || !given.contains(ideal_only)) continue;
     Refuse(node.place(), "{}.{} is known to the ideal plant alone; take it out, or use it",
            node.key(), ideal_only);
   }
@@ -74,9 +76,7 @@ Scenario WithSettings(const Scenario& scenario, const Settings& settings) {
   return ScenarioFrom(ParseYaml(ScenarioToYaml(scenario), scenario.name, settings), scenario.name);
 }
 
-Tree ScenarioToTree(const Scenario& scenario) { return WriteFields(scenario); }
-
-std::string ScenarioToYaml(const Scenario& scenario) { return ToYaml(ScenarioToTree(scenario)); }
+std::string ScenarioToYaml(const Scenario& scenario) { return ToYaml(WriteFields(scenario)); }
 
 Settings MotionSettings(const Motion& motion, double duration) {
   return {{"motion", ToFlowYaml(WriteFields(motion))}, {"duration", fmt::format("{}", duration)}};

@@ -117,7 +117,7 @@ void ReadValue(const Node& node, SuiteScenario* value, const FieldInfo&) {
 }
 
 Tree WriteValue(const SuiteScenario& value) {
-  Tree tree = ScenarioToTree(value.scenario);
+  Tree tree = WriteFields(value.scenario);
   tree.erase("name");
   tree.erase("seed");
   return tree;

@@ -52,8 +52,6 @@ struct Controller {
                          "in the ideal one",
                          kNotNegative));
   }
-
-  bool operator==(const Controller&) const = default;
 };
 
 /// How the log is made: sensors, filter, storage.
@@ -83,8 +81,6 @@ struct Sampling {
     a->Check(cutoff < sensor_rate / 2, "cutoff",
              "below half the sensor_rate, or 0, which filters nothing");
   }
-
-  bool operator==(const Sampling&) const = default;
 };
 
 /// Standard deviations of white noise on each sensor sample.
@@ -100,8 +96,6 @@ struct Noise {
     a->Field("velocity", &velocity, WithDefault("rad/s", "the same of the velocity", kNotNegative));
     a->Field("position", &position, WithDefault("rad", "the same of the position", kNotNegative));
   }
-
-  bool operator==(const Noise&) const = default;
 };
 
 struct Scenario {
@@ -138,11 +132,7 @@ struct Scenario {
     a->Require(engine, "joint", "the mujoco plant needs the name of a joint");
     a->Field("joint_kind", &joint_kind,
              {.meaning = "of the ideal plant: `rotary` (rad, N.m) or `linear` (m, N)"});
-    DrawnTruth truth{friction, initial_energy, draws};
-    truth.Serialize(a);
-    friction = truth.friction;
-    initial_energy = truth.initial_energy;
-    draws = truth.draws;
+    SerializeTruth(a);
 
     // how it moves and is logged
     a->Field("motion", &motion,
@@ -155,6 +145,24 @@ struct Scenario {
     a->Field("duration", &duration,
              Needed("s", "length of the recording", kPositive, "give the seconds to simulate"));
     a->Field("seed", &seed, {.meaning = "of all random numbers; a suite gives its own"});
+  }
+  /// Its truth, at the middles of what is drawn.
+  template <class A>
+  void SerializeTruth(A* a) {
+    const auto drawn = draws.numbers.find(kInitialEnergy);
+    Distribution energy =
+        drawn == draws.numbers.end() ? Distribution{.a = initial_energy} : drawn->second;
+    draws.numbers.erase(kInitialEnergy);
+    DrawnFriction truth{friction, draws};
+    a->Field("friction", &truth,
+             {.meaning = "the true friction as in a friction file, any number a distribution; a "
+                         "friction file's path; or {estimate: FILE}",
+              .needed = "give the true law and its parameters"});
+    a->Field(kInitialEnergy, &energy, {.unit = "N.m", .meaning = "E(0), the heat at the start"});
+    friction = truth.friction;
+    draws = truth.draws;
+    initial_energy = energy.a;
+    if (energy.kind != Distribution::Kind::fixed) draws.numbers[kInitialEnergy] = energy;
   }
 };
 

@@ -14,8 +14,6 @@ struct SensorDrift {
     a->Field("offset", &offset, WithDefault("N.m", "change in an hour"));
     a->Field("gain", &gain, WithDefault("", "change in an hour, a share"));
   }
-
-  bool operator==(const SensorDrift&) const = default;
 };
 
 struct GainStep {
@@ -27,8 +25,6 @@ struct GainStep {
     a->Field("factor", &factor, Needed("", "on the torque"));
     a->Field("time", &time, Needed("s", "of the step", kNotNegative));
   }
-
-  bool operator==(const GainStep&) const = default;
 };
 
 /// The stamps run by another clock: factor t, and each is off by up to half of `jitter`, evenly spread over the samples.
@@ -42,8 +38,6 @@ struct Clock {
     a->Field("jitter", &jitter,
              WithDefault("s", "between the earliest and the latest offset", kNotNegative));
   }
-
-  bool operator==(const Clock&) const = default;
 };
 
 struct ColumnScale {
@@ -57,11 +51,9 @@ struct ColumnScale {
     a->Field("velocity", &velocity, WithDefault("", "factor"));
     a->Field("torque", &torque, WithDefault("", "factor"));
   }
-
-  bool operator==(const ColumnScale&) const = default;
 };
 
-struct Stuck {
+struct TimeSpan {
   double time = 0;
   double duration = 0;
 
@@ -70,8 +62,6 @@ struct Stuck {
     a->Field("time", &time, Needed("s", "when it begins", kNotNegative));
     a->Field("duration", &duration, Needed("s", "how long it lasts", kNotNegative));
   }
-
-  bool operator==(const Stuck&) const = default;
 };
 
 struct Clipped {
@@ -81,8 +71,6 @@ struct Clipped {
   void Serialize(A* a) {
     a->Field("level", &level, Needed("N.m", "largest torque that is logged; 0: any", kNotNegative));
   }
-
-  bool operator==(const Clipped&) const = default;
 };
 
 struct DeadBand {
@@ -92,8 +80,6 @@ struct DeadBand {
   void Serialize(A* a) {
     a->Field("level", &level, Needed("N.m", "largest torque that is logged as 0", kNotNegative));
   }
-
-  bool operator==(const DeadBand&) const = default;
 };
 
 struct TorqueResolution {
@@ -103,19 +89,15 @@ struct TorqueResolution {
   void Serialize(A* a) {
     a->Field("resolution", &resolution, Needed("N.m", "size of a step", kNotNegative));
   }
-
-  bool operator==(const TorqueResolution&) const = default;
 };
 
-struct LateTorque {
+struct Delay {
   int samples = 0;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("samples", &samples, Needed("", "how many samples it is late", kNotNegative));
   }
-
-  bool operator==(const LateTorque&) const = default;
 };
 
 struct CutStart {
@@ -125,21 +107,6 @@ struct CutStart {
   void Serialize(A* a) {
     a->Field("time", &time, Needed("s", "of the first sample", kNotNegative));
   }
-
-  bool operator==(const CutStart&) const = default;
-};
-
-struct Gap {
-  double time = 0;
-  double duration = 0;
-
-  template <class A>
-  void Serialize(A* a) {
-    a->Field("time", &time, Needed("s", "when it begins", kNotNegative));
-    a->Field("duration", &duration, Needed("s", "how long it lasts", kNotNegative));
-  }
-
-  bool operator==(const Gap&) const = default;
 };
 
 struct LostSamples {
@@ -150,8 +117,6 @@ struct LostSamples {
     a->Field("fraction", &fraction,
              Needed("", "share of the samples", {.at_least = 0, .below = 1}));
   }
-
-  bool operator==(const LostSamples&) const = default;
 };
 
 struct SensorFaults {
@@ -159,13 +124,13 @@ struct SensorFaults {
   GainStep gain_step;
   Clock clock;
   ColumnScale column_scale;
-  Stuck stuck_position, stuck_velocity, stuck_torque;
+  TimeSpan stuck_position, stuck_velocity, stuck_torque;
   Clipped clipped;
   DeadBand dead_band;
   TorqueResolution torque_resolution;
-  LateTorque late_torque;
+  Delay late_torque;
   CutStart cut_start;
-  Gap gap;
+  TimeSpan gap;
   LostSamples lost_samples;
   bool restarted_clock = false;
   bool unsigned_torque = false;
@@ -207,8 +172,6 @@ struct SensorFaults {
             "torque under the name of velocity, and the other way round");
     a->Flag("without_load", &without_load, "a load that acts and is not logged");
   }
-
-  bool operator==(const SensorFaults&) const = default;
 };
 
 }  // namespace warmjoint

@@ -115,25 +115,7 @@ struct Suite {
 /// suite's own scenario.
 Scenario VariantScenario(const Suite& suite, int variant);
 
-/// Reads a suite file, laid out as
-///   name: noise-ladder             file name where not given
-///   question: Which ...?
-///   realizations: 50
-///   seed: 1
-///   scenario: {...}                a scenario (read_scenario.h) without name and seed
-///   ladder:                        none where not given
-///     variable: noise.torque       climbs `values`; `unit` is printed with them
-///     unit: N.m
-///     values: [0.1, 0.2]
-///   or named variants, each with its changed entries:
-///     variants:
-///       one-speed: {motion.speeds: [0.5]}
-///   identifiers:
-///     - {name: energy-als, label: energy-als-50, options: {iterations: 50},
-///        claim: {source: "paper, Fig. 6", npe_continuous: 0.05}}
-///     - {name: mine, command: "python3 mine.py {recording} {estimate}"}      with --allow-commands;
-///                                  files that it names stand relative to the suite file
-/// Throws BadInput as ReadScenario does; every variant is checked.
+/// Reads a suite file (scenarios/keys.md). Throws BadInput as ReadScenario does; every variant is checked.
 Suite ReadSuite(const std::string& path);
 
 /// The same of a text; file: what refusals name, and where relative paths start.

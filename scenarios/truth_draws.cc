@@ -6,7 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/random_stream.h"
+#include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
+#include "scenarios/scenario.h"
 
 namespace warmjoint {
 namespace {
@@ -85,6 +88,17 @@ void ReadEstimate(const Node& node, const Node& estimate, DrawnFriction& made) {
   }
 }
 
+/// A friction of its draws. Throws BadInput where the posterior gives none within physical bounds.
+Friction DrawFriction(const Scenario& scenario, RandomStream& random) {
+  const TruthDraws& draws = scenario.draws;
+  if (draws.posterior) return Draw(*draws.posterior, scenario.friction, random, {scenario.name});
+  Tree tree = FrictionToTree(scenario.friction);
+  for (const auto& [key, range] : draws.numbers) {
+    if (key.starts_with(kPrefix)) tree[Pointer(key)] = range.Draw(random);
+  }
+  return FrictionFrom({std::move(tree), scenario.name});
+}
+
 }  // namespace
 
 void ReadValue(const Node& node, DrawnFriction* value, const FieldInfo&) {
@@ -116,18 +130,21 @@ Tree WriteValue(const DrawnFriction& value) {
   Tree tree = FrictionToTree(value.friction);
   // drawn numbers as their ranges
   for (const auto& [key, range] : value.draws.numbers) tree[Pointer(key)] = WriteValue(range);
-  if (value.draws.posterior) tree["posterior"] = PosteriorToTree(*value.draws.posterior);
+  if (value.draws.posterior) tree["posterior"] = WriteFields(*value.draws.posterior);
   return tree;
 }
 
-Friction DrawFriction(const Friction& friction, const TruthDraws& draws, RandomStream& random,
-                      const Place& place) {
-  if (draws.posterior) return Draw(*draws.posterior, friction, random, place);
-  Tree tree = FrictionToTree(friction);
-  for (const auto& [key, range] : draws.numbers) {
-    if (key.starts_with(kPrefix)) tree[Pointer(key)] = range.Draw(random);
-  }
-  return FrictionFrom({std::move(tree), place.file});
+Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
+  Scenario realized = scenario;
+  realized.draws = {};
+  if (scenario.draws.empty()) return realized;
+
+  // the same numbers for the same seed and realization
+  RandomStream random({scenario.seed, realization}, Stream::truth);
+  realized.friction = DrawFriction(scenario, random);
+  const auto energy = scenario.draws.numbers.find(kInitialEnergy);
+  if (energy != scenario.draws.numbers.end()) realized.initial_energy = energy->second.Draw(random);
+  return realized;
 }
 
 }  // namespace warmjoint

@@ -8,11 +8,13 @@
 #include <string>
 
 #include "models/foundation/node.h"
-#include "models/foundation/random_stream.h"
 #include "scenarios/distribution.h"
 #include "scenarios/posterior.h"
 
 namespace warmjoint {
+
+/// The key of E(0), among those of what is drawn too.
+inline constexpr const char* kInitialEnergy = "initial_energy";
 
 /// Truth that is drawn anew for each realization.
 struct TruthDraws {
@@ -22,7 +24,6 @@ struct TruthDraws {
   std::optional<Posterior> posterior;  // of the friction's parameters
 
   bool empty() const { return numbers.empty() && !posterior; }
-  bool operator==(const TruthDraws&) const = default;
 };
 
 /// A friction, its numbers that are drawn at their middles, as the key `friction` has it: as in a friction file, where any
@@ -33,35 +34,5 @@ struct DrawnFriction {
 };
 void ReadValue(const Node& node, DrawnFriction* value, const FieldInfo& info);
 Tree WriteValue(const DrawnFriction& value);
-
-/// The truth of a scenario, at the middles of what is drawn.
-struct DrawnTruth {
-  Friction friction;
-  double initial_energy = 0;
-  TruthDraws draws;
-
-  template <class A>
-  void Serialize(A* a) {
-    constexpr const char* energy_key = "initial_energy";
-    const auto drawn = draws.numbers.find(energy_key);
-    Distribution energy =
-        drawn == draws.numbers.end() ? Distribution{.a = initial_energy} : drawn->second;
-    draws.numbers.erase(energy_key);
-    DrawnFriction whole{friction, draws};
-    a->Field("friction", &whole,
-             {.meaning = "the true friction as in a friction file, any number a distribution; a "
-                         "friction file's path; or {estimate: FILE}",
-              .needed = "give the true law and its parameters"});
-    a->Field(energy_key, &energy, {.unit = "N.m", .meaning = "E(0), the heat at the start"});
-    friction = whole.friction;
-    draws = whole.draws;
-    initial_energy = energy.a;
-    if (energy.kind != Distribution::Kind::fixed) draws.numbers[energy_key] = energy;
-  }
-};
-
-/// A friction of its draws. Throws BadInput from `place` where the posterior gives none within physical bounds.
-Friction DrawFriction(const Friction& friction, const TruthDraws& draws, RandomStream& random,
-                      const Place& place);
 
 }  // namespace warmjoint

@@ -30,9 +30,8 @@ int SecondDocument(std::string_view text) {
 YAML::Node Load(const std::string& text, const std::string& file) {
   // text that is no UTF-8 and a second document are refused by their line
   if (const auto broken = FirstBrokenByte(text)) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(*broken);
-    const auto line = static_cast<int>(1 + std::count(text.begin(), end, '\n'));
-    Refuse({file, line}, "byte {} is not UTF-8; save the file as UTF-8", *broken + 1);
+    Refuse(PlaceOfByte(text, *broken, file), "byte {} is not UTF-8; save the file as UTF-8",
+           *broken + 1);
   }
   if (const int line = SecondDocument(text)) {
     Refuse({file, line}, "begins another document; keep one");

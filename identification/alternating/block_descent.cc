@@ -17,13 +17,6 @@ constexpr double kGridPerDecade = 8.0;
 
 }  // namespace
 
-struct OutputError::Slice {
-  double gain = 0;
-  double cost = 0;
-  double slope = 0;
-  double curvature = 0;
-};
-
 OutputError::OutputError(const Eigen::VectorXd& time, const Eigen::VectorXd& loss,
                          const Selection& selection, const std::vector<Eigen::Index>& starts)
     : filter_(time, starts),
@@ -119,13 +112,15 @@ BlockDescent::BlockDescent(const LogSamples& measurements, const Selection& movi
                     moving, measurements.further_starts),
       kept_(static_cast<double>(moving.count())) {
   const Eigen::VectorXd keep = moving.keep.cast<double>();
-  const Eigen::VectorXd& v = measurements.velocity;
-  sign_ = keep.cwiseProduct(v.unaryExpr([](double x) { return static_cast<double>(Sign(x)); }));
+  sign_ = keep.cwiseProduct(measurements.velocity.array().sign().matrix());
   torque_ = keep.cwiseProduct(measurements.torque);
   columns_ = keep.asDiagonal() * columns;
 }
 
-DescentState BlockDescent::Start(const Thermal& start) const { return WithNominal(start, true); }
+DescentState BlockDescent::Start(Thermal start) const {
+  start.time_constant = std::max(start.time_constant, output_error_.shortest());
+  return WithNominal(start, true);
+}
 
 DescentState BlockDescent::Next(const DescentState& state) const {
   const OutputError::Fit fit =

@@ -20,17 +20,15 @@ class OutputError {
   struct Fit {
     Thermal thermal;
     double cost = 0;      // sum of squares over the kept samples, (N.m)^2 or N^2
-    bool inside = false;  // tau lies within [shortest, longest]; where it does not, it is at one
+    bool inside = false;  // tau lies within those that are tried; else at an end of them
   };
 
   /// time: [N] s; loss: [N] W; keep: [N]; starts: samples at which the joint is cold again.
   OutputError(const Eigen::VectorXd& time, const Eigen::VectorXd& loss, const Selection& selection,
-              const std::vector<Eigen::Index>& starts = {});
+              const std::vector<Eigen::Index>& starts);
 
-  /// Smallest and largest time constant tried, s: a tenth of a step, and 100 times the recording.
-  /// Beyond them the samples cannot tell one from another.
+  /// Smallest time constant tried, s.
   double shortest() const { return shortest_; }
-  double longest() const { return longest_; }
 
   /// The time constant on a grid (8 a decade from a step to 10 times the recording) whose fit to
   /// `energy` is best: a start from which Refine finds the smallest of several minima. s.
@@ -43,12 +41,17 @@ class OutputError {
   const Eigen::VectorXd& loss() const { return loss_; }
 
  private:
-  struct Slice;  // the cost along ln tau: value and derivatives
+  /// The cost along ln tau: at the best gain its value and derivatives.
+  struct Slice {
+    double gain = 0, cost = 0, slope = 0, curvature = 0;
+  };
   Slice Evaluate(const Eigen::VectorXd& energy, double log_time_constant) const;
 
   ThermalFilter filter_;
   Eigen::VectorXd loss_;  // [N] W
   Eigen::VectorXd kept_;  // [N] 1 where a sample is kept, else 0
+  // time constants that are tried, s: a tenth of a step, and 100 times the recording; beyond them the
+  // samples cannot tell one from another
   double shortest_;
   double longest_;
 };
@@ -72,9 +75,9 @@ class BlockDescent {
                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                const Eigen::VectorXd& gravity);
 
-  /// Iteration 0: E = H0 W, then Fn by (24). H0 acts first, because a start from plain least
+  /// Iteration 0: E = H0 W, then Fn by (24), from no shorter a time constant than is tried. H0 acts first, because a start from plain least
   /// squares would throw it away.
-  DescentState Start(const Thermal& start) const;
+  DescentState Start(Thermal start) const;
 
   /// One iteration from `state`: E by (23), H by output error, E = H W, Fn by (24).
   DescentState Next(const DescentState& state) const;
@@ -90,8 +93,6 @@ class BlockDescent {
 
   /// Derivatives of Fitted by (nominal, gain, ln tau). [N x (d + 2)], 0 where not kept.
   Eigen::MatrixXd Jacobian(const DescentState& state) const;
-
-  const OutputError& output_error() const { return output_error_; }
 
  private:
   Eigen::VectorXd MeasuredEnergy(const Eigen::VectorXd& nominal) const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -41,7 +42,27 @@ struct Spread {
 
 class Envelope {
  public:
-  Envelope(const LogSamples& m, const Selection& selection);
+  Envelope(const LogSamples& m, const Selection& selection)
+      : width_((m.time[m.size() - 1] - m.time[0]) / kWindows) {
+    Average(m, selection);
+
+    // one slope over speed for all windows, from the spread within each; 0 for a single speed
+    const Spread spread = SpreadWithin(m, selection);
+    double mean_square = 0;
+    for (const Window& window : windows_) mean_square += window.count * window.speed * window.speed;
+    const bool varied = spread.speed_speed > 1e-4 * mean_square;
+    const double viscous = varied ? spread.viscous() : 0;
+    for (Window& window : windows_) window.level = window.torque - viscous * window.speed;
+
+    // noise of a window's level, from the spread within windows and the samples of one
+    const double variance = varied ? spread.variance() : spread.torque_torque / spread.count;
+    const double per_window = spread.count / static_cast<double>(windows_.size());
+    noise_ = std::sqrt(std::max(variance, 0.0) / per_window);
+
+    size_t used = 0;
+    while (used < windows_.size() && windows_[used].count > 0) ++used;
+    windows_.resize(used);
+  }
 
   /// Up to the first window that holds no kept sample: what follows a long rest is colder again.
   const std::vector<Window>& windows() const { return windows_; }
@@ -53,74 +74,48 @@ class Envelope {
     const auto index = static_cast<size_t>((m.time[i] - m.time[0]) / width_);
     return std::min<size_t>(index, kWindows - 1);
   }
-  void Average(const LogSamples& m, const Selection& selection);
-  Spread SpreadWithin(const LogSamples& m, const Selection& selection) const;
+
+  void Average(const LogSamples& m, const Selection& selection) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      // losses and motion of all samples, friction of those that a fit uses
+      Window& window = windows_[IndexOf(m, i)];
+      const double speed = std::abs(m.velocity[i]);
+      window.samples += 1;
+      window.loss += std::abs(m.torque[i]) * speed;
+      window.motion += speed;
+      if (!selection.keep[i]) continue;
+      window.count += 1;
+      window.speed += speed;
+      window.torque += Sign(m.velocity[i]) * m.torque[i];
+    }
+    for (Window& window : windows_) {
+      window.loss /= std::max(window.samples, 1.0);
+      window.motion /= std::max(window.samples, 1.0);
+      window.speed /= std::max(window.count, 1.0);
+      window.torque /= std::max(window.count, 1.0);
+    }
+  }
+
+  Spread SpreadWithin(const LogSamples& m, const Selection& selection) const {
+    Spread spread;
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      if (!selection.keep[i]) continue;
+      // what is left of the window's own means
+      const Window& window = windows_[IndexOf(m, i)];
+      const double speed = std::abs(m.velocity[i]) - window.speed;
+      const double torque = Sign(m.velocity[i]) * m.torque[i] - window.torque;
+      spread.speed_speed += speed * speed;
+      spread.speed_torque += speed * torque;
+      spread.torque_torque += torque * torque;
+      spread.count += 1;
+    }
+    return spread;
+  }
 
   double width_;
   double noise_ = 0;
   std::vector<Window> windows_{kWindows};
 };
-
-Envelope::Envelope(const LogSamples& m, const Selection& selection)
-    : width_((m.time[m.size() - 1] - m.time[0]) / kWindows) {
-  Average(m, selection);
-
-  // one slope over speed for all windows, from the spread within each; 0 for a single speed
-  const Spread spread = SpreadWithin(m, selection);
-  double mean_square = 0;
-  for (const Window& window : windows_) mean_square += window.count * window.speed * window.speed;
-  const bool varied = spread.speed_speed > 1e-4 * mean_square;
-  const double viscous = varied ? spread.viscous() : 0;
-  for (Window& window : windows_) window.level = window.torque - viscous * window.speed;
-
-  // noise of a window's level, from the spread within windows and the samples of one
-  const double variance = varied ? spread.variance() : spread.torque_torque / spread.count;
-  const double per_window = spread.count / static_cast<double>(windows_.size());
-  noise_ = std::sqrt(std::max(variance, 0.0) / per_window);
-
-  // windows up to the first without a kept sample
-  size_t used = 0;
-  while (used < windows_.size() && windows_[used].count > 0) ++used;
-  windows_.resize(used);
-}
-
-void Envelope::Average(const LogSamples& m, const Selection& selection) {
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    // losses and motion of all samples, friction of those that a fit uses
-    Window& window = windows_[IndexOf(m, i)];
-    const double speed = std::abs(m.velocity[i]);
-    window.samples += 1;
-    window.loss += std::abs(m.torque[i]) * speed;
-    window.motion += speed;
-    if (!selection.keep[i]) continue;
-    window.count += 1;
-    window.speed += speed;
-    window.torque += Sign(m.velocity[i]) * m.torque[i];
-  }
-  // sums become means
-  for (Window& window : windows_) {
-    window.loss /= std::max(window.samples, 1.0);
-    window.motion /= std::max(window.samples, 1.0);
-    window.speed /= std::max(window.count, 1.0);
-    window.torque /= std::max(window.count, 1.0);
-  }
-}
-
-Spread Envelope::SpreadWithin(const LogSamples& m, const Selection& selection) const {
-  Spread spread;
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    if (!selection.keep[i]) continue;
-    // what is left of the window's own means
-    const Window& window = windows_[IndexOf(m, i)];
-    const double speed = std::abs(m.velocity[i]) - window.speed;
-    const double torque = Sign(m.velocity[i]) * m.torque[i] - window.torque;
-    spread.speed_speed += speed * speed;
-    spread.speed_torque += speed * torque;
-    spread.torque_torque += torque * torque;
-    spread.count += 1;
-  }
-  return spread;
-}
 
 /// Mean of a member over the windows [begin, end).
 double Mean(const std::vector<Window>& windows, double Window::*member, size_t begin, size_t end) {

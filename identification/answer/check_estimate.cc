@@ -1,7 +1,6 @@
 #include "identification/answer/check_estimate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "identification/explain.h"
@@ -27,15 +26,12 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
 
   // the rows that a fit of that law would have
   const std::vector<double> values = LawValues(fit.friction);
-  const Eigen::Map<const Eigen::VectorXd> law(values.data(),
-                                              static_cast<Eigen::Index>(values.size()));
+  const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
 
   // heat and start, where the estimate tells them
   if (fit.friction.thermal && Find(Role::heat, estimate)) {
-    for (FitParameter& row : HeatParameters(*fit.friction.thermal, m)) {
-      fit.parameters.push_back(std::move(row));
-    }
+    Append(HeatParameters(*fit.friction.thermal, m), fit);
   }
   if (const EstimatedParameter* start = Find(Role::start, estimate)) {
     fit.initial_energy = start->value;
@@ -116,16 +112,11 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
 
   // and whether noise may do it
   const Uncertainty known =
-      EstimateCovariance(rows, step.cofactor, residual - taken, model->selection);
+      EstimateCovariance([&] { return rows; }, step.cofactor, residual - taken, model->selection);
   // the parameter that is farthest off, in its standard errors
+  const Eigen::ArrayXd deviations = known.covariance.diagonal().array().sqrt();
   Eigen::Index most = 0;
-  for (Eigen::Index j = 1; j < p; ++j) {
-    const auto score = [&](Eigen::Index i) {
-      return std::abs(step.solution[i]) / known.Deviation(i);
-    };
-    if (score(j) > score(most)) most = j;
-  }
-  const double z = std::abs(step.solution[most]) / known.Deviation(most);
+  const double z = (step.solution.array().abs() / deviations).maxCoeff(&most);
   if (static_cast<double>(p) * PValueOfStudent(z, known.degrees_of_freedom) >= kErrorLevel) {
     return std::nullopt;
   }

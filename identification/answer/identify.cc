@@ -13,7 +13,6 @@
 #include "identification/preparation/moving_view.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
-#include "models/friction/parameter_rows.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

@@ -30,7 +30,7 @@ Eigen::MatrixXd ForceSlopes(const ClosedLoop& loop, const Eigen::VectorXd& param
   const Eigen::Index all = d + 3 + static_cast<Eigen::Index>(loop.jumps().size());
   Eigen::MatrixXd slopes(loop.size(), all);
   WithLoopSize(loop, [&]<int D>(std::integral_constant<int, D>) {
-    const Eigen::Index own = LoopSize<D>(d).value(), count = D == Eigen::Dynamic ? all : D + 3;
+    const Eigen::Index own = LoopSize<D>(d), count = D == Eigen::Dynamic ? all : D + 3;
     // levels become torques by the direction of motion
     const Eigen::VectorXd& direction = loop.direction();
     const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
@@ -96,7 +96,7 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
       if (next < jumps_.size() && jumps_[next] == n)
         energy += jumps[static_cast<Eigen::Index>(next++)];
       const double level = nominal[n] + std::abs(direction_[n]) * energy;
-      const IntervalHold& hold = hold_after[n];
+      const IntervalHold& hold = hold_after(n);
       const bool pushes = level < 0;  // then W = -|v| a
       if (pushes && !response.first_driving) response.first_driving = n;
       // during the interval E feeds back on its own losses

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
@@ -17,42 +18,17 @@ inline DiscreteThermal FedBack(const IntervalHold& hold, double speed) {
   return {gain, hold.pole + gain};
 }
 
-/// Number of law parameters known at compile time (D), or only at run time (Eigen::Dynamic).
+/// Number of law parameters: known at compile time (D), or only at run time, d, where D is Eigen::Dynamic.
 template <int D>
-struct LoopSize {
-  explicit LoopSize(Eigen::Index) {}
-  static constexpr Eigen::Index value() { return D; }
-};
-template <>
-struct LoopSize<Eigen::Dynamic> {
-  explicit LoopSize(Eigen::Index d) : d_(d) {}
-  Eigen::Index value() const { return d_; }
-
- private:
-  Eigen::Index d_;
-};
-
-/// The hold that follows each sample: one for all, or one of a table.
-struct EvenHold {
-  IntervalHold hold;
-  const IntervalHold& operator[](Eigen::Index) const { return hold; }
-};
-struct UnevenHold {
-  const std::vector<IntervalHold>& holds;
-  const std::vector<int>& which;
-  const IntervalHold& operator[](Eigen::Index n) const { return holds[which[n]]; }
-};
+constexpr Eigen::Index LoopSize(Eigen::Index d) {
+  return D == Eigen::Dynamic ? d : D;
+}
 
 /// Derivatives of E by (p, k, log tau, E0, jumps), 0 at first. Plain numbers where D is known, so
 /// that they stay in registers.
 template <int D>
-struct Sensitivities : std::array<double, D + 3> {
-  explicit Sensitivities(Eigen::Index) : std::array<double, D + 3>{} {}
-};
-template <>
-struct Sensitivities<Eigen::Dynamic> : std::vector<double> {
-  explicit Sensitivities(Eigen::Index size) : std::vector<double>(static_cast<size_t>(size)) {}
-};
+using Sensitivities = std::conditional_t<D == Eigen::Dynamic, std::vector<double>,
+                                         std::array<double, static_cast<size_t>(D + 3)>>;
 
 /// Runs the loop with its derivatives. parameters: [d] of the law; jumps: [J] of E at the loop's
 /// jumps, for a D that is Dynamic alone; visit(n, a, g, S) sees the level a, its direct derivatives
@@ -62,10 +38,10 @@ template <int D, typename Hold, typename Visit>
 void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, double gain,
                           double initial_energy, const double* jumps, const Hold& hold_after,
                           Visit&& visit) {
-  const LoopSize<D> size(loop.levels().cols());
-  const Eigen::Index d = size.value();
+  const Eigen::Index d = LoopSize<D>(loop.levels().cols());
   const std::vector<Eigen::Index>& jump_at = loop.jumps();
-  Sensitivities<D> S(d + 3 + static_cast<Eigen::Index>(jump_at.size()));
+  Sensitivities<D> S{};
+  if constexpr (D == Eigen::Dynamic) S.resize(static_cast<size_t>(d) + 3 + jump_at.size());
   S[d + 2] = 1;
   double energy = initial_energy;
   const double* g = loop.levels().data();
@@ -86,7 +62,7 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     const double level = nominal + energy;
     visit(n, level, g, S.data());
 
-    const IntervalHold& hold = hold_after[n];
+    const IntervalHold& hold = hold_after(n);
     const auto [feedback, lambda] = FedBack(hold, speed[n]);
     if (apart) {
       nominal = of_loss[0] * parameters[0];
@@ -104,14 +80,14 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
   }
 }
 
-/// Calls run(hold) with the kind of hold that the intervals need.
+/// Calls run(hold_after) with the hold that follows each sample n, hold_after(n): one for all, or one of a table.
 template <typename Run>
 void WithHolds(const Intervals& intervals, const Thermal& thermal, Run&& run) {
   const std::vector<IntervalHold> holds = Holds(intervals, thermal);
   if (intervals.even()) {
-    run(EvenHold{holds[0]});
+    run([hold = holds[0]](Eigen::Index) -> const IntervalHold& { return hold; });
   } else {
-    run(UnevenHold{holds, intervals.which});
+    run([&](Eigen::Index n) -> const IntervalHold& { return holds[intervals.which[n]]; });
   }
 }
 

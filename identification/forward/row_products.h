@@ -37,20 +37,10 @@ class RowProducts {
   /// p: columns, as P where that is known.
   explicit RowProducts(Eigen::Index p) : rows_(kBlock, p), sums_(Square::Zero(p, p)) {}
 
-  /// A row to be filled: its entry i is row[i].
-  class Row {
-   public:
-    explicit Row(double* first) : first_(first) {}
-    double& operator[](Eigen::Index i) const { return first_[i * kBlock]; }
-
-   private:
-    double* first_;
-  };
-
-  /// The next row; all its entries are to be set before the one after is asked for.
-  Row Next() {
+  /// The next row to be filled; all its entries are to be set before the one after is asked for.
+  auto Next() {
     if (count_ == kBlock) TakeUp();
-    return Row(rows_.data() + count_++);
+    return rows_.row(count_++);
   }
 
   /// R^T R of all rows so far. [P x P]

@@ -23,11 +23,6 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
   return fit.inertia ? "no sample moves clearly" : "no sample moves at a constant speed";
 }
 
-/// Whether the heat with which recordings begin is free, so that a fit knows that of no recording that it has not seen.
-bool HasOwnStarts(const Fit& fit, const LogSamples& measurements) {
-  return fit.RowOf(Role::start) && !measurements.further_starts.empty();
-}
-
 }  // namespace
 
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
@@ -58,9 +53,10 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
   Selection test = input.selection;
   const auto before = (input.measurements.time.array() < first->split).count();
   test.keep.head(before) = false;
-  const bool own_starts = HasOwnStarts(first->fit, input.measurements);
+  // where the heat with which recordings begin is free, a fit knows that of none that it has not seen
+  const std::vector<Eigen::Index>& starts = input.measurements.further_starts;
+  const bool own_starts = first->fit.RowOf(Role::start) && !starts.empty();
   if (own_starts) {
-    const std::vector<Eigen::Index>& starts = input.measurements.further_starts;
     const auto unseen = std::ranges::lower_bound(starts, before);
     if (unseen != starts.end()) test.keep.tail(input.measurements.size() - *unseen) = false;
   }

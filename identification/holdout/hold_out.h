@@ -3,6 +3,7 @@
 
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
+#include <warmjoint/friction_model.h>
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
@@ -12,7 +13,6 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
-#include "models/friction/along_motion.h"
 
 namespace warmjoint {
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "models/friction/sign.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -15,8 +16,6 @@ using Eigen::Index;
 
 constexpr double kTravelParts = 48;
 constexpr double kTurnParts = 24;
-
-int Direction(double velocity) { return velocity > 0 ? 1 : velocity < 0 ? -1 : 0; }
 
 /// How far the joint may go within a row, rad or m.
 double LongestDistance(const LogSamples& m) {
@@ -43,14 +42,12 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
   const Eigen::ArrayXi segment = SegmentOf(all);
   const double longest = LongestStep(m.time), distance = LongestDistance(m);
   std::vector<Index> first{0};
-  size_t next = 0;  // recording
   // a row ends where the motion, the segment or the recording does
   for (Index i = 1; i < m.size(); ++i) {
-    const bool starts = next < m.further_starts.size() && m.further_starts[next] == i;
-    if (starts) ++next;
+    const bool starts = std::ranges::binary_search(m.further_starts, i);
     const Index begin = first.back();
     const bool alike = keep[i] == keep[begin] && segment[i] == segment[begin] &&
-                       Direction(m.velocity[i]) == Direction(m.velocity[begin]) &&
+                       Sign(m.velocity[i]) == Sign(m.velocity[begin]) &&
                        m.time[i] - m.time[i - 1] <= longest;
     // kept samples of one row stay close to each other; what lies between segments may spread
     const bool near = std::abs(m.position[i] - m.position[begin]) <= distance || !keep[i];

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,29 +44,6 @@ struct Convergence {
 
 constexpr size_t kLastChanges = 5;  // over which the rate is observed
 constexpr double kStill = 1e-9;     // a change that the stopping rules inside explain
-
-double Change(const std::vector<Eigen::VectorXd>& iterates, size_t i) {
-  return (iterates[i] - iterates[i - 1]).cwiseAbs().maxCoeff();
-}
-
-/// iterates: x[0], x[1], ..., each [d] and divided by its scale, so that 0.01 is 1 %; distances
-/// are the largest over the entries. Infinite where the sequence does not approach anything, or is
-/// too short (fewer than 3) to tell.
-Convergence JudgeConvergence(const std::vector<Eigen::VectorXd>& iterates) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (iterates.size() < 3) return {1, kNever};
-
-  const size_t last = iterates.size() - 1;
-  const double change = Change(iterates, last);
-  if (change < kStill) return {0, 0};
-
-  // change[n] = rate^m change[n - m]
-  const size_t span = std::min(kLastChanges, last - 1);
-  const double rate =
-      std::pow(change / Change(iterates, last - span), 1.0 / static_cast<double>(span));
-  if (!(rate < 1)) return {1, kNever};
-  return {rate, change * rate / (1 - rate)};
-}
 
 constexpr const char* kName = "energy-als";
 constexpr double kSingular = 1e-6;  // of the joint Jacobian; short of it the intervals tell
@@ -142,24 +118,14 @@ struct NominalPart {
   std::optional<Refusal> refusal;  // why there is no such part
 
   /// Of the p columns, law, gravity and kernels, and the heat that the fit has behind them.
-  Layout layout() const;
-
-  /// Maps with their weights. nominal: [p]
-  std::vector<FrictionMap> MapsOf(const Eigen::VectorXd& nominal) const;
+  Layout layout() const {
+    const Eigen::Index kernels = KernelCount(maps);
+    return Layout::InOrder({{&Layout::law, columns.cols() - gravity.count() - kernels},
+                            {&Layout::rigid, gravity.count()},
+                            {&Layout::weights, kernels},
+                            {&Layout::heat, 2}});
+  }
 };
-
-Layout NominalPart::layout() const {
-  Eigen::Index kernels = 0;
-  for (const FrictionMap& map : maps) kernels += static_cast<Eigen::Index>(map.size());
-  return Layout::InOrder({{&Layout::law, columns.cols() - gravity.count() - kernels},
-                          {&Layout::rigid, gravity.count()},
-                          {&Layout::weights, kernels},
-                          {&Layout::heat, 2}});
-}
-
-std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) const {
-  return WithWeights(maps, layout().weights.Of(nominal));
-}
 
 /// Law and kernels over position.
 void AddMap(const IdentifierInput& input, NominalPart& part) {
@@ -259,23 +225,26 @@ std::vector<DescentState> Descend(const BlockDescent& descent, const Thermal& st
 }
 
 /// Distance to the fixed point, each parameter relative to its value or, where that is smaller, to
-/// its standard deviation; tau by its logarithm, which is relative already.
+/// its standard deviation; tau by its logarithm, which is relative already. Distances are the largest over the
+/// parameters. Infinite where the sequence does not approach anything, or is too short (fewer than 3) to tell.
 Convergence Judge(const std::vector<DescentState>& states, const Eigen::VectorXd& deviations) {
+  if (states.size() < 3) return {1, kInfinity};
   Eigen::VectorXd scale = Vector(states.back()).cwiseAbs().cwiseMax(deviations);
   scale.tail(1).setOnes();
-  std::vector<Eigen::VectorXd> iterates;
-  for (const DescentState& state : states) {
-    iterates.push_back(Vector(state).cwiseQuotient(scale));
-  }
-  return JudgeConvergence(iterates);
-}
+  const auto change_to = [&](size_t i) {
+    const Eigen::VectorXd after = Vector(states[i]).cwiseQuotient(scale);
+    const Eigen::VectorXd before = Vector(states[i - 1]).cwiseQuotient(scale);
+    return (after - before).cwiseAbs().maxCoeff();
+  };
+  const size_t last = states.size() - 1;
+  const double change = change_to(last);
+  if (change < kStill) return {0, 0};
 
-/// First kept sample whose fitted friction pushes instead of braking, or -1.
-Eigen::Index FirstDriving(const LogSamples& m, const Eigen::VectorXd& fitted) {
-  for (Eigen::Index i = 0; i < fitted.size(); ++i) {
-    if (DrivesJoint(m.velocity[i], fitted[i])) return i;
-  }
-  return -1;
+  // change[n] = rate^m change[n - m]
+  const size_t span = std::min(kLastChanges, last - 1);
+  const double rate = std::pow(change / change_to(last - span), 1.0 / static_cast<double>(span));
+  if (!(rate < 1)) return {1, kInfinity};
+  return {rate, change * rate / (1 - rate)};
 }
 
 /// Why the last state deserves no numbers; nothing where it does. friction: fitted, [N] N.m or N.
@@ -287,7 +256,9 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
                                "samples can show; record until the friction settles, or with rests",
                                last.thermal.time_constant)};
   }
-  if (const Eigen::Index i = FirstDriving(m, friction); i >= 0) {
+  // the first kept sample whose fitted friction pushes instead of braking
+  for (Eigen::Index i = 0; i < friction.size(); ++i) {
+    if (!DrivesJoint(m.velocity[i], friction[i])) continue;
     return Refusal{Status::inadequate_model,
                    ExplainDriving(m.time[i], RemedyForNonDissipative(""))};
   }
@@ -349,7 +320,7 @@ Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const Descent
   fit.identifier = kName;
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = last.thermal;
-  fit.friction.maps = part.MapsOf(last.nominal);
+  fit.friction.maps = WithWeights(part.maps, at.weights.Of(last.nominal));
   fit.parameters = LawParameters(law, values, m);
   Append(HeatParameters(last.thermal, m), fit);
   AddRigid(part.gravity, at.rigid.Of(last.nominal), m, fit);
@@ -385,7 +356,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
 
   // what is known now, and how far from the end it is
   const Uncertainty known =
-      EstimateCovariance(jacobian, *cofactor, fit.residual(), fit.used, fit.fitted);
+      EstimateCovariance([&] { return jacobian; }, *cofactor, fit.residual(), fit.used, fit.fitted);
   fit.errors.known = OfTable(part, known);
   const auto [arrived, message] =
       Arrival(states, known, input.options.Get<EnergyAlsOptions>().tolerance);
@@ -414,14 +385,12 @@ Fit FitInTurn(const IdentifierInput& input) {
   if (part.refusal) return Refused(kName, *part.refusal);
   const RigidPart& gravity = part.gravity;
 
-  FirstGuess start = Start(gravity.Of(input));
+  const FirstGuess start = Start(gravity.Of(input));
   if (!start.thermal) return Refused(kName, Status::not_identifiable, start.why);
 
   // all iterations, on losses without gravity, which the fit without warming tells
   const BlockDescent descent(input.measurements, part.moving, part.columns, part.cofactor,
                              gravity.columns * part.layout().rigid.Of(part.solution));
-  const double shortest = descent.output_error().shortest();
-  start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
   const std::vector<DescentState> states =
       Descend(descent, *start.thermal, input.options.Get<EnergyAlsOptions>().iterations);
 

@@ -25,37 +25,29 @@ struct EnergyMapSize {
   }
 };
 
-/// P x V x E, for every width.
-std::vector<std::vector<FrictionMap>> Shapes(const EnergyMapSize& size, const MapOptions& options,
-                                             const MapPoints& points) {
-  std::vector<std::vector<FrictionMap>> shapes;
-  for (const double width : options.Widths()) {
-    FrictionMap map =
-        PositionMap(points, options.kernel, size.kernels, width, size.velocity_kernels);
-    map.axes.push_back(RangeAxis(MapQuantity::energy, points, size.energy_kernels, width));
-    shapes.push_back({map});
-  }
-  return shapes;
-}
-
 Fit FitEnergyMap(const IdentifierInput& input) {
   const auto& size = input.options.Get<EnergyMapSize>();
   const auto& options = input.options.Get<MapOptions>();
   // E, with position parts beside it, one for each direction of motion
   const auto beside = [&](const MapPoints& points) {
-    std::vector<std::vector<FrictionMap>> shapes;
-    for (const double width : options.Widths()) {
-      shapes.push_back({PositionMap(points, options.kernel, size.kernels, width)});
-    }
-    return shapes;
+    return ForEachWidth(options, [&](double width) -> std::vector<FrictionMap> {
+      return {PositionMap(points, options.kernel, size.kernels, width)};
+    });
   };
-  // then the map over that E too
-  return FitMapModel(
-      kName, input,
-      {.quantities = {MapQuantity::position},
-       .maps = beside,
-       .heat = MapHeat::estimated,
-       .over_energy = [&](const MapPoints& points) { return Shapes(size, options, points); }});
+  // then one map over that E too, P x V x E
+  const auto over_energy = [&](const MapPoints& points) {
+    return ForEachWidth(options, [&](double width) -> std::vector<FrictionMap> {
+      FrictionMap map =
+          PositionMap(points, options.kernel, size.kernels, width, size.velocity_kernels);
+      map.axes.push_back(RangeAxis(MapQuantity::energy, points, size.energy_kernels, width));
+      return {map};
+    });
+  };
+  return FitMapModel(kName, input,
+                     {.quantities = {MapQuantity::position},
+                      .maps = beside,
+                      .heat = MapHeat::estimated,
+                      .over_energy = over_energy});
 }
 
 }  // namespace

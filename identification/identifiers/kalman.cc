@@ -172,7 +172,6 @@ KalmanPrior<D> Again(const KalmanPass& last) {
   return prior;
 }
 
-/// All passes: where each of them ended.
 template <int D>
 std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<Iterate>& trace) {
   KalmanPrior<D> prior = Ignorance<D>(track);
@@ -193,9 +192,7 @@ std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<It
 }
 
 /// Passes until one moves no parameter by more than a tenth of its standard deviation, `most` at
-/// most; where each of them ended. The first knows nothing but E = 0; each later one is linearised
-/// where the last one ended, with deviations ten times as great. trace: p, k, tau and E at 50
-/// moments of the last pass.
+/// most; where each of them ended. trace: p, k, tau and E at 50 moments of the last pass.
 std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most, std::vector<Iterate>& trace) {
   // a number of law parameters that the compiler knows, where it is a common one
   switch (track.column_rms.size()) {
@@ -307,8 +304,8 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);
   fit.refusal = WhyRefused(track, fit, last, joint, response, nominal_squares);
   if (fit.refusal) return fit;
-  fit.errors.known =
-      EstimateCovariance(jacobian, joint.cofactor, fit.residual(), fit.used, fit.fitted);
+  fit.errors.known = EstimateCovariance([&] { return jacobian; }, joint.cofactor, fit.residual(),
+                                        fit.used, fit.fitted);
   fit.summary =
       fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}", passes.size(),
                   fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);

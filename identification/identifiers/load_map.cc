@@ -32,17 +32,15 @@ struct AxisSize {
 };
 
 /// Levels over the load alone, or over position, energy and load, for every width.
-std::vector<std::vector<FrictionMap>> Shapes(const MapOptions& options, const MapPoints& points,
-                                             const std::vector<AxisSize>& axes) {
-  std::vector<std::vector<FrictionMap>> shapes;
-  for (const double width : options.Widths()) {
+MapShapes Shapes(const MapOptions& options, const MapPoints& points,
+                 const std::vector<AxisSize>& axes) {
+  return ForEachWidth(options, [&](double width) -> std::vector<FrictionMap> {
     FrictionMap map{{}, options.kernel, {}, MapFactor::direction};
     for (const auto& [quantity, kernels] : axes) {
       map.axes.push_back(RangeAxis(quantity, points, kernels, width));
     }
-    shapes.push_back({map});
-  }
-  return shapes;
+    return {map};
+  });
 }
 
 Fit FitLoadMap(const IdentifierInput& input) {

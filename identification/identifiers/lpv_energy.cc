@@ -91,15 +91,12 @@ struct LpvEnergySize {
 };
 
 /// Kernels over E times v and times sign(v), for every width.
-std::vector<std::vector<FrictionMap>> Shapes(int energy_kernels, const MapOptions& options,
-                                             const MapPoints& points) {
-  std::vector<std::vector<FrictionMap>> shapes;
-  for (const double width : options.Widths()) {
+MapShapes Shapes(int energy_kernels, const MapOptions& options, const MapPoints& points) {
+  return ForEachWidth(options, [&](double width) -> std::vector<FrictionMap> {
     const MapAxis axis = RangeAxis(MapQuantity::energy, points, energy_kernels, width);
-    shapes.push_back({{{axis}, options.kernel, {}, MapFactor::velocity},
-                      {{axis}, options.kernel, {}, MapFactor::direction}});
-  }
-  return shapes;
+    return {{{axis}, options.kernel, {}, MapFactor::velocity},
+            {{axis}, options.kernel, {}, MapFactor::direction}};
+  });
 }
 
 Fit FitSlopeAndLevel(const IdentifierInput& input) {

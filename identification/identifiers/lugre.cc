@@ -41,13 +41,8 @@ namespace {
 /// A fit with what is known of it.
 struct LugreAnswer {
   LugreFit fit;
-  Uncertainty known;               // of the parameters that are not constant
-  std::vector<Eigen::Index> rows;  // [p] of each parameter in `known`, or -1
-
-  double Deviation(Eigen::Index i) const {
-    const Eigen::Index row = rows[static_cast<size_t>(i)];
-    return row < 0 ? 0 : known.Deviation(row);
-  }
+  Uncertainty
+      known;  // of the parameters that are not constant; those that may be are the last, damping and inertia
 };
 
 /// Standard deviation of the residual of the kept samples and of the others, N.m or N.
@@ -76,24 +71,14 @@ double RobustRms(std::vector<double> residuals) {
   return std::sqrt(squares / std::max(count, 1.0));
 }
 
-/// The columns of the Jacobian that belong to parameters which are not constant.
-Eigen::MatrixXd FreeColumns(const LugreProblem& problem, const Eigen::MatrixXd& jacobian) {
-  Eigen::MatrixXd free(jacobian.rows(), jacobian.cols() - std::ssize(problem.constant));
-  Eigen::Index column = 0;
-  for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
-    if (!problem.IsConstant(i)) free.col(column++) = jacobian.col(i);
-  }
-  return free;
-}
-
 /// By how much the sampling shifts the parameters: linear motion between samples errs with the
 /// square of the interval, so that the error is a third of what leaving out every other sample
 /// changes (Richardson). jacobian: [n x d] of the free parameters, over the deviations.
 Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& problem,
                               const LugreFit& fit, const Eigen::MatrixXd& jacobian) {
   const HalvedProblem halved = Halve(input, problem);
-  const Eigen::VectorXd full = LugreTorque(problem, fit.solution, fit.loads);
-  const Eigen::VectorXd half = LugreTorque(halved.problem, fit.solution, fit.loads);
+  const Eigen::VectorXd full = LugreTorque(problem, fit);
+  const Eigen::VectorXd half = LugreTorque(halved.problem, fit);
   // rows of the samples in the Jacobian
   std::vector<Eigen::Index> row(static_cast<size_t>(full.size()), -1);
   Eigen::Index rows = 0;
@@ -138,7 +123,6 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
     if (!problem.used.keep[i]) continue;
     const double deviation = std::max(selection.keep[i] ? noise.kept : noise.others, least);
     problem.deviation[row] = std::max(deviation, std::abs(residual[row]) / kOutlier);
-    if (std::abs(residual[row]) <= kOutlier * deviation) problem.deviation[row] = deviation;
     ++row;
   }
   return noise;
@@ -149,12 +133,14 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
 LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem, LugreFit fit) {
   LugreAnswer answer;
   // a parameter that is held has no row among the errors
-  for (Eigen::Index i = 0, row = 0; i < problem.layout().size(); ++i) {
-    answer.rows.push_back(problem.IsConstant(i) ? -1 : row++);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < problem.layout().size(); ++i) {
+    if (!problem.IsConstant(i)) free.push_back(i);
   }
-  const Eigen::MatrixXd jacobian = FreeColumns(problem, fit.jacobian);
-  answer.known = EstimateCovariance(jacobian, Cofactor(jacobian.transpose() * jacobian),
-                                    fit.residual, problem.used);
+  const Eigen::MatrixXd jacobian = fit.jacobian(Eigen::all, free);
+  answer.known =
+      EstimateCovariance([&] { return jacobian; }, Cofactor(jacobian.transpose() * jacobian),
+                         fit.residual, problem.used);
   // the sampling's error beside that of the noise
   const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
 
@@ -217,7 +203,7 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<FitPoint>& scan,
 std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const LugreProblem& problem,
                                                  const LugreAnswer& answer) {
   const Layout at = problem.layout();
-  const double stiffness = answer.Deviation(at.log_stiffness());
+  const double stiffness = answer.known.Deviation(at.log_stiffness());
   if (!(stiffness < kImpreciseBristle)) {
     return fmt::format(
         "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
@@ -231,7 +217,7 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   // the damping, where it is estimated
   if (problem.IsConstant(at.damping())) return std::nullopt;
   const Eigen::VectorXd& x = answer.fit.solution.x;
-  const double damping = x[at.damping()], deviation = answer.Deviation(at.damping());
+  const double damping = x[at.damping()], deviation = answer.known.Deviation(at.damping());
   if (deviation < kImpreciseBristle * std::abs(damping)) return std::nullopt;
   return fmt::format(
       "bristle_damping cannot be estimated: it is {:.3g} with a standard error of {:.3g} {}; "
@@ -245,7 +231,6 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
 /// Why the level at rest and stribeck_velocity cannot be told; nothing where they can.
 std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
                                            const LugreProblem& problem, const LugreAnswer& answer) {
-  // neither law nor vs is constant, so that they come first in the covariance, too
   const StribeckEvidence evidence =
       EvidenceOf(*problem.law, problem.layout(), answer.fit.solution.x, answer.known);
 

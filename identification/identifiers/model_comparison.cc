@@ -144,18 +144,14 @@ Choice ChooseStructure(const std::vector<StructureCandidate>& contenders, double
   for (size_t i = 0; i < contenders.size(); ++i) {
     const StructureCandidate& one = contenders[i];
     const Eigen::VectorXd difference = one.errors - best.errors;
-    const double doubt = StandardError(difference);
     // as good as the best within one standard error, or by BIC
-    const bool equal = difference.mean() <= doubt || bic(one) <= bic(best);
+    const bool equal = difference.mean() <= StandardError(difference) || bic(one) <= bic(best);
     const StructureCandidate& so_far = contenders[choice.chosen];
     // with fewer parameters, or with as many and a smaller error
     const bool simpler =
         one.parameters < so_far.parameters ||
         (one.parameters == so_far.parameters && one.errors.mean() < so_far.errors.mean());
-    if (!equal || !simpler) continue;
-    choice.chosen = i;
-    choice.excess = difference.mean();
-    choice.doubt = doubt;
+    if (equal && simpler) choice.chosen = i;
   }
   return choice;
 }

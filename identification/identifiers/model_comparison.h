@@ -26,9 +26,7 @@ double Bic(double mean_square, double parameters, double samples);
 
 struct Choice {
   size_t chosen = 0;
-  size_t best = 0;    // of the least mean error; the chosen one may be a simpler one
-  double excess = 0;  // mean error of the chosen less that of the best
-  double doubt = 0;   // standard error of that difference over the blocks
+  size_t best = 0;  // of the least mean error; the chosen one may be a simpler one
 };
 
 /// The simplest contender that is not worse than the best beyond doubt: its mean error exceeds the

@@ -8,27 +8,21 @@
 #include "identification/seen_samples.h"
 
 namespace warmjoint {
-namespace {
-
-Fit FitMotorMaps(const IdentifierInput& input) {
-  // kernels over the motor's turn, and over the joint's travel beside them
-  return FitMapModel("motor-ridge", input,
-                     {.quantities = {MapQuantity::position, MapQuantity::motor_position},
-                      .maps = [&](const MapPoints& points) {
-                        return MotorMaps(input.options.Get<MotorMapSize>(),
-                                         input.options.Get<MapOptions>(), input.measurements.joint,
-                                         points);
-                      }});
-}
-
-}  // namespace
-
 Identifier MotorRidge() {
-  return {"motor-ridge",
+  static constexpr const char* name = "motor-ridge";
+  return {name,
           "a nominal law and maps over the motor's angle and the joint's, without warming; tells "
           "the ripple's multiples of the motor's turn",
           OptionGroups<LawOption, MapOptions, MotorMapSize, GravityOption, MotionOption>{},
-          &FitMotorMaps};
+          [](const IdentifierInput& input) {
+            return FitMapModel(name, input,
+                               {.quantities = {MapQuantity::position, MapQuantity::motor_position},
+                                .maps = [&](const MapPoints& points) {
+                                  return MotorMaps(input.options.Get<MotorMapSize>(),
+                                                   input.options.Get<MapOptions>(),
+                                                   input.measurements.joint, points);
+                                }});
+          }};
 }
 
 }  // namespace warmjoint

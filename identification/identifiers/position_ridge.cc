@@ -7,22 +7,17 @@
 #include "identification/seen_samples.h"
 
 namespace warmjoint {
-namespace {
-
-Fit FitPositionMap(const IdentifierInput& input) {
-  return FitMapModel("position-ridge", input,
-                     {.quantities = {MapQuantity::position}, .maps = [&](const MapPoints& points) {
-                        return PositionMaps(input.options, points);
-                      }});
-}
-
-}  // namespace
-
 Identifier PositionRidge() {
-  return {"position-ridge",
-          "a nominal law and a map over position by ridge regression, without warming",
+  static constexpr const char* name = "position-ridge";
+  return {name, "a nominal law and a map over position by ridge regression, without warming",
           OptionGroups<LawOption, MapOptions, PositionMapOptions, GravityOption, MotionOption>{},
-          &FitPositionMap};
+          [](const IdentifierInput& input) {
+            return FitMapModel(
+                name, input,
+                {.quantities = {MapQuantity::position}, .maps = [&](const MapPoints& points) {
+                   return PositionMaps(input.options, points);
+                 }});
+          }};
 }
 
 }  // namespace warmjoint

@@ -41,13 +41,33 @@ namespace {
 /// when it accelerates, so that F v, unlike |F v|, loses nothing to accelerations.
 class MeasuredHeat {
  public:
-  MeasuredHeat(const LogSamples& measurements, const Thermal& thermal);
+  MeasuredHeat(const LogSamples& measurements, const Thermal& thermal)
+      : thermal_(thermal),
+        filter_(measurements.time, measurements.further_starts),
+        velocity_(measurements.velocity),
+        direction_(measurements.velocity.array().sign()) {}
 
   /// (1 - M) of each column. columns: [N x q]; returns [N x q].
-  Eigen::MatrixXd TakenOff(const Eigen::MatrixXd& columns) const;
+  Eigen::MatrixXd TakenOff(const Eigen::MatrixXd& columns) const {
+    Eigen::MatrixXd result = columns;
+    for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+      // the loss that the column stands for, and the energy that it leaves
+      const Eigen::VectorXd loss = velocity_.cwiseProduct(columns.col(j));
+      result.col(j) -= direction_.cwiseProduct(filter_.Energy(thermal_, loss));
+    }
+    return result;
+  }
 
   /// (1 - M)^T of each column. columns: [N x q], 0 at samples without weight; returns [N x q].
-  Eigen::MatrixXd Transposed(const Eigen::MatrixXd& columns) const;
+  Eigen::MatrixXd Transposed(const Eigen::MatrixXd& columns) const {
+    Eigen::MatrixXd result = columns;
+    for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+      // the same three steps, each transposed, in reverse order
+      const Eigen::VectorXd weights = direction_.cwiseProduct(columns.col(j));
+      result.col(j) -= velocity_.cwiseProduct(filter_.Transposed(thermal_, weights));
+    }
+    return result;
+  }
 
  private:
   Thermal thermal_;
@@ -55,32 +75,6 @@ class MeasuredHeat {
   Eigen::VectorXd velocity_;   // [N] rad/s or m/s
   Eigen::VectorXd direction_;  // [N] its sign
 };
-
-MeasuredHeat::MeasuredHeat(const LogSamples& measurements, const Thermal& thermal)
-    : thermal_(thermal),
-      filter_(measurements.time, measurements.further_starts),
-      velocity_(measurements.velocity),
-      direction_(measurements.velocity.array().sign()) {}
-
-Eigen::MatrixXd MeasuredHeat::TakenOff(const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd result = columns;
-  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-    // the loss that the column stands for, and the energy that it leaves
-    const Eigen::VectorXd loss = velocity_.cwiseProduct(columns.col(j));
-    result.col(j) -= direction_.cwiseProduct(filter_.Energy(thermal_, loss));
-  }
-  return result;
-}
-
-Eigen::MatrixXd MeasuredHeat::Transposed(const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd result = columns;
-  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-    // the same three steps, each transposed, in reverse order
-    const Eigen::VectorXd weights = direction_.cwiseProduct(columns.col(j));
-    result.col(j) -= velocity_.cwiseProduct(filter_.Transposed(thermal_, weights));
-  }
-  return result;
-}
 
 constexpr const char* kName = "rls";
 constexpr Eigen::Index kMoments = 50;  // of the trace
@@ -136,21 +130,6 @@ Eigen::VectorXd Run(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double f
   return state.estimate.cwiseQuotient(scale.transpose());
 }
 
-/// Rows of the regression and the torque that they explain, over all samples.
-struct ColdRows {
-  Eigen::MatrixXd rows;    // [N x d]
-  Eigen::VectorXd torque;  // [N] N.m or N
-};
-
-/// A known warming is taken off the torque, and off gravity, which makes no heat. columns: [N x d],
-/// the last `gravity_columns` of them gravity's.
-ColdRows Cold(const std::optional<MeasuredHeat>& heat, Eigen::MatrixXd columns,
-              Eigen::Index gravity_columns, const Eigen::VectorXd& torque) {
-  if (!heat) return {std::move(columns), torque};
-  columns.rightCols(gravity_columns) = heat->TakenOff(columns.rightCols(gravity_columns));
-  return {std::move(columns), heat->TakenOff(torque)};
-}
-
 /// Covariance of what rows [N x d] of a measured heat tell, with weights [n] of the kept samples:
 /// the noise of all samples comes through the heat, that of those not kept taken
 /// for that of the others. residual: [n]; cofactor: [d x d].
@@ -181,16 +160,21 @@ Fit FitOnline(const IdentifierInput& given) {
   const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
 
-  // the heat of a given warming is taken off the torque, and off gravity
+  // the heat of a given warming is taken off the torque, and off gravity, which makes no heat
   const std::optional<Thermal> thermal = GivenThermal(input.options.Get<RlsOptions>());
   std::optional<MeasuredHeat> heat;
   if (thermal) heat.emplace(m, *thermal);
-  ColdRows cold = Cold(heat, columns, gravity.count(), m.torque);
+  Eigen::VectorXd torque = m.torque;
+  Eigen::MatrixXd rows = columns;
+  if (heat) {
+    torque = heat->TakenOff(m.torque);
+    rows.rightCols(gravity.count()) = heat->TakenOff(rows.rightCols(gravity.count()));
+  }
 
   // what the remembered samples can tell apart, from their weighted columns
   const double forgetting = input.options.Get<RlsOptions>().forgetting;
-  const Eigen::MatrixXd A = Kept(cold.rows, input.selection);
-  const Eigen::VectorXd y = Kept(cold.torque, input.selection);
+  const Eigen::MatrixXd A = Kept(rows, input.selection);
+  const Eigen::VectorXd y = Kept(torque, input.selection);
   const Eigen::VectorXd weights = Weights(y.size(), forgetting);
   const Eigen::VectorXd roots = weights.cwiseSqrt();
   const LeastSquares weighted = SolveLeastSquares(roots.asDiagonal() * A, roots.cwiseProduct(y));
@@ -217,13 +201,13 @@ Fit FitOnline(const IdentifierInput& given) {
   fit.errors.weights = weights;
   if (heat) {
     fit.errors.known =
-        ThroughHeat(*heat, cold.rows, weights, residual, weighted.cofactor, input.selection);
+        ThroughHeat(*heat, rows, weights, residual, weighted.cofactor, input.selection);
   }
   fit.count = task.count();
   fit.effective_parameters = fit.count;
   fit.summary = fmt::format("law {} as the last {:.0f} of {} samples show it", law.name,
                             weights.sum(), y.size());
-  fit.jacobian = [all = std::move(cold.rows)] { return all; };
+  fit.jacobian = [all = std::move(rows)] { return all; };
   return fit;
 }
 

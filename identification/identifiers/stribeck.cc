@@ -21,7 +21,6 @@
 #include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/linear/rigid_part.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/uncertainty/uncertainty.h"
@@ -74,17 +73,25 @@ std::string Unseen(const IdentifierInput& input, const FallingLaw& law, double e
       SlowSpeeds(input.measurements, input.selection));
 }
 
+/// What the law leaves without warming. (N.m)^2 or N^2
+double ColdSquares(const StribeckProblem& problem) {
+  StribeckProblem cold = problem;
+  cold.warming = FittedWarming::none;
+  const std::vector<FitPoint> scan = ScanStribeckVelocity(cold);
+  return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
+}
+
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
 std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
-                                              const StribeckFit& fit, const Uncertainty& known,
-                                              double cold_squares) {
+                                              const StribeckFit& fit, const Uncertainty& known) {
   if (problem.warming == FittedWarming::none) return std::nullopt;
   const Layout at = problem.layout();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
-  return UnidentifiableWarming(
-      {Explained(problem, cold_squares, fit.solution), known.Deviation(at.log_time_constant()),
-       at.ThermalAt(fit.solution.x).time_constant, 2 * problem.intervals.typical, 5 * total});
+  return UnidentifiableWarming({Explained(problem, ColdSquares(problem), fit.solution),
+                                known.Deviation(at.log_time_constant()),
+                                at.ThermalAt(fit.solution.x).time_constant,
+                                2 * problem.intervals.typical, 5 * total});
 }
 
 /// Voids a fit whose friction drives the joint on this motion. Where the data rule the law out, or
@@ -98,31 +105,16 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
             ExplainDriving(m.time[predicted.first_driving], RemedyForNonDissipative(without))));
 }
 
-/// What the law leaves without warming; 0 where no warming is asked for. (N.m)^2 or N^2
-double ColdSquares(const StribeckProblem& problem) {
-  if (problem.warming == FittedWarming::none) return 0;
-  StribeckProblem cold = problem;
-  cold.warming = FittedWarming::none;
-  const std::vector<FitPoint> scan = ScanStribeckVelocity(cold);
-  return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
-}
-
-/// What `Conclude` judges beside the best fit.
-struct Rivals {
-  double without = 0;  // squares of the law without the Stribeck effect, (N.m)^2 or N^2
-  double cold = 0;     // squares of the law without warming; 0 where no warming is asked for
-};
-
-/// Puts the best fit into `fit`, or why it cannot be trusted.
+/// Puts the best fit into `fit`, or why it cannot be trusted. without: squares of the law without the Stribeck effect
 void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& best,
-              const Rivals& rivals, Fit& fit) {
+              double without, Fit& fit) {
   if (!best.converged) {
     fit.refusal = NotConverged();
     return;
   }
 
   // the level at rest and vs must explain more than chance does
-  const double explained = Explained(problem, rivals.without, best.solution);
+  const double explained = Explained(problem, without, best.solution);
   if (!(explained > kVisibleWarming)) {
     fit.refusal = {Status::not_identifiable, Unseen(input, problem.law, explained)};
     return;
@@ -140,13 +132,13 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
                             problem.exponent);
 
   // how sure it is, and whether that will do
-  fit.errors.known =
-      EstimateCovariance(best.jacobian, Cofactor(best.jacobian.transpose() * best.jacobian),
-                         fit.residual(), fit.used, fit.fitted);
+  fit.errors.known = EstimateCovariance([&] { return best.jacobian; },
+                                        Cofactor(best.jacobian.transpose() * best.jacobian),
+                                        fit.residual(), fit.used, fit.fitted);
   const Uncertainty& known = *fit.errors.known;
   const StribeckEvidence evidence = EvidenceOf(problem.law, at, best.solution.x, known);
   auto why = UnidentifiableStribeck(problem.law, evidence, input.measurements, input.selection);
-  if (!why) why = UnidentifiableHeat(problem, best, known, rivals.cold);
+  if (!why) why = UnidentifiableHeat(problem, best, known);
   if (why) {
     fit.refusal = Refusal{Status::not_identifiable, *why};
     return;
@@ -192,7 +184,7 @@ Fit FitStribeck(const IdentifierInput& input) {
   } else {
     const StribeckFit best =
         BestRefined(scan, [&](const FitPoint& start) { return RefineStribeck(problem, start); });
-    Conclude(input, problem, best, {without, ColdSquares(problem)}, fit);
+    Conclude(input, problem, best, without, fit);
   }
   return fit;
 }

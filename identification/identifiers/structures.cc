@@ -143,12 +143,6 @@ Structure TwoLevelStribeckStructure(FittedWarming warming) {
 
 std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity gravity,
                                      const ChosenKernels& kernels) {
-  // with the kernels and the strength that were chosen for the log, if any
-  const auto shaped = [](Structure one, const std::optional<ChosenMap>& chosen) {
-    if (!chosen) return one;
-    one.strength = chosen->strength;
-    return one.WithShapeOf(chosen->map);
-  };
   // what looks like gravity with a law that is too simple may be a map's, unless gravity was asked for
   std::vector<FittedGravity> kinds{gravity};
   const bool is_asked = input.options.Get<AutoOptions>().gravity.kind.has_value();
@@ -158,9 +152,13 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
 
   std::vector<Structure> structures;
   const bool knows_motor = KnowsMotorAngle(input.measurements);
+  // with the kernels and the strength that were chosen for the log, if any
   const auto add = [&](const Structure& one, const std::optional<ChosenMap>& chosen,
                        FittedGravity kind) {
-    structures.push_back(shaped(one.With(GravityOption{kind}), chosen));
+    Structure& added = structures.emplace_back(one.With(GravityOption{kind}));
+    if (!chosen) return;
+    added.strength = chosen->strength;
+    added = added.WithShapeOf(chosen->map);
   };
   const Structure warm{EnergyMl()};
   for (const FittedGravity kind : kinds) {
@@ -196,10 +194,10 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
 
 Selection Settled(const LogSamples& m, Selection selection, double lag) {
   const KeptRuns all = FindRuns(m, selection);
-  for (const KeptRun& run : all.runs) {
-    const double begin = all.time[run.begin];
-    const double wait = std::min(kSettledAfter * lag, 0.5 * (all.time[run.end - 1] - begin));
-    for (Eigen::Index i = run.begin; i < run.end && all.time[i] < begin + wait; ++i) {
+  for (const SampleRange& run : all.runs) {
+    const double begin = all.time[run.first];
+    const double wait = std::min(kSettledAfter * lag, 0.5 * (all.time[run.end() - 1] - begin));
+    for (Eigen::Index i = run.first; i < run.end() && all.time[i] < begin + wait; ++i) {
       selection.keep[all.samples[static_cast<std::size_t>(i)]] = false;
     }
   }

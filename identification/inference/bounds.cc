@@ -23,23 +23,7 @@ std::optional<Excess> FindExcess(const FitParameter& parameter, const ParameterI
   return Excess{parameter, interval, bound, below, beyond};
 }
 
-std::vector<Excess> FindExcesses(const Fit& fit, const Inference& inference) {
-  std::vector<Excess> excesses;
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    if (fit.parameters[i].role != Role::law) continue;
-    if (auto one = FindExcess(fit.parameters[i], inference.parameters[i])) excesses.push_back(*one);
-  }
-  return excesses;
-}
-
-}  // namespace
-
-bool LeavesBounds(const std::vector<FitParameter>& parameters) {
-  return std::ranges::any_of(parameters, [](const FitParameter& one) {
-    return one.role == Role::law && !(one.value >= one.lower && one.value <= one.upper);
-  });
-}
-
+/// Whether the level at rest is below that of sliding, of a law that has both.
 bool RisesFromRest(const Friction& friction) {
   const auto at_rest = friction.parameters.find(std::string(kStaticRow.name));
   const auto coulomb = friction.parameters.find(std::string(kCoulombRow.name));
@@ -49,30 +33,6 @@ bool RisesFromRest(const Friction& friction) {
   if (rise != none && rise->second < 0) return true;
   return at_rest != none && coulomb != none && at_rest->second < coulomb->second;
 }
-
-bool GivesFriction(const Fit& fit) {
-  const bool stands = !fit.refusal && !IsRefused(fit.causes);
-  return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.friction);
-}
-
-std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
-  const std::vector<Excess> excesses = FindExcesses(fit, by_noise);
-  Cause cause{
-      .source = Source::bound, .action = Action::refuse, .status = Status::inadequate_model};
-
-  // what could not be held at its bound; that friction rises from rest has words of its own
-  const auto sure = std::ranges::find_if(
-      excesses, [](const Excess& excess) { return excess.parameter.part != LawPart::rest_rise; });
-  if (sure != excesses.end()) {
-    cause.sentence = ExplainExcess(*sure, fit);
-    return cause;
-  }
-  if (!RisesFromRest(fit.friction)) return std::nullopt;
-  cause.sentence = ExplainRiseFromRest(fit);
-  return cause;
-}
-
-namespace {
 
 /// F + G + M a by the friction and what stands beside it. [N] N.m or N
 Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& m) {
@@ -102,6 +62,35 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
 }
 
 }  // namespace
+
+bool LeavesBounds(const std::vector<FitParameter>& parameters) {
+  return std::ranges::any_of(parameters, [](const FitParameter& one) {
+    return one.role == Role::law && !(one.value >= one.lower && one.value <= one.upper);
+  });
+}
+
+bool GivesFriction(const Fit& fit) {
+  const bool stands = !fit.refusal && !IsRefused(fit.causes);
+  return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.friction);
+}
+
+std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
+  Cause cause{
+      .source = Source::bound, .action = Action::refuse, .status = Status::inadequate_model};
+
+  // what could not be held at its bound; that friction rises from rest has words of its own
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (row.role != Role::law || row.part == LawPart::rest_rise) continue;
+    const auto excess = FindExcess(row, by_noise.parameters[i]);
+    if (!excess) continue;
+    cause.sentence = ExplainExcess(*excess, fit);
+    return cause;
+  }
+  if (!RisesFromRest(fit.friction)) return std::nullopt;
+  cause.sentence = ExplainRiseFromRest(fit);
+  return cause;
+}
 
 void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit) {
   // free gravity and maps have weights beside the table, which would have to follow

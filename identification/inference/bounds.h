@@ -13,9 +13,6 @@ namespace warmjoint {
 /// Whether the value of a law parameter lies outside of its bounds, by chance or not.
 bool LeavesBounds(const std::vector<FitParameter>& parameters);
 
-/// Whether the level at rest is below that of sliding, of a law that has both.
-bool RisesFromRest(const Friction& friction);
-
 /// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
 /// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.
 bool GivesFriction(const Fit& fit);
@@ -26,7 +23,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 
 /// Sets law parameters that lie outside of a bound within their intervals to it: what is beyond is noise. The others are
 /// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x, and the model follows. A fit stays
-/// as it is where one lies beyond with its whole interval, or beside maps (MapSystem holds their laws) and free gravity.
+/// as it is where one lies beyond with its whole interval, or beside maps (RepeatedFit holds their laws) and free gravity.
 /// by_noise: of the fit, whatever its bounds; measurements: of the fit.
 void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit);
 

@@ -32,7 +32,7 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
     const double variance = std::max(before - whitened.covariance(j, j), kLeastShare * before);
     const double difference = whitened.x[j] - plain.x[j];
     const double deviations = std::abs(difference) / std::sqrt(variance);
-    if (deviations > most.deviations) most = {j, difference, deviations, {}};
+    if (deviations > most.deviations) most = {j, deviations, {}};
   }
   if (!(most.deviations > 0)) return std::nullopt;
   // of the largest of p differences (Bonferroni)

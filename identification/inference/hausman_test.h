@@ -17,9 +17,8 @@ struct FitOfRows {
 /// The parameter by which two fits differ most.
 struct Disagreement {
   Eigen::Index parameter = 0;
-  double difference = 0;          // of the whitened fit from the plain one
-  double deviations = 0;          // of that difference, by noise alone
-  Eigen::VectorXd differences{};  // [p] of all parameters
+  double deviations = 0;          // of its difference, by noise alone
+  Eigen::VectorXd differences{};  // [p] of the whitened fit from the plain one
 };
 
 /// Both fits are right on average where the residual is noise, whatever its colour, and then their

@@ -1,7 +1,5 @@
 #include "identification/inference/inference.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -124,7 +124,30 @@ class OpenFactors {
   }
 
   /// Both ends of the i-th one's interval at their level.
-  Possible Interval(Index i, const Possible& possible) const;
+  Possible Interval(Index i, const Possible& possible) const {
+    // what the log cannot tell from the fit is open as far as it is possible at all
+    const auto own = own_.col(i);
+    const double square = own.squaredNorm();
+    const bool told = square > kTold * kTold * weighted_[i];
+    if (!fit_.AllApart() || !told) return possible;
+
+    // the force joins the fit for one step of least squares, whose other columns are a basis of the fit's
+    const double factor = own.dot(left_) / square;
+    const MatrixXd& basis = fit_.apart.basis;
+    const Index p = basis.cols();
+    MatrixXd cofactor = MatrixXd::Identity(p + 1, p + 1);
+    cofactor(p, p) = 1 / square;
+    const Uncertainty known = EstimateCovariance([&] { return ConcatColumns(basis, own); },
+                                                 cofactor, left_ - factor * own, AllOf(own.size()));
+
+    // as far as noise reaches at that level
+    const double quantile = known.degrees_of_freedom == white_degrees_of_freedom_
+                                ? white_quantile_
+                                : Quantile(known.degrees_of_freedom);
+    const double reach = quantile * known.Deviation(p);
+    const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
+    return {within(factor - reach), within(factor + reach)};
+  }
 
  private:
   const WeighedFit& fit_;
@@ -134,31 +157,6 @@ class OpenFactors {
   // of most forces: where what they leave is white
   double white_degrees_of_freedom_ = 0, white_quantile_ = 0;
 };
-
-Possible OpenFactors::Interval(Index i, const Possible& possible) const {
-  // what the log cannot tell from the fit is open as far as it is possible at all
-  const auto own = own_.col(i);
-  const double square = own.squaredNorm();
-  const bool told = square > kTold * kTold * weighted_[i];
-  if (!fit_.AllApart() || !told) return possible;
-
-  // the force joins the fit for one step of least squares, whose other columns are a basis of the fit's
-  const double factor = own.dot(left_) / square;
-  const MatrixXd& basis = fit_.apart.basis;
-  const Index p = basis.cols();
-  MatrixXd cofactor = MatrixXd::Identity(p + 1, p + 1);
-  cofactor(p, p) = 1 / square;
-  const Uncertainty known = EstimateCovariance([&] { return ConcatColumns(basis, own); }, cofactor,
-                                               left_ - factor * own, AllOf(own.size()));
-
-  // as far as noise reaches at that level
-  const double quantile = known.degrees_of_freedom == white_degrees_of_freedom_
-                              ? white_quantile_
-                              : Quantile(known.degrees_of_freedom);
-  const double reach = quantile * known.Deviation(p);
-  const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
-  return {within(factor - reach), within(factor + reach)};
-}
 
 /// s v^2, without heat. [m x 1]
 MatrixXd Curve(const LogSamples& m, const Bins& bins) {

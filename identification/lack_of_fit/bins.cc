@@ -1,7 +1,6 @@
 #include "identification/lack_of_fit/bins.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace warmjoint {
 namespace {
@@ -61,8 +60,6 @@ Bins Gather(const LogSamples& measurements, const Selection& selection, Index pa
 
   // each kept sample begins a bin, which those behind it join as long as they belong to it
   Bins bins;
-  bins.begin.reserve(static_cast<size_t>(v.size()));
-  bins.end.reserve(static_cast<size_t>(v.size()));
   std::vector<double> holds, phases;
   const bool *keep = selection.keep.data(), *all_end = keep + v.size();
   Index next = 0, kept_until = 0;

@@ -11,7 +11,7 @@
 namespace warmjoint {
 
 /// Runs of neighbouring kept samples in one segment of constant speed, or, where the selection
-/// knows no segments, within 2 % of one speed. At most a 400th of all kept samples each.
+/// knows no segments, in one direction. At most a 400th of all kept samples each.
 struct Bins {
   std::vector<Eigen::Index> begin;  // [m] first sample
   std::vector<Eigen::Index> end;    // [m] one past the last

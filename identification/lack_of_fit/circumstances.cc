@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "models/friction/sign.h"
 
 namespace warmjoint {
-
 namespace {
 
 /// dF/dc at c = 0 of frictions that hold c s g beside the fit's, s = sign(v): s g itself, and what its losses change of E
@@ -44,7 +42,7 @@ inline Eigen::MatrixXd WithHeat(const FittedModel& model, const Eigen::VectorXd&
       for (std::size_t k = 0; k < F; ++k) row[k] = direction * (g[k] + S[k]);
       // one step of Eq. (22); at rest nothing is lost
       at_losses(n, g);
-      const auto [feedback, lambda] = FedBack(hold_after[n], loop.speed()[n]);
+      const auto [feedback, lambda] = FedBack(hold_after(n), loop.speed()[n]);
       const double gain = feedback * std::abs(direction);
       for (std::size_t k = 0; k < F; ++k) S[k] = lambda * S[k] + gain * g[k];
     });
@@ -103,8 +101,6 @@ MatrixXd Along(const FittedModel& model, const LogSamples& m, const Bins& bins, 
                      [&](Index n, Fours<2>& g) { by_speed(n, (*m.loss_velocity)[n], g[1]); });
 }
 
-}  // namespace
-
 HeatingForces HeatingForcesOf(const FittedModel& model, const LogSamples& m, const Bins& bins) {
   const double share = 1 / (m.time[m.size() - 1] - m.time[0]);
   const ArrayXd t = (m.time.array() - m.time[0]) * share;
@@ -112,8 +108,6 @@ HeatingForces HeatingForcesOf(const FittedModel& model, const LogSamples& m, con
   return {all.leftCols(kDrifts), all.col(kDrifts), all.col(kDrifts + 1),
           all.middleCols(kDrifts + 2, model.thermal ? 1 : 0)};
 }
-
-namespace {
 
 constexpr int kMemories = 6;  // time constants that are tried
 
@@ -135,7 +129,7 @@ double MedianHold(const FittedModel& model, const LogSamples& m) {
     durations[static_cast<Eigen::Index>(i)] =
         m.time[segments[i].end - 1] - m.time[segments[i].begin];
   }
-  return durations.size() > 0 ? MedianInPlace(durations) : 0;
+  return MedianOf(durations);
 }
 
 /// Time constants of a memory, from half a hold to an eighth of the log, the same ratio apart. s

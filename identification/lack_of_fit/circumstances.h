@@ -24,9 +24,6 @@ struct HeatingForces {
   Eigen::MatrixXd slope;   // [m x 1] of v E, E of the fit; [m x 0] where it knows no warming
 };
 
-HeatingForces HeatingForcesOf(const FittedModel& model, const LogSamples& measurements,
-                              const Bins& bins);
-
 /// Means over each bin; [m x 0] where something is not known or not asked.
 struct Circumstances {
   Eigen::VectorXd torque;    // [m] tau less gravity, inertia and what a lag adds, N.m or N

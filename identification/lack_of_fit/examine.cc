@@ -67,16 +67,24 @@ void Enter(std::optional<Finding> made, Finding& row) {
   row = std::move(*made);
 }
 
-/// Makes tests one after the other: of those that reject, the features of the largest gain join the
+/// The rows of one turn.
+std::vector<Finding*> InTurn(Turn turn, std::vector<Finding>& table) {
+  std::vector<Finding*> rows;
+  for (Finding& finding : table) {
+    if (finding.test->turn == turn) rows.push_back(&finding);
+  }
+  return rows;
+}
+
+/// Makes the tests over bins of one turn one after the other: of those that reject, the features of the largest gain join the
 /// fit, and the others are made again beside it, until none rejects. Too few rows for all features
 /// leave the last tests out: two rows in three are left to tell the noise.
-/// findings: of tests with features; residual: [m] mean tau - F of each bin; begin: the fit by mean
-/// dF/dx; returns what those rejected and the parameters take up, [m] N.m or N.
-Eigen::VectorXd TestBins(const std::vector<Finding*>& findings, const Bins& bins,
-                         const Eigen::VectorXd& residual, const WeighedFit& begin,
-                         const Circumstances& known, ErrorLevel& level) {
-  GrowingFit fit(begin, residual, AllOf(bins.size()));
-  Open open = Affordable(findings, bins, known, fit, begin.norms.size());
+/// begin: the fit by mean dF/dx; rest: [N] what is left of tau - F, N.m or N, off which what those that reject and the
+/// parameters take up is taken.
+void TestInTurn(Turn turn, const Bins& bins, const WeighedFit& begin, const Circumstances& known,
+                Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
+  GrowingFit fit(begin, bins.Means(rest), AllOf(bins.size()));
+  Open open = Affordable(InTurn(turn, table), bins, known, fit, begin.norms.size());
   fit.LearnNoise(open.features);
 
   while (open.size() > 0) {
@@ -101,16 +109,7 @@ Eigen::VectorXd TestBins(const std::vector<Finding*>& findings, const Bins& bins
       open.features[i] = open.findings[i]->test->features(bins, known, fit);
     }
   }
-  return fit.Explained();
-}
-
-/// The rows of one turn.
-std::vector<Finding*> InTurn(Turn turn, std::vector<Finding>& table) {
-  std::vector<Finding*> rows;
-  for (Finding& finding : table) {
-    if (finding.test->turn == turn) rows.push_back(&finding);
-  }
-  return rows;
+  bins.TakeOff(fit.Explained(), rest);
 }
 
 /// Why nothing can be examined; empty where it can.
@@ -134,12 +133,6 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
   const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);
   return model.held_loss ? ConcatColumns(derivatives, bins.Means(*model.held_loss)) : derivatives;
-}
-
-/// The tests over bins in one turn, on what is left; takes off what they find. rest: [N]
-void TestInTurn(Turn turn, const Bins& bins, const WeighedFit& fit, const Circumstances& known,
-                Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
-  bins.TakeOff(TestBins(InTurn(turn, table), bins, bins.Means(rest), fit, known, level), rest);
 }
 
 /// The tests of what changes within segments and stays from one to the next. A bristle's force

@@ -10,7 +10,6 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/gaps.h"
-#include "identification/warming/initial_energy.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
@@ -91,14 +90,6 @@ void TakeOff(const GravityModel& gravity, const Eigen::VectorXd& position, Fitte
   for (Eigen::Index i = 0; i < position.size(); ++i) {
     model.selection.keep[i] = model.selection.keep[i] && gravity.Covers(position[i]);
   }
-}
-
-/// Gravity's few values join the parameters. The many of `paired` do not: what depends on position
-/// alike in both directions is theirs, and the other features average out over it.
-void AddGravity(const GravityModel& gravity, const Eigen::VectorXd& position, FittedModel& model) {
-  if (gravity.kind == GravityKind::paired) return;
-  model.derivatives =
-      ConcatColumns(model.derivatives, GravityColumns(gravity.kind, gravity.knots, position));
 }
 
 /// Rows of the fit's table in the order of the derivatives.
@@ -236,7 +227,12 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   Eigen::MatrixXd by_jumps(m.size(), 0);
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   model.of_friction = model.derivatives.cols();
-  if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
+  // gravity's few values join the parameters; the many of `paired` do not: what depends on position
+  // alike in both directions is theirs, and the other features average out over it
+  if (fit.gravity && fit.gravity->kind != GravityKind::paired) {
+    model.derivatives = ConcatColumns(
+        model.derivatives, GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position));
+  }
   if (fit.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
   if (by_jumps.cols() > 0) model.derivatives = ConcatColumns(model.derivatives, by_jumps);
   return model;

@@ -103,16 +103,8 @@ GrowingFit::GrowingFit(WeighedFit fit, const VectorXd& residual, const Selection
 }
 
 void GrowingFit::LearnNoise(const std::vector<Features>& all) {
-  // the fit's columns and all features
-  Index count = fit_.columns.cols();
-  for (const Features& one : all) count += one.columns.cols();
-  MatrixXd columns(size(), count);
-  columns.leftCols(fit_.columns.cols()) = fit_.columns;
-  count = fit_.columns.cols();
-  for (const Features& one : all) {
-    columns.middleCols(count, one.columns.cols()) = fit_.Normed(one.columns);
-    count += one.columns.cols();
-  }
+  MatrixXd columns = fit_.columns;
+  for (const Features& one : all) columns = ConcatColumns(columns, fit_.Normed(one.columns));
 
   // what remains beside them all together is noise
   const MatrixXd basis = Orthonormal(std::move(columns), kDistinct).basis;

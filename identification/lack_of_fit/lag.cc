@@ -64,9 +64,6 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
 Followers AfterChanges(const VectorXd& friction, const VectorXd& time, const Selection& selection) {
   Followers followers;
   std::vector<double> weight;
-  const auto most = static_cast<size_t>(time.size());
-  for (auto* numbers : {&weight, &followers.since, &followers.drop}) numbers->reserve(most);
-  for (auto* samples : {&followers.runs.begin, &followers.runs.end}) samples->reserve(most);
   for (size_t s = 1; s < selection.segments.size(); ++s) {
     const Segment &before = selection.segments[s - 1], &after = selection.segments[s];
     const double pause = time[after.begin] - time[before.end - 1];
@@ -109,8 +106,7 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
   const bool* const keep = selection.keep.data();
   GrowingFit fit({runs.weight, runs.Means(model.derivatives, keep)}, runs.Means(residual, keep),
                  AllOf(runs.size()));
-  VectorXd holds = AsVector(followers.holds);
-  const VectorXd lags = TimeConstants(model.step, MedianInPlace(holds));
+  const VectorXd lags = TimeConstants(model.step, MedianOf(followers.holds));
   const MatrixXd decays = Decays(followers, lags);
   Index best = 0;
   fit.ExplainedBy(decays).maxCoeff(&best);

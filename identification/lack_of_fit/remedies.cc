@@ -9,7 +9,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/linear/rigid_part.h"
 #include "identification/warming/initial_energy.h"
 #include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
@@ -64,17 +63,16 @@ const char* WarmingOf(const Advice& advice) { return HasWarming(advice) ? "estim
 /// Kernels of the first axis over a quantity; 0 where there is none.
 size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
   for (const FrictionMap& map : advice.fit.friction.maps) {
-    for (const MapAxis& axis : map.axes) {
-      if (axis.quantity == quantity) return axis.kernels.size();
-    }
+    if (const MapAxis* axis = FindAxis(map, quantity)) return axis->kernels.size();
   }
   return 0;
 }
 
 /// A map with twice as many kernels, as far as there are any.
-Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option, size_t most) {
+Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option) {
   const size_t kernels = 2 * KernelsOver(advice, quantity);
-  if (kernels > most) return {"no map of this program is finer: the joint ripples in another way"};
+  if (kernels > kMostKernels)
+    return {"no map of this program is finer: the joint ripples in another way"};
 
   return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
 }
@@ -274,7 +272,7 @@ Remedy RemedyForPosition(const Advice& advice) {
 
   // a finer map, or the first one
   if (HasMap(advice, MapQuantity::position)) {
-    return Finer(advice, MapQuantity::position, "kernels", kMostKernels);
+    return Finer(advice, MapQuantity::position, "kernels");
   }
   const IdentifyCommand map = WithMap(advice, MapQuantity::position);
   if (!alike) return Try(advice, map);
@@ -283,7 +281,7 @@ Remedy RemedyForPosition(const Advice& advice) {
 
 Remedy RemedyForMotorAngle(const Advice& advice) {
   if (HasMap(advice, MapQuantity::motor_position)) {
-    return Finer(advice, MapQuantity::motor_position, "motor_kernels", kMostKernels);
+    return Finer(advice, MapQuantity::motor_position, "motor_kernels");
   }
   return Try(advice, WithMap(advice, MapQuantity::motor_position));
 }

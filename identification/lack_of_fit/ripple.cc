@@ -88,9 +88,8 @@ class BinnedResidual {
   }
 
   Index bins() const { return bins_; }
-  double number(int d) const {
-    return numbers_[d];
-  }  // of samples in a direction, by their squared factors
+  // of samples in a direction, by their squared factors
+  double number(int d) const { return numbers_[d]; }
   const std::vector<Sample>& samples() const { return samples_; }              // in time
   Eigen::MatrixXd::ConstColXpr counts(int d) const { return counts_.col(d); }  // [bins] as number
 
@@ -123,12 +122,6 @@ class BinnedResidual {
   double numbers_[2] = {0, 0};
 };
 
-/// The frequency that explains most if it covers the axis evenly, and how much.
-struct Peak {
-  int index = 0;  // times the axis' step
-  double explained = 0;
-};
-
 /// cos and sin of 2 pi f phase in the middle of each bin. [bins x 2]
 MatrixXd WavesOver(Index bins, double frequency) {
   const double step = 2 * std::numbers::pi * frequency / static_cast<double>(bins);
@@ -150,9 +143,9 @@ VectorXd PowerSpectrum(const VectorXd& x, Index length, Index last) {
   return spectrum.head(last + 1).cwiseAbs2();
 }
 
-/// totals: of the bins
-Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
-                        const MatrixXd& totals) {
+/// The frequency that explains most if it covers the axis evenly, times the axis' step; 0 where none does. totals: of the bins
+int StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
+                       const MatrixXd& totals) {
   // with zeros behind for steps below a cycle
   const auto length = static_cast<Index>(static_cast<double>(binned.bins()) / axis.step);
   VectorXd explained = VectorXd::Zero(axis.frequencies + 1);
@@ -162,11 +155,12 @@ Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
   }
 
   // the constant is no ripple
-  Peak peak;
+  explained[0] = 0;
+  int strongest = 0;
   for (int k = 1; k <= axis.frequencies; ++k) {
-    if (explained[k] > peak.explained) peak = {k, explained[k]};
+    if (explained[k] > explained[strongest]) strongest = k;
   }
-  return peak;
+  return strongest;
 }
 
 /// One frequency, fitted, with its waves.
@@ -280,9 +274,9 @@ std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
   std::optional<Finding> strongest;
   for (int i = 0; i < kMost; ++i) {
     const MatrixXd totals = binned.Totals();
-    const Peak peak = StrongestFrequency(axis, binned, totals);
-    if (peak.index == 0) break;
-    Ripple ripple = FitRipple(axis, peak.index, binned, totals);
+    const int frequency = StrongestFrequency(axis, binned, totals);
+    if (frequency == 0) break;
+    Ripple ripple = FitRipple(axis, frequency, binned, totals);
     const bool rejects = level.WouldReject(ripple.finding);
     if (!strongest) {
       strongest = std::move(ripple.finding);

@@ -10,7 +10,7 @@ namespace warmjoint {
 
 bool ErrorLevel::WouldReject(Finding& finding) const {
   finding.p_adjusted = std::min(1.0, finding.p * std::max(remaining_, 1));
-  return finding.explained > 0 && finding.p_adjusted <= level_;
+  return finding.explained > 0 && finding.p_adjusted <= kErrorLevel;
 }
 
 bool ErrorLevel::Rejects(Finding& finding) {

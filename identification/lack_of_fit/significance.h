@@ -38,11 +38,11 @@ inline constexpr double kErrorLevel = 0.01;
 
 /// Holm's step-down procedure (Holm 1979, Scand. J. Statist. 6, 65): a p-value counts times the
 /// number of tests that are not rejected yet. Whatever depends on what among the tests, one of
-/// them rejects by chance in a share `level` of the logs at most.
+/// them rejects by chance in a share kErrorLevel of the logs at most.
 class ErrorLevel {
  public:
   /// tests: all of the log, those counted that come later.
-  explicit ErrorLevel(int tests, double level = kErrorLevel) : remaining_(tests), level_(level) {}
+  explicit ErrorLevel(int tests) : remaining_(tests) {}
 
   /// Counts the tests of the log in a finding's probability; whether it is then beyond chance, and
   /// explains anything.
@@ -53,7 +53,6 @@ class ErrorLevel {
 
  private:
   int remaining_;
-  double level_;
 };
 
 /// The probability that q coefficients differ from 0 together as far as these by chance, where

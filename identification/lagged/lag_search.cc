@@ -14,27 +14,40 @@ constexpr int kBits = 20;  // 1e-6
 constexpr std::uintmax_t kMostFits = 40;
 
 constexpr int kFewestRuns = 4;
+constexpr double kLagByChance = 1e-3;  // of logs
 
-}  // namespace
+/// How many time constants, the same ratio apart, are tried before the best is refined.
+constexpr int kLagsTried = 14;
+
+/// Time constants between which a lag can be told, s: from an eighth of a sampling interval, whose
+/// e^-8 no sample shows, to the duration of a run, beyond which what it holds looks like a drift of the run.
+struct LagRange {
+  double shortest = 0, longest = 0;
+
+  /// kLagsTried of them, the shortest first; none where no run holds two samples.
+  std::vector<double> Tried() const {
+    std::vector<double> lags;
+    if (!(shortest > 0)) return lags;
+    const double ratio = std::pow(longest / shortest, 1.0 / (kLagsTried - 1));
+    for (int i = 0; i < kLagsTried; ++i) lags.push_back(shortest * std::pow(ratio, i));
+    return lags;
+  }
+  /// Whether a lag lies within and at neither end.
+  bool Holds(double lag) const { return lag > 1.01 * shortest && lag < 0.99 * longest; }
+};
 
 LagRange LagsOf(const KeptRuns& runs) {
   const double step = runs.Step();
   return {step / 8, std::max(runs.Duration(), step)};
 }
 
-std::vector<double> LagRange::Tried() const {
-  std::vector<double> lags;
-  const double ratio = std::pow(longest / shortest, 1.0 / (kLagsTried - 1));
-  for (int i = 0; i < kLagsTried; ++i) lags.push_back(shortest * std::pow(ratio, i));
-  return lags;
-}
+}  // namespace
 
-std::optional<double> FindLag(const LagRange& range, const std::function<double(double)>& squares) {
-  // no run holds two samples
-  if (!(range.shortest > 0)) return std::nullopt;
-
-  // the best of those that are tried
+std::optional<double> FindLag(const KeptRuns& runs, const std::function<double(double)>& squares) {
+  const LagRange range = LagsOf(runs);
   const std::vector<double> tried = range.Tried();
+  if (tried.empty()) return std::nullopt;
+  // the best of those that are tried
   std::vector<double> left;
   for (const double lag : tried) left.push_back(squares(lag));
   const auto best = static_cast<std::size_t>(std::ranges::min_element(left) - left.begin());
@@ -54,44 +67,40 @@ std::optional<double> FindLag(const LagRange& range, const std::function<double(
   return lag;
 }
 
-SeenLag LookForLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
-                   const Eigen::VectorXd& residual) {
+bool SeesLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
+             const Eigen::VectorXd& residual) {
   const KeptRuns& all = *rows.runs();
   const Eigen::VectorXd held = rows.InitialStates(residual).col(0);
 
   // each run that follows another one closely
   std::vector<double> drops, begins;
   for (std::size_t r = 1; r < all.runs.size(); ++r) {
-    const KeptRun &before = all.runs[r - 1], &run = all.runs[r];
-    const double pause = all.time[run.begin] - all.time[before.end - 1];
-    const double lasted = all.time[before.end - 1] - all.time[before.begin];
+    const SampleRange &before = all.runs[r - 1], &run = all.runs[r];
+    const double pause = all.time[run.first] - all.time[before.end() - 1];
+    const double lasted = all.time[before.end() - 1] - all.time[before.first];
     // three samples at least, behind a pause no longer than the run before it
-    if (run.size() < 3 || pause > lasted) continue;
-    drops.push_back(torque[before.end - 1] - torque[run.begin]);
+    if (run.count < 3 || pause > lasted) continue;
+    drops.push_back(torque[before.end() - 1] - torque[run.first]);
     begins.push_back(held[static_cast<Eigen::Index>(r)]);
   }
-  SeenLag seen;
-  seen.runs = static_cast<int>(drops.size());
-  if (seen.runs < kFewestRuns) return seen;
+  const auto count = std::ssize(drops);
+  if (count < kFewestRuns) return false;
 
   // the share of the drop, and how sure it is
-  const Eigen::Map<const Eigen::VectorXd> x(drops.data(), seen.runs), y(begins.data(), seen.runs);
-  seen.share = x.dot(y) / x.squaredNorm();
-  const double degrees_of_freedom = seen.runs - 1;
+  const Eigen::Map<const Eigen::VectorXd> x(drops.data(), count), y(begins.data(), count);
+  const double share = x.dot(y) / x.squaredNorm();
+  const auto degrees_of_freedom = static_cast<double>(count - 1);
   const double deviation =
-      std::sqrt((y - seen.share * x).squaredNorm() / degrees_of_freedom / x.squaredNorm());
-  const double t = seen.share / deviation;
-  seen.p = std::isnan(t) ? 1 : std::min(1.0, kLagsTried * PValueOfStudent(t, degrees_of_freedom));
-  return seen;
+      std::sqrt((y - share * x).squaredNorm() / degrees_of_freedom / x.squaredNorm());
+  const double p = kLagsTried * PValueOfStudent(share / deviation, degrees_of_freedom);
+  return share > 0 && p < kLagByChance;
 }
 
 bool ShowsLag(const std::shared_ptr<const KeptRuns>& runs, const Eigen::VectorXd& torque,
               const Eigen::VectorXd& residual) {
-  const LagRange range = LagsOf(*runs);
-  if (!(range.shortest > 0)) return false;
   // at any of the time constants that a search would try
-  return std::ranges::any_of(range.Tried(), [&](double lag) {
-    return LookForLag(LaggedRows(runs, lag), torque, residual).IsSeen();
+  return std::ranges::any_of(LagsOf(*runs).Tried(), [&](double lag) {
+    return SeesLag(LaggedRows(runs, lag), torque, residual);
   });
 }
 

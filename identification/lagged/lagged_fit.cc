@@ -1,7 +1,5 @@
 #include "identification/lagged/lagged_fit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -45,9 +43,8 @@ struct Found {
 Found BestOf(const std::shared_ptr<const KeptRuns>& runs, const FitAtLag& fit_at,
              const std::function<std::shared_ptr<const Whitening>(double lag)>& colour) {
   // the time constant that leaves least, and the fit there
-  const auto lag = FindLag(LagsOf(*runs), [&](double trial) {
-    return fit_at(LaggedRows(runs, trial, colour(trial))).squares;
-  });
+  const auto lag = FindLag(
+      *runs, [&](double trial) { return fit_at(LaggedRows(runs, trial, colour(trial))).squares; });
   if (!lag) return {};
   Found found{std::make_shared<const LaggedRows>(runs, *lag, colour(*lag))};
   found.squares = fit_at(*found.rows).squares;
@@ -100,7 +97,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
   const VectorXd torque = fit_at(*plain.rows).torque;
   if (torque.size() == 0) return nullptr;
   const VectorXd left = measured - plain.rows->Lagged(torque);
-  if (!LookForLag(*plain.rows, torque, left).IsSeen()) return nullptr;
+  if (!SeesLag(*plain.rows, torque, left)) return nullptr;
 
   // its own colour, or that of white noise behind the lag, where it surely has one
   const Selection grid = AllOf(measured.size());

@@ -52,7 +52,7 @@ using FitAtLag = std::function<LaggedModel(const LaggedRows& rows)>;
 
 /// The rows of the best lag, the noise of white colour or, where that would be wrong beyond doubt
 /// (IsSurelyColoured), of the likelier of two: the one that the residual shows, and that of white
-/// noise which the lag has passed, AR(1) with exp(-h / T). Nothing where no lag is seen (SeenLag),
+/// noise which the lag has passed, AR(1) with exp(-h / T). Nothing where no lag is seen (SeesLag),
 /// neither beside the fit without one nor behind the best.
 /// measured: [n]; without: [n] torque of that fit, empty where it went astray.
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,

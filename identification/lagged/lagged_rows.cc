@@ -20,15 +20,15 @@ constexpr Index kApart = 1000;  // sampling intervals between runs, as far as a 
 
 double KeptRuns::Step() const {
   std::vector<double> steps;
-  for (const KeptRun& run : runs) {
-    for (Eigen::Index i = run.begin + 1; i < run.end; ++i) steps.push_back(time[i] - time[i - 1]);
+  for (const SampleRange& run : runs) {
+    for (Eigen::Index i = run.first + 1; i < run.end(); ++i) steps.push_back(time[i] - time[i - 1]);
   }
   return MedianOf(steps);
 }
 
 double KeptRuns::Duration() const {
   std::vector<double> durations;
-  for (const KeptRun& run : runs) durations.push_back(time[run.end - 1] - time[run.begin]);
+  for (const SampleRange& run : runs) durations.push_back(time[run.end() - 1] - time[run.first]);
   return MedianOf(durations);
 }
 
@@ -42,16 +42,13 @@ KeptRuns FindRuns(const LogSamples& m, const Selection& selection) {
     if (!selection.keep[i]) continue;
     // a sample that is left out ends the run as well
     const bool goes_on = !found.samples.empty() && found.samples.back() == i - 1;
-    if (!goes_on || breaks.contains(i)) found.runs.push_back({found.count(), found.count()});
+    if (!goes_on || breaks.contains(i)) found.runs.push_back({found.count(), 0});
     found.samples.push_back(i);
-    found.runs.back().end = found.count();
+    ++found.runs.back().count;
   }
 
   // when the kept samples were taken
-  found.time.resize(found.count());
-  for (Eigen::Index i = 0; i < found.count(); ++i) {
-    found.time[i] = m.time[found.samples[static_cast<std::size_t>(i)]];
-  }
+  found.time = m.time(found.samples);
   return found;
 }
 
@@ -61,8 +58,8 @@ LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
   // how far the lag follows in each step, and what is left of the value that a run began with
   share_.setZero(size());
   dying_.setOnes(size());
-  for (const KeptRun& run : runs_->runs) {
-    for (Index i = run.begin + 1; i < run.end; ++i) {
+  for (const SampleRange& run : runs_->runs) {
+    for (Index i = run.first + 1; i < run.end(); ++i) {
       share_[i] = ShareFollowed(runs_->time[i] - runs_->time[i - 1], lag_);
       dying_[i] = (1 - share_[i]) * dying_[i - 1];
     }
@@ -72,18 +69,18 @@ LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
   across_ = whitening_ ? whitening_->Of(dying_).col(0) : dying_;
   length_.resize(runs_->run_count());
   for (Index r = 0; r < length_.size(); ++r) {
-    const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
-    length_[r] = across_.segment(run.begin, run.size()).norm();
-    across_.segment(run.begin, run.size()) /= length_[r];
+    const SampleRange& run = runs_->runs[static_cast<std::size_t>(r)];
+    length_[r] = across_.segment(run.first, run.count).norm();
+    across_.segment(run.first, run.count) /= length_[r];
   }
 }
 
 void LaggedRows::Lag(Rows& rows) const {
   Eigen::RowVectorXd before, held;
-  for (const KeptRun& run : runs_->runs) {
+  for (const SampleRange& run : runs_->runs) {
     // settled on the first sample of the run
-    before = held = rows.row(run.begin);
-    for (Index i = run.begin + 1; i < run.end; ++i) {
+    before = held = rows.row(run.first);
+    for (Index i = run.first + 1; i < run.end(); ++i) {
       // towards the sample before, held until this one
       held += share_[i] * (before - held);
       before = rows.row(i);
@@ -97,9 +94,9 @@ void LaggedRows::Apply(Rows& rows) const {
   if (whitening_) whitening_->Apply(rows);
 
   // take off what any d explains: the part along its response
-  for (const KeptRun& run : runs_->runs) {
-    const auto across = across_.segment(run.begin, run.size());
-    auto part = rows.middleRows(run.begin, run.size());
+  for (const SampleRange& run : runs_->runs) {
+    const auto across = across_.segment(run.first, run.count);
+    auto part = rows.middleRows(run.first, run.count);
     const Eigen::RowVectorXd along = across.transpose() * part;
     part.noalias() -= across * along;
   }
@@ -107,9 +104,9 @@ void LaggedRows::Apply(Rows& rows) const {
 
 VectorXd LaggedRows::BeforeLag(const VectorXd& torque) const {
   VectorXd before = torque;
-  for (const KeptRun& run : runs_->runs) {
+  for (const SampleRange& run : runs_->runs) {
     // the step of the lag, solved for the torque that it followed
-    for (Index i = run.begin + 1; i < run.end; ++i) {
+    for (Index i = run.first + 1; i < run.end(); ++i) {
       before[i - 1] = torque[i - 1] + (torque[i] - torque[i - 1]) / share_[i];
     }
   }
@@ -128,9 +125,9 @@ MatrixXd LaggedRows::InitialStates(const MatrixXd& rows) const {
   // least squares of each run on the whitened response to d
   MatrixXd held(runs_->run_count(), rows.cols());
   for (Index r = 0; r < held.rows(); ++r) {
-    const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
-    held.row(r) = across_.segment(run.begin, run.size()).transpose() *
-                  white.middleRows(run.begin, run.size()) / length_[r];
+    const SampleRange& run = runs_->runs[static_cast<std::size_t>(r)];
+    held.row(r) = across_.segment(run.first, run.count).transpose() *
+                  white.middleRows(run.first, run.count) / length_[r];
   }
   return held;
 }
@@ -138,8 +135,8 @@ MatrixXd LaggedRows::InitialStates(const MatrixXd& rows) const {
 MatrixXd LaggedRows::Decaying(const MatrixXd& held) const {
   MatrixXd dying(size(), held.cols());
   for (Index r = 0; r < held.rows(); ++r) {
-    const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
-    dying.middleRows(run.begin, run.size()) = dying_.segment(run.begin, run.size()) * held.row(r);
+    const SampleRange& run = runs_->runs[static_cast<std::size_t>(r)];
+    dying.middleRows(run.first, run.count) = dying_.segment(run.first, run.count) * held.row(r);
   }
   return dying;
 }
@@ -153,13 +150,13 @@ std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const 
   std::vector<Index> places(runs.samples.size());
   Index next = 0;
   const double step = runs.Step();
-  for (const KeptRun& run : runs.runs) {
+  for (const SampleRange& run : runs.runs) {
     const Index first = next;
     // its place on a grid of the typical step, behind the sample before in any case
-    for (Index i = run.begin; i < run.end; ++i) {
-      const auto on = first + std::llround((runs.time[i] - runs.time[run.begin]) / step);
+    for (Index i = run.first; i < run.end(); ++i) {
+      const auto on = first + std::llround((runs.time[i] - runs.time[run.first]) / step);
       next = places[static_cast<std::size_t>(i)] =
-          std::max<Index>(on, i > run.begin ? next + 1 : on);
+          std::max<Index>(on, i > run.first ? next + 1 : on);
     }
     // so far on that the noise of one run does not reach the next
     next += kApart;

@@ -12,19 +12,11 @@
 
 namespace warmjoint {
 
-/// Neighbouring samples of one segment that are all kept: positions among the kept samples.
-struct KeptRun {
-  Eigen::Index begin = 0;
-  Eigen::Index end = 0;  // one past the last
-
-  Eigen::Index size() const { return end - begin; }
-};
-
-/// The kept samples of a log, in runs.
+/// The kept samples of a log, in runs: neighbours of one segment that are all kept.
 struct KeptRuns {
   std::vector<Eigen::Index> samples;  // [n] of the log
   Eigen::VectorXd time;               // [n] s
-  std::vector<KeptRun> runs;          // [R] all n samples, in order of time
+  std::vector<SampleRange> runs;      // [R] of places among all n, in order of time
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(samples.size()); }
   Eigen::Index run_count() const { return static_cast<Eigen::Index>(runs.size()); }

@@ -13,16 +13,6 @@
 namespace warmjoint {
 namespace {
 
-/// Columns with a share of at least a tenth in any direction that the data leave open.
-/// directions: [d x q], of norm 1.
-std::vector<Eigen::Index> ColumnsOf(const Eigen::MatrixXd& directions) {
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index i = 0; i < directions.rows(); ++i) {
-    if (directions.row(i).norm() > 0.1) columns.push_back(i);
-  }
-  return columns;
-}
-
 constexpr double kNormal = 1.4826;  // why: standard deviation over median size of normal noise
 constexpr double kFarResidual = 4;  // standard deviations: one normal sample in 16 000
 
@@ -42,11 +32,14 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
   const Eigen::MatrixXd R = qr.matrixQR().topRows(d).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(R, Eigen::ComputeFullV);
 
-  // directions that the data leave open
+  // directions that the data leave open, and columns with a share of at least a tenth in any of them
   const Eigen::VectorXd& singular = svd.singularValues();
   result.rank = (singular.array() > indistinct * singular[0]).count();
   if (result.rank < d) {
-    result.mixed = ColumnsOf(svd.matrixV().rightCols(d - result.rank));
+    const Eigen::MatrixXd open = svd.matrixV().rightCols(d - result.rank);
+    for (Eigen::Index i = 0; i < d; ++i) {
+      if (open.row(i).norm() > 0.1) result.mixed.push_back(i);
+    }
     return result;
   }
 

@@ -6,8 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -17,15 +15,9 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kCell = 2 * std::numbers::pi / kGravityKnots;  // rad
 constexpr int kFewest = 3;       // samples of each direction in a cell
 constexpr int kFewestCells = 4;  // 0.4 rad
 constexpr double kFewestShare = 0.5;
-
-int CellOf(double position) {
-  const auto cell = static_cast<int>(std::fmod(std::floor(position / kCell), kGravityKnots));
-  return (cell + kGravityKnots) % kGravityKnots;
-}
 
 /// Whether each cell of the turn is passed in both directions.
 std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
@@ -70,8 +62,8 @@ std::optional<Refusal> SelectPairs(const IdentifierInput& input, RigidPart& fit)
           "gravity paired: only {:.3g} % of the samples, over {:.2g} rad, were also passed in the "
           "other direction; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
           "directions, or use gravity sincos",
-          100 * share, static_cast<double>(cells) * kCell, 100 * kFewestShare,
-          kFewestCells * kCell)};
+          100 * share, static_cast<double>(cells) * kKnotSpacing, 100 * kFewestShare,
+          kFewestCells * kKnotSpacing)};
 }
 
 /// Combinations of the hats that the kept samples fill, orthogonal over them and of mean square 1.
@@ -142,8 +134,6 @@ std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit
 
 }  // namespace
 
-IdentifierInput RigidPart::Of(const IdentifierInput& given) const { return given.With(selection); }
-
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
               Fit& fit) {
   const Eigen::Index q = rigid.gravity_count();
@@ -195,10 +185,6 @@ Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTa
   const Law& law = task.law;
   const RigidPart& gravity = task.gravity;
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
-  // columns of the law alone have a sentence of their own
-  if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
-    return {Status::not_identifiable, Indistinct(mixed, law, input.measurements, input.selection)};
-  }
   // those of the law by their names, then gravity and inertia
   std::vector<std::string> names;
   bool moves_mass = false, lifts = false;
@@ -206,6 +192,10 @@ Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTa
     if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
     if (i >= d + gravity.gravity_count()) moves_mass = true;
     if (i >= d && i < d + gravity.gravity_count()) lifts = true;
+  }
+  // columns of the law alone have a sentence of their own
+  if (!lifts && !moves_mass) {
+    return {Status::not_identifiable, Indistinct(names, input.measurements, input.selection)};
   }
 
   // what is mixed, in words

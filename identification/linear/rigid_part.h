@@ -5,14 +5,10 @@
 #include <warmjoint/friction.h>
 
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
-#include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
 
@@ -48,7 +44,7 @@ struct RigidPart {
   Eigen::Index gravity_count() const { return columns.cols() - (inertia ? 1 : 0); }
 
   /// The input with the samples that take part.
-  IdentifierInput Of(const IdentifierInput& given) const;
+  IdentifierInput Of(const IdentifierInput& given) const { return given.With(selection); }
 };
 
 /// Puts both into a fit: their model, and their rows of the table behind those that are there.

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -20,15 +20,8 @@
 namespace warmjoint {
 namespace {
 
-/// amplitude cos(multiple motor angle - phase), the mean of the map over its other axes.
-struct MotorHarmonic {
-  int multiple = 0;
-  double amplitude = 0;  // N.m or N
-  double significance =
-      0;  // z^T cov(z)^-1 z, z = (cosine, sine part): chi-square of 2 degrees of freedom
-};
-
 constexpr int kAngles = 256;
+// why: a chi-square of 2 degrees of freedom exceeds 23 by chance once in 100 000 times
 constexpr double kChance = 23;
 
 /// Angles times speeds at which the map is averaged, of one direction of motion.
@@ -53,10 +46,13 @@ MapPoints Grid(const FrictionMap& map, int direction) {
   return points;
 }
 
-/// Harmonics of a map whose first axis is the motor position, 1 to half its kernels, one mean for
-/// each direction of motion: index 0 for v < 0, 1 for v > 0. covariance: [q x q] of the weights.
-std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::MatrixXd& covariance,
-                                          int direction) {
+/// Harmonics a cos(multiple motor angle - phase) of a map whose first axis is the motor position, its mean over the other
+/// axes in a direction of motion, 0 for v < 0, 1 for v > 0: those multiples of 1 to half its kernels that stand out of the
+/// noise, each with a, N.m or N, and are at least a fifth of the strongest; strongest first. covariance: [q x q] of the
+/// weights.
+std::vector<std::pair<int, double>> DominantHarmonics(const FrictionMap& map,
+                                                      const Eigen::MatrixXd& covariance,
+                                                      int direction) {
   // kernels on the grid, over which sums are Fourier coefficients
   const MapPoints points = Grid(map, direction);
   const Eigen::MatrixXd kernels = DenseKernels({map}, points, 0, points.rows());
@@ -64,7 +60,7 @@ std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::M
   const Eigen::ArrayXd angle = points.col(static_cast<int>(MapQuantity::motor_position));
   const double scale = 2 / static_cast<double>(points.rows());
 
-  std::vector<MotorHarmonic> harmonics;
+  std::vector<std::pair<int, double>> harmonics;
   const auto highest = static_cast<int>(map.axes.front().kernels.size() / 2);
   for (int k = 1; k <= highest; ++k) {
     // both parts as linear functions of the weights
@@ -73,19 +69,11 @@ std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::M
     parts.row(1) = scale * (k * angle).sin().matrix().transpose() * kernels;
     const Eigen::Vector2d z = parts * weights;
     const Eigen::Matrix2d spread = parts * covariance * parts.transpose();
-    harmonics.push_back({k, z.norm(), z.dot(spread.inverse() * z)});
+    if (z.dot(spread.inverse() * z) > kChance) harmonics.emplace_back(k, z.norm());
   }
-  return harmonics;
-}
-
-/// The harmonics that stand out of the noise and are at least a fifth of the strongest, strongest
-/// first. A chi-square of 2 degrees of freedom exceeds 23 by chance once in 100 000 times.
-std::vector<MotorHarmonic> DominantHarmonics(std::vector<MotorHarmonic> harmonics) {
-  std::erase_if(harmonics, [](const MotorHarmonic& h) { return !(h.significance > kChance); });
-  std::stable_sort(harmonics.begin(), harmonics.end(),
-                   [](const auto& a, const auto& b) { return a.amplitude > b.amplitude; });
-  std::erase_if(harmonics, [largest = harmonics.empty() ? 0 : harmonics.front().amplitude](
-                               const MotorHarmonic& h) { return h.amplitude < 0.2 * largest; });
+  std::ranges::stable_sort(harmonics, std::ranges::greater{}, &std::pair<int, double>::second);
+  const double largest = harmonics.empty() ? 0 : harmonics.front().second;
+  std::erase_if(harmonics, [=](const auto& one) { return one.second < 0.2 * largest; });
   return harmonics;
 }
 
@@ -127,31 +115,23 @@ MapModel ModelOf(const IdentifierInput& input) {
 
 }  // namespace
 
-std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
-                                                const MapOptions& settings, JointKind joint,
-                                                const MapPoints& points) {
-  std::vector<std::vector<FrictionMap>> candidates;
-  // a map over the motor's turn and speed for each width, and one over the arm where asked for
-  for (const double width : settings.Widths()) {
+MapShapes MotorMaps(const MotorMapSize& size, const MapOptions& settings, JointKind joint,
+                    const MapPoints& points) {
+  // a map over the motor's turn and speed, and one over the arm where asked for
+  return ForEachWidth(settings, [&](double width) {
     std::vector<FrictionMap> maps{{{TurnAxis(MapQuantity::motor_position, size.turn, width),
                                     VelocityAxis(points, size.speed, width)},
                                    settings.kernel,
                                    {}}};
     if (size.arm > 0) maps.push_back(ArmMap(size, settings, joint, width, points));
-    candidates.push_back(maps);
-  }
-  return candidates;
+    return maps;
+  });
 }
 
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
                          const LogSamples& measurements, Fit& fit) {
   for (const int direction : {1, 0}) {
-    // harmonics of one direction that stand out of the noise
-    std::vector<std::pair<int, double>> found;
-    for (const MotorHarmonic& harmonic :
-         DominantHarmonics(MotorHarmonics(motor, covariance, direction))) {
-      found.emplace_back(harmonic.multiple, harmonic.amplitude);
-    }
+    const auto found = DominantHarmonics(motor, covariance, direction);
     fit.causes.push_back(Remark(ExplainMotorRipple(direction == 1, found, measurements.torque_unit),
                                 SentenceIn::message));
   }

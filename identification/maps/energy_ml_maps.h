@@ -35,9 +35,8 @@ struct MotorMapSize {
 /// The motor's map, first, and the joint's, for every width. Where a joint turns so far that fewer than three of its
 /// kernels fall on a turn, they could follow nothing that returns with the turn, only what changes while the joint
 /// wanders, its heat above all: there they stand on a circle, one turn round. points: [n x 5] kept.
-std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
-                                                const MapOptions& settings, JointKind joint,
-                                                const MapPoints& points);
+MapShapes MotorMaps(const MotorMapSize& size, const MapOptions& settings, JointKind joint,
+                    const MapPoints& points);
 
 /// Notes with the fit what was found in the motor's map: "motor ripple for v > 0: 0.052 N.m
 /// at 2 a turn" and so on; and a warning where the motor's angle is not known.
@@ -70,8 +69,8 @@ struct WarmMapOptions : AddedMapOptions {
   }
 };
 
-/// Law, warming and the maps that the option `position` names, together. Refuses options that
-/// cannot be had with maps: gravity, an estimated E(0), Huber's loss.
+/// Law, warming and the maps that the option `position` names, together. Refuses Huber's
+/// loss, which cannot be had with maps.
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input);
 
 /// A shape of maps, and a prior.

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <numeric>
 #include <optional>
 
 #include "models/foundation/robust_noise.h"
@@ -36,36 +38,35 @@ size_t NearestCentre(const GaussianAxis& axis, double x) {
   return static_cast<size_t>((around ? begin : next ? above : below) - centres.begin());
 }
 
-}  // namespace
-
-Eigen::Index NearestKernel(const FrictionMap& map, const MapPoints& points, Eigen::Index sample) {
+/// The kernel whose centre is nearest to a sample along every axis; axes whose sides are apart keep to
+/// the sample's side. points: [n x 5]
+Index NearestKernel(const FrictionMap& map, const MapPoints& points, Index sample) {
   size_t kernel = 0;
   for (const MapAxis& axis : map.axes) {
-    const double x = points(sample, static_cast<Eigen::Index>(axis.quantity));
+    const double x = points(sample, static_cast<Index>(axis.quantity));
     kernel = kernel * axis.kernels.size() + NearestCentre(axis.kernels, x);
   }
-  return static_cast<Eigen::Index>(kernel);
+  return static_cast<Index>(kernel);
 }
 
+}  // namespace
+
 std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const MapPoints& kept) {
-  // median speed of the samples nearest to each kernel
+  // speeds of the samples nearest to each kernel
   std::vector<std::vector<double>> speeds(map.size());
-  for (Eigen::Index i = 0; i < kept.rows(); ++i) {
+  for (Index i = 0; i < kept.rows(); ++i) {
     const auto nearest = static_cast<size_t>(NearestKernel(map, kept, i));
     speeds[nearest].push_back(std::abs(kept(i, static_cast<int>(MapQuantity::velocity))));
   }
   // the median of each kernel with samples
   std::vector<std::optional<double>> medians(map.size());
   for (size_t k = 0; k < map.size(); ++k) {
-    if (speeds[k].empty()) continue;
-    const auto count = static_cast<Eigen::Index>(speeds[k].size());
-    Eigen::VectorXd some = Eigen::Map<Eigen::VectorXd>(speeds[k].data(), count);
-    medians[k] = MedianInPlace(some);
+    if (!speeds[k].empty()) medians[k] = MedianOf(speeds[k]);
   }
 
   // those without samples take the next one's along the first axis
   const std::vector<std::optional<double>> own = medians;
-  const size_t stride = KernelLines(map).stride;
+  const auto stride = static_cast<size_t>(KernelLines(map).stride);
   for (size_t k = 0; k < map.size(); ++k) {
     for (size_t away = stride; !medians[k] && away < map.size(); away += stride) {
       if (k >= away) medians[k] = own[k - away];
@@ -82,27 +83,16 @@ constexpr double kShare = 0.02;  // of the median
 constexpr size_t kMostNamed = 3;
 
 /// The next seen kernel of a line from i on in steps of +-1; nothing where there is none.
-std::optional<size_t> NextSeen(const KernelLines& lines, const std::vector<bool>& unseen,
-                               size_t first, size_t i, int step) {
-  const auto n = static_cast<long>(lines.length);
-  for (long away = 1; away < n; ++away) {
-    long at = static_cast<long>(i) + step * away;
+std::optional<Index> NextSeen(const KernelLines& lines, const std::vector<bool>& unseen,
+                              Index first, Index i, Index step) {
+  const Index n = lines.length;
+  for (Index away = 1; away < n; ++away) {
+    Index at = i + step * away;
     if (lines.circular) at = ((at % n) + n) % n;
     if (at < 0 || at >= n) return std::nullopt;
-    if (!unseen[first + static_cast<size_t>(at) * lines.stride]) return static_cast<size_t>(away);
+    if (!unseen[first + at * lines.stride]) return away;
   }
   return std::nullopt;
-}
-
-double MeanOfSeen(size_t first, size_t size, const std::vector<bool>& unseen,
-                  const Eigen::VectorXd& weights) {
-  double sum = 0, count = 0;
-  for (size_t i = first; i < first + size; ++i) {
-    if (unseen[i]) continue;
-    sum += weights[static_cast<Index>(i)];
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
 }
 
 /// A run of unseen kernels.
@@ -119,14 +109,14 @@ std::string_view UnitOf(MapQuantity quantity, JointKind joint) {
 }
 
 /// Where a line of a map lies: " backwards", " forwards at 0.5", " at energy -2 N.m", ..., or nothing where the map has one line.
-std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
+std::string LineOf(const FrictionMap& map, Index line, JointKind joint) {
   std::string words;
   // axes from the last, which runs fastest, to the second
   for (size_t a = map.axes.size(); a-- > 1;) {
     const MapQuantity over = map.axes[a].quantity;
     const std::vector<double>& centres = map.axes[a].kernels.centres;
-    const double centre = centres[line % centres.size()];
-    line /= centres.size();
+    const double centre = centres[line % std::ssize(centres)];
+    line /= std::ssize(centres);
     // a velocity is told as a direction, other quantities with their unit
     if (over == MapQuantity::velocity) {
       const char* direction = centre < 0 ? "backwards" : "forwards";
@@ -141,30 +131,76 @@ std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
 }
 
 /// The runs of one line of a map.
-void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vector<bool>& unseen,
+void AddHoles(const FrictionMap& map, Index first, Index line, const std::vector<bool>& unseen,
               JointKind joint, std::vector<Hole>& holes) {
   const KernelLines lines(map);
   const MapAxis& axis = map.axes[0];
   const std::vector<double>& centres = axis.kernels.centres;
   const double half = lines.length > 1 ? 0.5 * (centres[1] - centres[0]) : 0;
-  for (size_t i = 0; i < lines.length; ++i) {
+  for (Index i = 0; i < lines.length; ++i) {
     if (!unseen[first + i * lines.stride + line]) continue;
-    // a hole reaches as far as its neighbours are unseen
-    size_t end = i;
+    Index end = i;
     while (end + 1 < lines.length && unseen[first + (end + 1) * lines.stride + line]) ++end;
     // data reach into the half cell at an end of the range
     const bool at_end = !lines.circular && (i == 0 || end + 1 == lines.length);
-    if (at_end && i == end) {
-      i = end;
-      continue;
+    if (!at_end || i < end) {
+      // from half a cell below its first kernel to half a cell above its last
+      const double lower = centres[i] - half, upper = centres[end] + half;
+      holes.push_back({upper - lower,
+                       fmt::format("{} {:.3g} to {:.3g} {}{}", NameOf(axis.quantity), lower, upper,
+                                   UnitOf(axis.quantity, joint), LineOf(map, line, joint))});
     }
-    // from half a cell below its first kernel to half a cell above its last
-    const double lower = centres[i] - half, upper = centres[end] + half;
-    holes.push_back(
-        {upper - lower, fmt::format("{} {:.3g} to {:.3g} {}{}", NameOf(axis.quantity), lower, upper,
-                                    UnitOf(axis.quantity, joint), LineOf(map, line, joint))});
     i = end;
   }
+}
+
+/// As much as data hold a seen kernel, the median of its diagonal of A^T A over s, and at least 1: a weaker
+/// pull leaves a hole to the few samples at its rims, which throw its weights far off. gram: [q x q] of the
+/// kernels; strength: s.
+double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, double strength) {
+  std::vector<double> seen;
+  for (Index i = 0; i < gram.rows(); ++i) {
+    if (!unseen[i]) seen.push_back(gram(i, i));
+  }
+  return strength > 0 ? std::max(1.0, MedianOf(seen) / strength) : 1;
+}
+
+/// [q x q] P of the prior s w^T P w: 1 on the diagonal for seen kernels. An unseen one is drawn to the
+/// straight line between its next seen neighbours along the first axis instead, or to the one that
+/// there is; where its whole line is unseen, to 0. pull: how much more than the others one between two
+/// seen ones is drawn; maps over energy or load, whose lines fill as the joint warms, take 1.
+Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
+                        double pull) {
+  const auto q = static_cast<Index>(unseen.size());
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
+  Index first = 0;
+  // along energy or load a hole is drawn as the others are, elsewhere harder
+  for (const FrictionMap& map : maps) {
+    const KernelLines lines(map);
+    const Index n = lines.length, size = n * lines.stride;
+    const double firm =
+        FindAxis(map, MapQuantity::energy) || FindAxis(map, MapQuantity::load) ? 1 : pull;
+    for (Index k = 0; k < size; ++k) {
+      if (!unseen[first + k]) continue;
+      const Index line = first + k % lines.stride, i = k / lines.stride;
+      const auto below = NextSeen(lines, unseen, line, i, -1);
+      const auto above = NextSeen(lines, unseen, line, i, 1);
+      if (!below && !above) continue;
+
+      // w - (u a + d b) / (u + d), a and b being d below and u above
+      const auto place = [&](Index at) { return line + (at % n + n) % n * lines.stride; };
+      const auto down = static_cast<double>(below.value_or(0));
+      const auto up = static_cast<double>(above.value_or(0));
+      Eigen::VectorXd row = Eigen::VectorXd::Unit(q, first + k);
+      if (below) row[place(i - *below)] -= above ? up / (up + down) : 1;
+      if (above) row[place(i + *above)] -= below ? down / (up + down) : 1;
+      // the prior draws it to its neighbours instead of to 0
+      prior(first + k, first + k) -= 1;
+      prior += (below && above ? firm : 1) * row * row.transpose();
+    }
+    first += size;
+  }
+  return prior;
 }
 
 }  // namespace
@@ -176,66 +212,14 @@ std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapP
     // how many samples are nearest to each kernel
     Eigen::VectorXd counts = Eigen::VectorXd::Zero(size);
     for (Index i = 0; i < points.rows(); ++i) ++counts[NearestKernel(map, points, i)];
-    // a kernel is seen where it has a share of what those with samples usually have
-    Eigen::VectorXd seen(size);
-    Index count = 0;
-    for (const double one : counts) {
-      if (one >= kFewest) seen[count++] = one;
-    }
-    seen.conservativeResize(count);
-    // two samples at least, and a share of the median
-    const double least = std::max(kFewest, count > 0 ? kShare * MedianInPlace(seen) : 0.0);
+    // a kernel is seen where it has two samples at least, and a share of what those usually have
+    std::vector<double> seen;
+    std::ranges::copy_if(counts, std::back_inserter(seen),
+                         [](double one) { return one >= kFewest; });
+    const double least = std::max(kFewest, kShare * MedianOf(seen));
     for (const double one : counts) unseen.push_back(one < least);
   }
   return unseen;
-}
-
-double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, double strength) {
-  Eigen::VectorXd seen(gram.rows());
-  Index count = 0;
-  for (Index i = 0; i < gram.rows(); ++i) {
-    if (!unseen[static_cast<size_t>(i)]) seen[count++] = gram(i, i);
-  }
-  seen.conservativeResize(count);
-  return count > 0 && strength > 0 ? std::max(1.0, MedianInPlace(seen) / strength) : 1;
-}
-
-Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
-                        double pull) {
-  const auto q = static_cast<Index>(unseen.size());
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
-  size_t first = 0;
-  // along energy or load a hole is drawn as the others are, elsewhere harder
-  for (const FrictionMap& map : maps) {
-    const KernelLines lines(map);
-    const auto n = static_cast<long>(lines.length);
-    const double firm =
-        FindAxis(map, MapQuantity::energy) || FindAxis(map, MapQuantity::load) ? 1 : pull;
-    for (size_t k = 0; k < map.size(); ++k) {
-      if (!unseen[first + k]) continue;
-      const size_t line = first + k % lines.stride;
-      const auto i = static_cast<long>(k / lines.stride);
-      // the nearest kernels with samples on both sides
-      const auto below = NextSeen(lines, unseen, line, static_cast<size_t>(i), -1);
-      const auto above = NextSeen(lines, unseen, line, static_cast<size_t>(i), 1);
-      if (!below && !above) continue;
-
-      // w - (u a + d b) / (u + d), a and b being d below and u above
-      const auto place = [&](long at) {
-        return static_cast<Index>(line + static_cast<size_t>((at % n + n) % n) * lines.stride);
-      };
-      const double down = below ? static_cast<double>(*below) : 0;
-      const double up = above ? static_cast<double>(*above) : 0;
-      Eigen::VectorXd row = Eigen::VectorXd::Unit(q, static_cast<Index>(first + k));
-      if (below) row[place(i - static_cast<long>(*below))] -= above ? up / (up + down) : 1;
-      if (above) row[place(i + static_cast<long>(*above))] -= below ? down / (up + down) : 1;
-      // the prior draws it to its neighbours instead of to 0
-      prior(static_cast<Index>(first + k), static_cast<Index>(first + k)) -= 1;
-      prior += (below && above ? firm : 1) * row * row.transpose();
-    }
-    first += map.size();
-  }
-  return prior;
 }
 
 Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram,
@@ -243,28 +227,30 @@ Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::Mat
   return strength * PriorOf(maps, unseen, PullOver(gram, unseen, strength));
 }
 
-std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
+std::vector<double> DoubtOfHoles(const FrictionMap& map, Index first,
                                  const std::vector<bool>& unseen, const Eigen::VectorXd& weights) {
   // how much the weights with samples differ among each other
-  const double mean = MeanOfSeen(first, map.size(), unseen, weights);
-  double squares = 0, count = 0;
-  for (size_t i = first; i < first + map.size(); ++i) {
-    if (unseen[i]) continue;
-    squares += std::pow(weights[static_cast<Index>(i)] - mean, 2);
-    ++count;
+  const auto size = static_cast<Index>(map.size());
+  std::vector<double> seen;
+  for (Index i = first; i < first + size; ++i) {
+    if (!unseen[i]) seen.push_back(weights[i]);
   }
+  const auto count = static_cast<double>(seen.size());
+  const double mean = std::accumulate(seen.begin(), seen.end(), 0.0) / count;
+  double squares = 0;
+  for (const double weight : seen) squares += std::pow(weight - mean, 2);
   const double spread = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 
   // less beside a kernel that is seen
   const KernelLines lines(map);
   std::vector<double> doubt(map.size());
-  for (size_t k = 0; k < map.size(); ++k) {
+  for (Index k = 0; k < size; ++k) {
     if (!unseen[first + k]) continue;
-    const size_t line = first + k % lines.stride, i = k / lines.stride;
+    const Index line = first + k % lines.stride, i = k / lines.stride;
     const auto below = NextSeen(lines, unseen, line, i, -1);
     const auto above = NextSeen(lines, unseen, line, i, 1);
     // a kernel beside data is in doubt by half
-    const bool beside = below == 1u || above == 1u;
+    const bool beside = below == 1 || above == 1;
     if (beside && !(below && above)) continue;  // half a cell at the end of the travel
     doubt[k] = beside ? 0.5 * spread : spread;
   }
@@ -273,16 +259,15 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
 
 std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
                                    const std::vector<bool>& unseen, JointKind joint) {
-  // holes along all lines of all maps; the widest are named, the others counted
   std::vector<Hole> holes;
-  size_t first = 0;
+  Index first = 0;
   for (const FrictionMap& map : maps) {
-    for (size_t line = 0; line < KernelLines(map).stride; ++line) {
+    for (Index line = 0; line < KernelLines(map).stride; ++line) {
       AddHoles(map, first, line, unseen, joint, holes);
     }
-    first += map.size();
+    first += static_cast<Index>(map.size());
   }
-  // the widest first
+  // the widest are named, the others counted
   std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole::width);
   std::vector<std::string> names;
   for (size_t i = 0; i < std::min(kMostNamed, holes.size()); ++i) names.push_back(holes[i].words);

@@ -15,18 +15,14 @@ namespace warmjoint {
 
 /// Kernels along the first axis: weight k lies at index k / stride of the line k % stride.
 struct KernelLines {
-  size_t length = 0, stride = 1;
+  Eigen::Index length = 0, stride = 1;
   bool circular = false;
 
   explicit KernelLines(const FrictionMap& map)
-      : length(map.axes[0].kernels.centres.size()),
-        stride(map.size() / map.axes[0].kernels.centres.size()),
+      : length(std::ssize(map.axes[0].kernels.centres)),
+        stride(static_cast<Eigen::Index>(map.size()) / length),
         circular(map.axes[0].kernels.period.has_value()) {}
 };
-
-/// The kernel whose centre is nearest to a sample along every axis; axes whose sides are apart keep to
-/// the sample's side. points: [n x 5]
-Eigen::Index NearestKernel(const FrictionMap& map, const MapPoints& points, Eigen::Index sample);
 
 /// How fast the joint moved at each kernel of a map: the median |v| of the samples that it is the nearest kernel of; where
 /// there are none, that of the next kernel along the first axis, if any. kept: [n x 5]; returns [q] rad/s or m/s.
@@ -37,18 +33,6 @@ std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const
 /// points: [n x 5] of the samples; returns [q] of all maps' kernels, one map's after the other's.
 std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapPoints& points);
 
-/// [q x q] P of the prior s w^T P w: 1 on the diagonal for seen kernels. An unseen one is drawn to the
-/// straight line between its next seen neighbours along the first axis instead, or to the one that
-/// there is; where its whole line is unseen, to 0. pull: how much more than the others one between two
-/// seen ones is drawn; maps over energy or load, whose lines fill as the joint warms, take 1.
-Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
-                        double pull);
-
-/// As much as data hold a seen kernel, the median of its diagonal of A^T A over s, and at least 1: a weaker
-/// pull leaves a hole to the few samples at its rims, which throw its weights far off. gram: [q x q] of the
-/// kernels; strength: s.
-double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, double strength);
-
 /// s P with the pull that the data ask for: what joins A^T A of the kernels. [q x q]
 Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram,
                           const std::vector<bool>& unseen, double strength);
@@ -57,7 +41,7 @@ Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::Mat
 /// rms spread of the map's seen weights around their mean for unseen ones, half of it beside a seen one,
 /// and 0 there at an end of the range, where data reach into the half cell. first: the map's first
 /// kernel among all; weights: [q]; returns one for each kernel of the map.
-std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
+std::vector<double> DoubtOfHoles(const FrictionMap& map, Eigen::Index first,
                                  const std::vector<bool>& unseen, const Eigen::VectorXd& weights);
 
 /// "position 0.015 to 0.027 m backwards": the runs of unseen kernels of all maps along their first

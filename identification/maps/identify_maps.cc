@@ -18,7 +18,6 @@
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
-#include "models/friction/sign.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -92,7 +91,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
   // bounds of the law's parameters; gravity and inertia have none
   for (const ParameterInfo& info : law.parameters) problem.lower.push_back(info.lower);
   problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
-  problem.of_law = task.law_count();
+  problem.of_law = std::ssize(law.parameters);
   return problem;
 }
 
@@ -117,14 +116,6 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
 }
 
 }  // namespace
-
-Eigen::Index MapTask::law_count() const {
-  return static_cast<Eigen::Index>(law->parameters.size());
-}
-
-int MapTask::folds(Eigen::Index samples) const {
-  return std::min(settings.folds, std::max(2, static_cast<int>(samples) / 2));
-}
 
 MapTask MakeMapTask(const IdentifierInput& input, const std::string& identifier) {
   MapTask task{.identifier = identifier,
@@ -158,8 +149,7 @@ MapBeginning BeginMaps(const IdentifierInput& given, const std::string& identifi
 Eigen::VectorXd TorqueOfEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy) {
   const LogSamples& m = input.measurements;
   if (energy.size() == 0) return Eigen::VectorXd::Zero(input.selection.count());
-  const Eigen::VectorXd direction =
-      m.velocity.unaryExpr([](double v) { return static_cast<double>(Sign(v)); });
+  const Eigen::VectorXd direction = m.velocity.array().sign();
   return Kept(direction.cwiseProduct(energy), input.selection);
 }
 

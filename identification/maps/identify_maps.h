@@ -1,6 +1,7 @@
 // What identifiers with maps share: from candidates of maps to a fit.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@ struct MapTask {
   LinearLaw law;
   MapOptions settings;
   /// Shapes of the maps to choose from, at least one.
-  std::vector<std::vector<FrictionMap>> candidates{};
+  MapShapes candidates{};
   /// [N] E, N.m or N, as far as it is known: sign(v) E is taken off the torque. Empty: 0.
   Eigen::VectorXd energy{};
   /// Gravity and inertia beside law and maps, free of any prior; no columns: none.
@@ -26,8 +27,10 @@ struct MapTask {
   /// Of the only candidate at the kept samples, where they are made already; null: made anew.
   std::shared_ptr<const KernelRows> rows{};
 
-  Eigen::Index law_count() const;         // parameters of the law
-  int folds(Eigen::Index samples) const;  // of cross validation over so many kept samples
+  /// Of cross validation over so many kept samples.
+  int folds(Eigen::Index samples) const {
+    return std::min(settings.folds, std::max(2, static_cast<int>(samples) / 2));
+  }
 };
 
 /// As options with LawOption and MapOptions say, without candidates, gravity and inertia. identifier: its name.

@@ -29,9 +29,7 @@ constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lie
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
 bool IsAlikeInBothDirections(const FrictionMap& map) {
-  return map.factor == MapFactor::one && std::ranges::none_of(map.axes, [](const MapAxis& axis) {
-           return axis.quantity == MapQuantity::velocity;
-         });
+  return map.factor == MapFactor::one && !FindAxis(map, MapQuantity::velocity);
 }
 
 /// Whether the map tells the directions of motion apart and nothing else of the velocity.
@@ -232,19 +230,12 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
   return FinerFit{std::move(*twice), std::move(*one), std::move(*other)};
 }
 
-/// Variance of the difference of two fits at a map's places by noise alone, [g] (N.m)^2.
-/// rows, more: [g x d] of the fit and of the finer one.
-Eigen::VectorXd MissedByNoise(const FinerFit& finer, const Eigen::MatrixXd& rows,
-                              const Eigen::MatrixXd& more) {
-  return (rows * finer.shaken - more * finer.twice_shaken).cwiseAbs2().rowwise().mean();
-}
-
 /// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that are not known,
 /// NaN, are left out. Averages below 0, and those of nothing, are 0. Since chance alone leaves some above 0, all are
 /// made smaller until those at known places sum up to no more than the squares do.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
   const KernelLines lines(map);
-  const auto length = static_cast<Index>(lines.length), stride = static_cast<Index>(lines.stride);
+  const Index stride = lines.stride;
   Eigen::VectorXd mean(squares.size());
   double whole = 0, parts = 0;
   for (Index i = 0; i < squares.size(); ++i) {
@@ -252,7 +243,7 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
     double sum = 0, count = 0;
     for (const Index away : {-2, -1, 0, 1, 2}) {
       const Index at = i / stride + away, j = i + away * stride;
-      if (at < 0 || at >= length || std::isnan(squares[j])) continue;
+      if (at < 0 || at >= lines.length || std::isnan(squares[j])) continue;
       const auto share = static_cast<double>(3 - std::abs(away));
       sum += share * squares[j];
       count += share;
@@ -299,10 +290,13 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
           missed[i] = std::numeric_limits<double>::quiet_NaN();
         }
       }
-      const Eigen::VectorXd by_noise = MissedByNoise(*finer, rows, more);
+      // variance of that difference by noise alone
+      const Eigen::VectorXd by_noise =
+          (rows * finer->shaken - more * finer->twice_shaken).cwiseAbs2().rowwise().mean();
       variance += AlongFirstAxis(map, missed.cwiseAbs2() - by_noise);
     }
-    const std::vector<double> doubt = DoubtOfHoles(map, first, maps.unseen, maps.weights());
+    const std::vector<double> doubt =
+        DoubtOfHoles(map, static_cast<Index>(first), maps.unseen, maps.weights());
     first += map.size();
     for (Index i = 0; i < places.rows(); ++i) {
       // where the map has no data it may be as far off as it varies elsewhere

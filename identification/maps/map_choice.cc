@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "identification/ridge/ridge.h"
@@ -148,10 +150,8 @@ struct Trial : StrengthTrial {
 };
 
 bool IsOverEnergy(const std::vector<FrictionMap>& maps) {
-  return std::any_of(maps.begin(), maps.end(), [](const FrictionMap& map) {
-    return std::any_of(map.axes.begin(), map.axes.end(),
-                       [](const MapAxis& axis) { return axis.quantity == MapQuantity::energy; });
-  });
+  return std::ranges::any_of(
+      maps, [](const FrictionMap& map) { return FindAxis(map, MapQuantity::energy) != nullptr; });
 }
 
 /// The normal equations of each fold: one part of the recording, or, since a joint warms up but
@@ -219,31 +219,16 @@ NormalEquations AddTrials(const MapProblem& problem, size_t candidate, int folds
   return all;
 }
 
-/// Kernels of the finest candidates, and of the next finest ones; 0 where there are none.
-struct Finest {
-  Eigen::Index kernels = 0, next = 0;
-
-  explicit Finest(const std::vector<std::vector<FrictionMap>>& candidates) {
-    for (const auto& maps : candidates) kernels = std::max(kernels, KernelCount(maps));
-    for (const auto& maps : candidates) {
-      const Eigen::Index count = KernelCount(maps);
-      if (count < kernels) next = std::max(next, count);
-    }
-  }
-};
-
 ChosenMaps Nothing() { return {0, 0, std::numeric_limits<double>::infinity(), {}}; }
 
 const Trial& LeastError(const std::vector<Trial>& trials) {
-  return *std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
-    return a.squares.sum() < b.squares.sum();
-  });
+  return *std::ranges::min_element(trials, {}, [](const Trial& one) { return one.squares.sum(); });
 }
 
 /// The simplest of the trials that are as good as the best.
 ChosenMaps Simplest(std::vector<Trial> trials, Eigen::Index samples) {
   // trials without a bound that the fit would break, where there are any
-  if (std::any_of(trials.begin(), trials.end(), [](const Trial& t) { return t.possible; })) {
+  if (std::ranges::any_of(trials, &Trial::possible)) {
     std::erase_if(trials, [](const Trial& t) { return !t.possible; });
   }
   if (trials.empty()) return Nothing();
@@ -252,8 +237,7 @@ ChosenMaps Simplest(std::vector<Trial> trials, Eigen::Index samples) {
   std::erase_if(trials, [&](const Trial& t) { return !AsGood(t.squares, least); });
 
   // the fewest kernels, the best of their shapes, its strongest prior
-  Eigen::Index fewest = trials[0].kernels;
-  for (const Trial& trial : trials) fewest = std::min(fewest, trial.kernels);
+  const Eigen::Index fewest = std::ranges::min(trials, {}, &Trial::kernels).kernels;
   std::erase_if(trials, [&](const Trial& t) { return t.kernels > fewest; });
   const size_t candidate = LeastError(trials).candidate;
   std::erase_if(trials, [&](const Trial& t) { return t.candidate != candidate; });
@@ -291,19 +275,22 @@ ChosenMaps ByEvidence(const MapProblem& problem) {
 
 }  // namespace
 
-ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
-                      StrengthRule rule, int folds) {
+ChosenMaps ChooseMaps(MapProblem problem, const MapShapes& candidates, StrengthRule rule,
+                      int folds) {
   // trials of all candidates, or the best candidate by a single number
   std::vector<Trial> trials;
   std::vector<std::optional<NormalEquations>> normals(candidates.size());
   ChosenMaps best = Nothing();
-  const Finest finest(candidates);
+  // kernels of the finest candidates, and of the next finest ones, 0 where there are none
+  std::set<Eigen::Index> sizes{0};
+  for (const std::vector<FrictionMap>& maps : candidates) sizes.insert(KernelCount(maps));
+  const Eigen::Index finest = *sizes.rbegin(), next = *std::next(sizes.rbegin());
   for (size_t i = 0; i < candidates.size(); ++i) {
     problem.maps = candidates[i];
     if (rule == StrengthRule::cross_validation) {
       // the finest shape costs most: it is tried where the next finest has been the best so far
-      const bool dear = KernelCount(candidates[i]) == finest.kernels && !trials.empty();
-      if (dear && LeastError(trials).kernels < finest.next) continue;
+      const bool dear = KernelCount(candidates[i]) == finest && !trials.empty();
+      if (dear && LeastError(trials).kernels < next) continue;
       normals[i] = AddTrials(problem, i, folds, trials);
       continue;
     }

@@ -19,6 +19,9 @@ inline std::span<const Word<StrengthRule>> WordsOf(StrengthRule) {
   return words;
 }
 
+/// Shapes of maps to choose from.
+using MapShapes = std::vector<std::vector<FrictionMap>>;
+
 struct ChosenMaps {
   size_t candidate = 0;
   double strength = 0;
@@ -45,7 +48,7 @@ struct ChosenMaps {
 /// warms up but once and one part alone has seen it cold. Neighbours resemble each other, so that
 /// leaving out one sample or the evidence of white noise take coloured noise for friction: cross
 /// validation over long parts does not.
-ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
-                      StrengthRule rule, int folds);
+ChosenMaps ChooseMaps(MapProblem problem, const MapShapes& candidates, StrengthRule rule,
+                      int folds);
 
 }  // namespace warmjoint

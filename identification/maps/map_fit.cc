@@ -16,10 +16,67 @@
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint {
-
 namespace {
 
+using Eigen::Index;
+
 constexpr double kImitated = 1e-3;  // share of a column's squares
+
+/// Those under which the maps are what deviates from the columns `shared`.
+Conditions Deviating(const Eigen::MatrixXd& gram, Eigen::Index free,
+                     const std::vector<Eigen::Index>& shared) {
+  const Eigen::Index d = gram.rows(), count = static_cast<Eigen::Index>(shared.size());
+  Conditions conditions{Eigen::MatrixXd::Zero(count, d), Eigen::VectorXd::Zero(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    conditions.rows.row(i).tail(d - free) =
+        gram.row(shared[static_cast<size_t>(i)]).tail(d - free).normalized();
+  }
+  return conditions;
+}
+
+/// Of the weights of one line. [n x n]
+Eigen::MatrixXd CorrelationOf(const KernelLines& lines, double length) {
+  const Index n = lines.length;
+  Eigen::MatrixXd smear(n, n);
+  // smeared with the distance in kernels, around the circle where there is one
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      const Index apart = std::abs(i - j);
+      const auto away = static_cast<double>(lines.circular ? std::min(apart, n - apart) : apart);
+      smear(i, j) = std::exp(-away * away / (length * length));
+    }
+  }
+  // rows of norm 1 give a correlation of 1 with itself
+  smear.rowwise().normalize();
+  return smear * smear.transpose();
+}
+
+/// Correlation of the weights of maps, one map's after the other's, those `unseen` left out, as if independent ones
+/// had been smeared along each line of the first axis by a Gaussian of `length` / sqrt(2) spacings: far from the ends
+/// exp(-d^2 / (2 length^2)) at d kernels' distance; 0 between lines. length > 0; returns [s x s] of the s seen ones.
+Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
+                                   const std::vector<bool>& unseen, double length) {
+  const auto q = static_cast<Index>(unseen.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(q, q);
+  Index first = 0;
+  for (const FrictionMap& map : maps) {
+    const KernelLines lines(map);
+    const Index stride = lines.stride, size = lines.length * stride;
+    const Eigen::MatrixXd line = CorrelationOf(lines, length);
+    // kernels of one line lie a stride apart
+    for (Index k = 0; k < stride; ++k) {
+      const auto of_line = Eigen::seq(first + k, first + size - stride + k, stride);
+      all(of_line, of_line) = line;
+    }
+    first += size;
+  }
+  // weights with data alone
+  std::vector<Index> seen;
+  for (Index k = 0; k < q; ++k) {
+    if (!unseen[static_cast<size_t>(k)]) seen.push_back(k);
+  }
+  return all(seen, seen);
+}
 
 }  // namespace
 
@@ -40,28 +97,11 @@ std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::In
 
 std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index free,
                                       const std::vector<double>& lower) {
-  if (lower.empty()) return {};
   std::vector<Eigen::Index> imitated = ImitatedColumns(gram, free);
   std::erase_if(imitated,
                 [&](Eigen::Index j) { return !std::isfinite(lower[static_cast<size_t>(j)]); });
   return imitated;
 }
-
-namespace {
-
-/// Those under which the maps are what deviates from the columns `shared`.
-Conditions Deviating(const Eigen::MatrixXd& gram, Eigen::Index free,
-                     const std::vector<Eigen::Index>& shared) {
-  const Eigen::Index d = gram.rows(), count = static_cast<Eigen::Index>(shared.size());
-  Conditions conditions{Eigen::MatrixXd::Zero(count, d), Eigen::VectorXd::Zero(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    conditions.rows.row(i).tail(d - free) =
-        gram.row(shared[static_cast<size_t>(i)]).tail(d - free).normalized();
-  }
-  return conditions;
-}
-
-}  // namespace
 
 Conditioned::Conditioned(const Eigen::MatrixXd& gram, Conditions conditions)
     : conditions_(std::move(conditions)), firm_(gram.diagonal().mean()) {
@@ -90,34 +130,45 @@ Eigen::MatrixXd Conditioned::Inverse() const {
   return whole - along_ * small_.solve(along_.transpose());
 }
 
-MapSystem::MapSystem(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram,
-                     Eigen::Index free, double strength, const std::vector<bool>& unseen,
-                     std::vector<double> lower)
-    : gram_(gram), lower_(std::move(lower)), shared_(ImitatedLaw(gram, free, lower_)) {
-  // where there are no data the neighbours tell more than the law alone
-  const Eigen::Index q = gram.rows() - free;
-  gram_.bottomRightCorner(q, q) += PenaltyOf(maps, gram.bottomRightCorner(q, q), unseen, strength);
-  plain_ = std::make_shared<const Conditioned>(
-      gram_, Conditions{Eigen::MatrixXd(0, gram.rows()), Eigen::VectorXd(0)});
-  deviating_ = shared_.empty()
-                   ? plain_
-                   : std::make_shared<const Conditioned>(gram_, Deviating(gram, free, shared_));
+NormalEquations NormalOf(const MapProblem& problem) {
+  if (problem.rows) return problem.rows->Normal(problem.free, problem.torque);
+  return LocalNormal(problem.maps, problem.points, problem.free, problem.torque, 0,
+                     problem.torque.size());
 }
 
-MapSystem::Bounds MapSystem::Bounded(const NormalEquations& normal) const {
+RepeatedFit::RepeatedFit(const MapProblem& problem, NormalEquations normal, double strength)
+    : problem_(problem),
+      normal_(std::move(normal)),
+      strength_(strength),
+      unseen_(UnseenKernels(problem.maps, problem.points)),
+      gram_(normal_.gram),
+      shared_(ImitatedLaw(gram_, problem.free.cols(), problem.lower)) {
+  const Eigen::Index free = problem.free.cols(), q = gram_.rows() - free;
+  const Eigen::MatrixXd kernels = gram_.bottomRightCorner(q, q);
+  // where there are no data the neighbours tell more than the law alone
+  gram_.bottomRightCorner(q, q) += PenaltyOf(problem.maps, kernels, unseen_, strength);
+  plain_ = std::make_shared<const Conditioned>(
+      gram_, Conditions{Eigen::MatrixXd(0, gram_.rows()), Eigen::VectorXd(0)});
+  deviating_ = shared_.empty() ? plain_
+                               : std::make_shared<const Conditioned>(
+                                     gram_, Deviating(normal_.gram, free, shared_));
+}
+
+RepeatedFit::Bounds RepeatedFit::Bounded() const {
+  const std::vector<double>& lower = problem_.lower;
   Bounds bounds{deviating_->conditions(), {}};
   auto& [rows, values] = bounds.conditions;
-  const Eigen::VectorXd after = deviating_->Solve(normal.product);
+  const Eigen::VectorXd after = deviating_->Solve(normal_.product);
   Eigen::VectorXd x;
   // every bound of a column that the fit would cross
-  for (size_t j = 0; j < lower_.size(); ++j) {
+  for (size_t j = 0; j < lower.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
-    if (after[at] >= lower_[j]) continue;
+    if (after[at] >= lower[j]) continue;
 
     // a bound costs nothing where the fit without conditions is on its other side, or as far off as noise puts it
-    if (x.size() == 0) x = plain_->Solve(normal.product);
-    const double noise = std::max(normal.Squares(x), 0.0) / static_cast<double>(normal.rows);
-    const double below = std::max(0.0, lower_[j] - x[at]);
+    if (x.size() == 0) x = plain_->Solve(normal_.product);
+    const double noise = std::max(normal_.Squares(x), 0.0) / static_cast<double>(normal_.rows);
+    const double below = std::max(0.0, lower[j] - x[at]);
     const double variance = noise * plain_->Solve(Eigen::VectorXd::Unit(after.size(), at))[at];
     const auto shared = std::ranges::find(shared_, at);
     // within its interval, where the data tell one
@@ -134,23 +185,16 @@ MapSystem::Bounds MapSystem::Bounded(const NormalEquations& normal) const {
       values.conservativeResize(row + 1);
     }
     rows.row(row) = Eigen::RowVectorXd::Unit(after.size(), at);
-    values[row] = lower_[j];
+    values[row] = lower[j];
   }
   return bounds;
 }
 
-Eigen::MatrixXd MapSystem::Inverse() const {
-  const auto& [rows, values] = latest_->conditions();
-  const auto shared = static_cast<Eigen::Index>(shared_.size());
-  if (rows.rows() == shared) return latest_->Inverse();
-  return Conditioned(gram_, {rows.topRows(shared), values.head(shared)}).Inverse();
-}
-
-std::optional<Eigen::VectorXd> MapSystem::Solve(const NormalEquations& normal) {
-  if (!std::isfinite(normal.squares) || !plain_->works() || !deviating_->works()) {
+std::optional<Eigen::VectorXd> RepeatedFit::Unknowns() {
+  if (!std::isfinite(normal_.squares) || !plain_->works() || !deviating_->works()) {
     return std::nullopt;
   }
-  const Bounds bounds = Bounded(normal);
+  const Bounds bounds = Bounded();
   // the factors of the latest bounds serve again as long as the same ones hold
   if (bounds.columns.empty()) {
     latest_ = deviating_;
@@ -158,76 +202,14 @@ std::optional<Eigen::VectorXd> MapSystem::Solve(const NormalEquations& normal) {
     latest_ = std::make_shared<const Conditioned>(gram_, bounds.conditions);
   }
   if (!latest_->works()) return std::nullopt;
-  Eigen::VectorXd x = latest_->Solve(normal.product);
+  Eigen::VectorXd x = latest_->Solve(normal_.product);
   // at the bound, not beside it by rounding
-  for (const Eigen::Index j : bounds.columns) x[j] = lower_[static_cast<size_t>(j)];
+  for (const Eigen::Index j : bounds.columns) x[j] = problem_.lower[static_cast<size_t>(j)];
   return x.allFinite() ? std::optional(x) : std::nullopt;
 }
 
-namespace {
-
-using Eigen::Index;
-
-/// Of the weights of one line. [n x n]
-Eigen::MatrixXd CorrelationOf(const KernelLines& lines, double length) {
-  const auto n = static_cast<Index>(lines.length);
-  Eigen::MatrixXd smear(n, n);
-  // smeared with the distance in kernels, around the circle where there is one
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j < n; ++j) {
-      const Index apart = std::abs(i - j);
-      const auto away = static_cast<double>(lines.circular ? std::min(apart, n - apart) : apart);
-      smear(i, j) = std::exp(-away * away / (length * length));
-    }
-  }
-  // rows of norm 1 give a correlation of 1 with itself
-  smear.rowwise().normalize();
-  return smear * smear.transpose();
-}
-
-/// Correlation of the weights of maps, one map's after the other's, those `unseen` left out, as if independent ones
-/// had been smeared along each line of the first axis by a Gaussian of `length` / sqrt(2) spacings: far from the ends
-/// exp(-d^2 / (2 length^2)) at d kernels' distance; 0 between lines. length > 0; returns [s x s] of the s seen ones.
-Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
-                                   const std::vector<bool>& unseen, double length) {
-  const auto q = static_cast<Index>(unseen.size());
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(q, q);
-  Index first = 0;
-  for (const FrictionMap& map : maps) {
-    const KernelLines lines(map);
-    const auto stride = static_cast<Index>(lines.stride), size = static_cast<Index>(map.size());
-    const Eigen::MatrixXd line = CorrelationOf(lines, length);
-    // kernels of one line lie a stride apart
-    for (Index k = 0; k < stride; ++k) {
-      const auto of_line = Eigen::seq(first + k, first + size - stride + k, stride);
-      all(of_line, of_line) = line;
-    }
-    first += size;
-  }
-  // weights with data alone
-  std::vector<Index> seen;
-  for (Index k = 0; k < q; ++k) {
-    if (!unseen[static_cast<size_t>(k)]) seen.push_back(k);
-  }
-  return all(seen, seen);
-}
-
-}  // namespace
-NormalEquations NormalOf(const MapProblem& problem) {
-  if (problem.rows) return problem.rows->Normal(problem.free, problem.torque);
-  return LocalNormal(problem.maps, problem.points, problem.free, problem.torque, 0,
-                     problem.torque.size());
-}
-
-RepeatedFit::RepeatedFit(const MapProblem& problem, NormalEquations normal, double strength)
-    : problem_(problem),
-      normal_(std::move(normal)),
-      strength_(strength),
-      unseen_(UnseenKernels(problem.maps, problem.points)),
-      system_(problem.maps, normal_.gram, problem.free.cols(), strength, unseen_, problem.lower) {}
-
 std::optional<MapWeights> RepeatedFit::Fit() {
-  std::optional<Eigen::VectorXd> x = system_.Solve(normal_);
+  std::optional<Eigen::VectorXd> x = Unknowns();
   if (!x) return std::nullopt;
   const Eigen::Index free = problem_.free.cols();
   const Layout layout = Layout::InOrder({{&Layout::law, problem_.of_law},
@@ -263,7 +245,7 @@ std::optional<Eigen::MatrixXd> RepeatedFit::Solve(const Eigen::MatrixXd& torques
   for (Eigen::Index k = 0; k < all.cols(); ++k) {
     normal_.product = all.col(k);
     normal_.squares = torques.col(k).squaredNorm();
-    const std::optional<Eigen::VectorXd> x = system_.Solve(normal_);
+    const std::optional<Eigen::VectorXd> x = Unknowns();
     if (!x) return std::nullopt;
     all.col(k) = *x;
   }
@@ -271,13 +253,14 @@ std::optional<Eigen::MatrixXd> RepeatedFit::Solve(const Eigen::MatrixXd& torques
 }
 
 MapFit RepeatedFit::Complete(MapWeights latest) const {
-  MapFit fit{std::move(latest), 0, normal_.gram, system_.Inverse()};
+  MapFit fit{std::move(latest), 0, normal_.gram, {}};
+  const auto& [rows, values] = latest_->conditions();
+  const auto shared = static_cast<Eigen::Index>(shared_.size());
+  fit.inverse = rows.rows() == shared
+                    ? latest_->Inverse()
+                    : Conditioned(gram_, {rows.topRows(shared), values.head(shared)}).Inverse();
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
   return fit;
-}
-
-std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
-  return FitMaps(problem, NormalOf(problem), strength);
 }
 
 std::optional<MapFit> FitMaps(const MapProblem& problem, NormalEquations normal, double strength) {

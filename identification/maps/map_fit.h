@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "identification/layout.h"
@@ -21,7 +20,7 @@ namespace warmjoint {
 /// prior alone tells these apart from a map. gram: [d x d] A^T A of `free` such columns and the kernels; ascending.
 std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::Index free);
 
-/// Those of them that have a bound, which is the law's mark. lower: [free] or empty: none.
+/// Those of them that have a bound, which is the law's mark. lower: [free]
 std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index free,
                                       const std::vector<double>& lower);
 
@@ -59,40 +58,6 @@ class Conditioned {
   Eigen::LDLT<Eigen::MatrixXd> small_;  // [k x k]
 };
 
-/// (A^T A + s P) x = A^T y of FitMaps (map_fit.h) on the same rows A for any y: what depends on the rows
-/// alone is made once, and the latest conditions that a torque asked for are kept.
-class MapSystem {
- public:
-  /// maps: their weights are not read; gram: [d x d] A^T A of p columns of the law and others and the
-  /// kernels; unseen: [q] kernels without data; lower: [p] bounds, or empty: none.
-  MapSystem(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram, Eigen::Index free,
-            double strength, const std::vector<bool>& unseen, std::vector<double> lower);
-
-  /// [d] x for the torque in `normal`, whose Gram matrix is that of the rows; nothing where the system is
-  /// singular to rounding or overflows.
-  std::optional<Eigen::VectorXd> Solve(const NormalEquations& normal);
-
-  /// [d x d] (A^T A + s P)^-1 under the conditions of the latest x, but for the bounds of columns that the
-  /// data tell: how sure these are is a matter of the fit without.
-  Eigen::MatrixXd Inverse() const;
-
- private:
-  /// The conditions of `deviating_`, but with the bounds that hold for this torque, those of columns that the maps
-  /// cannot be last; and these columns.
-  struct Bounds {
-    Conditions conditions;
-    std::vector<Eigen::Index> columns;
-  };
-  Bounds Bounded(const NormalEquations& normal) const;
-
-  Eigen::MatrixXd gram_;                          // [d x d] with the prior
-  std::vector<double> lower_;                     // [p] or empty
-  std::vector<Eigen::Index> shared_;              // columns that law and maps both can be
-  std::shared_ptr<const Conditioned> plain_;      // without conditions
-  std::shared_ptr<const Conditioned> deviating_;  // the maps are what deviates from the law
-  std::shared_ptr<const Conditioned> latest_;
-};
-
 /// A law that is linear in its parameters, and kernels with a Gaussian prior N(0, s_w^2) on their
 /// weights alone, on the n samples that a selection keeps:
 ///   y = free p + sum_i w_i kappa_i + e.
@@ -102,7 +67,7 @@ struct MapProblem {
   Eigen::MatrixXd free;           // [n x p]
   Eigen::VectorXd torque;         // [n] y, N.m or N
   Selection selection;            // n of its samples are kept
-  std::vector<double> lower{};    // [p] bounds of the parameters; or empty: none
+  std::vector<double> lower{};    // [p] bounds of the parameters
   Eigen::Index of_law = 0;  // the first so many of p are the law's, the others gravity and inertia
   /// Of `maps` at `points`, where they are made already; null: made anew.
   std::shared_ptr<const KernelRows> rows{};
@@ -132,40 +97,53 @@ struct MapFit : MapWeights {
   Eigen::MatrixXd inverse;  // [p + q]^2 (A^T A + s P)^-1
 };
 
-/// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h). How much of a column x_j of the law that kernels can imitate
+/// argmin |y - A x|^2 + s w^T P w, s P: PenaltyOf (holes.h). How much of a column x_j of the law that kernels can imitate
 /// (ImitatedColumns) stands in the law and how much in the maps is no matter of the data. The maps are what
 /// deviates from the law there, x_j^T (kernels w) = 0 over the samples, as smooth terms of additive models are
 /// centred (Wood 2017, 5.4.1); where that puts the parameter below its bound and the data know no better, it is held
 /// there. Nothing where the system is singular to rounding or overflows.
-std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
-
-/// The same of normal equations that are made already: NormalOf(problem).
+/// normal: NormalOf(problem).
 std::optional<MapFit> FitMaps(const MapProblem& problem, NormalEquations normal, double strength);
 
-/// FitMaps to one torque after the other on the same rows.
+/// FitMaps to one torque after the other on the same rows: what depends on the rows alone is made once, and the latest
+/// conditions that a torque asked for are kept.
 class RepeatedFit {
  public:
   /// problem: must outlive this; normal: NormalOf(problem).
   RepeatedFit(const MapProblem& problem, NormalEquations normal, double strength);
 
-  /// To problem.torque, or the latest torque.
+  /// To problem.torque, or the latest torque. Nothing where the system is singular to rounding or overflows.
   std::optional<MapWeights> Fit();
   /// To another torque, [n] N.m or N.
   std::optional<MapWeights> To(const Eigen::VectorXd& torque);
   /// x of each of k torques alone, [p + q x k]. torques: [n x k] N.m or N
   std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& torques);
-  /// The latest, and how sure it is.
+  /// The latest, and how sure it is: but for the bounds of columns that the data tell, since how sure these are is a
+  /// matter of the fit without.
   MapFit Complete(MapWeights latest) const;
 
  private:
+  /// The conditions of `deviating_`, but with the bounds that hold for this torque, those of columns that the maps
+  /// cannot be last; and these columns.
+  struct Bounds {
+    Conditions conditions;
+    std::vector<Eigen::Index> columns;
+  };
+  Bounds Bounded() const;
+  /// x for the torque in `normal_`, [p + q].
+  std::optional<Eigen::VectorXd> Unknowns();
   /// Products of all rows with each torque, [p + q x k].
   Eigen::MatrixXd Products(const Eigen::Ref<const Eigen::MatrixXd>& torques) const;
 
   const MapProblem& problem_;
   NormalEquations normal_;
   double strength_;
-  std::vector<bool> unseen_;
-  MapSystem system_;
+  std::vector<bool> unseen_;                      // [q] kernels without data
+  Eigen::MatrixXd gram_;                          // [p + q]^2 with the prior
+  std::vector<Eigen::Index> shared_;              // columns that law and maps both can be
+  std::shared_ptr<const Conditioned> plain_;      // without conditions
+  std::shared_ptr<const Conditioned> deviating_;  // the maps are what deviates from the law
+  std::shared_ptr<const Conditioned> latest_;
 };
 
 /// The maps with their weights, one map's after the other's. weights: [q]

@@ -12,7 +12,7 @@
 namespace warmjoint {
 
 /// Shapes of maps for points whose energy is known. points: [n x 5] kept.
-using MapMaker = std::function<std::vector<std::vector<FrictionMap>>(const MapPoints& points)>;
+using MapMaker = std::function<MapShapes(const MapPoints& points)>;
 
 /// Whether law and maps warm.
 enum class MapHeat {

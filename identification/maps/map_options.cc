@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+
 namespace warmjoint {
 namespace {
 
@@ -43,8 +44,7 @@ FrictionMap PositionMap(const MapPoints& points, KernelKind kernels, int count, 
   return map;
 }
 
-std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
-                                                   const MapPoints& points) {
+MapShapes PositionMaps(const Options& options, const MapPoints& points) {
   const auto& made = options.Get<MapOptions>();
   const auto& [basis, kernels, velocity_kernels] = options.Get<PositionMapOptions>();
   const std::vector<int> counts =
@@ -53,7 +53,7 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
   const int speeds = basis == MapBasis::position   ? 0
                      : basis == MapBasis::velocity ? velocity_kernels
                                                    : 1;
-  std::vector<std::vector<FrictionMap>> candidates;
+  MapShapes candidates;
   for (const int count : counts) {
     for (const double width : made.Widths()) {
       candidates.push_back({PositionMap(points, made.kernel, count, width, speeds)});

@@ -112,6 +112,14 @@ struct AddedMapOptions : MapOptions, PositionMapOptions {
   }
 };
 
+/// One for each width to choose from. maps(width): of one, in spacings
+template <typename Maps>
+MapShapes ForEachWidth(const MapOptions& options, const Maps& maps) {
+  MapShapes shapes;
+  for (const double width : options.Widths()) shapes.push_back(maps(width));
+  return shapes;
+}
+
 /// Even centres over the range of one quantity at the samples, N.m or SI; `width` spacings wide.
 /// points: [n x 5] of the kept samples.
 MapAxis RangeAxis(MapQuantity quantity, const MapPoints& points, int count, double width);
@@ -130,7 +138,7 @@ FrictionMap PositionMap(const MapPoints& points, KernelKind kernels, int count, 
 
 /// The shapes to choose from, as options with MapOptions and PositionMapOptions say: every number of kernels with every
 /// width. points: [n x 5] kept.
-std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options, const MapPoints& points);
+MapShapes PositionMaps(const Options& options, const MapPoints& points);
 
 /// Why a quantity cannot carry a map: not a number at some sample, or the same at all. Empty where
 /// it can.

@@ -27,7 +27,7 @@ struct WarmMaps {
 /// rounds are mixed by the method of Anderson. At gaps E jumps, as energy-ml has it.
 /// task.energy is not read; initial: what is known of E(0). Nothing where no fit can be solved.
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
-                                    const InitialEnergy& initial = InitialEnergy::zero);
+                                    const InitialEnergy& initial);
 
 /// The same as a fit whose table has law and heat, with intervals and bands of law, warming and
 /// maps together; not_identifiable where no warming can be seen or its time constant is vague.

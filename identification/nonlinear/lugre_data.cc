@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identification/preparation/velocity_scale.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -13,6 +14,7 @@ using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 constexpr Index kRest = 5;        // samples
 constexpr double kSteady = 0.05;  // change of the speed over two samples, relative
+constexpr Index kSteadySamples = 4000;
 
 /// Samples of rests. [N]
 Mask Rests(const LogSamples& m) {
@@ -47,15 +49,14 @@ Grid EverySample(const LogSamples& m, Index every) {
 /// dv/dt between the neighbours of each sample that belong to its recording. [N]
 Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
                              const std::vector<Index>& starts) {
-  const Index n = time.size();
-  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n);
-  for (Index i = 0; i < n; ++i) {
-    // at the ends of a recording the difference is one-sided
-    const bool first = i == 0 || std::binary_search(starts.begin(), starts.end(), i);
-    const bool last = i + 1 == n || std::binary_search(starts.begin(), starts.end(), i + 1);
-    const Index before = first ? i : i - 1, after = last ? i : i + 1;
-    if (after == before) continue;
-    acceleration[i] = (velocity[after] - velocity[before]) / (time[after] - time[before]);
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(time.size());
+  for (const SampleRange& one : CutAt(starts, time.size())) {
+    for (Index i = one.first; i < one.end(); ++i) {
+      // at the ends of a recording the difference is one-sided
+      const Index before = std::max(i - 1, one.first), after = std::min(i + 1, one.end() - 1);
+      if (after == before) continue;
+      acceleration[i] = (velocity[after] - velocity[before]) / (time[after] - time[before]);
+    }
   }
   return acceleration;
 }

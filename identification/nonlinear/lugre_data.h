@@ -26,9 +26,7 @@ HalvedProblem Halve(const IdentifierInput& input, const LugreProblem& problem);
 
 /// The kept samples that slide steadily, were presliding over after `distance`, rad or m: four
 /// times that from the last turn or rest, at the speed of both neighbours to 5 %. At most
-/// kSteadySamples, evenly chosen.
+/// 4000, evenly chosen.
 Selection SteadySamples(const IdentifierInput& input, double distance);
-
-inline constexpr Eigen::Index kSteadySamples = 4000;
 
 }  // namespace warmjoint

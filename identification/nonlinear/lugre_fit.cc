@@ -165,27 +165,17 @@ bool DerivativesAt(const LugreProblem& problem, const Eigen::VectorXd& x,
   });
 }
 
-/// The distances, rad or m, from one turn or rest to the next.
-std::vector<double> DistancesBetweenTurns(const LogSamples& m) {
-  std::vector<double> distances{0};
-  for (Eigen::Index i = 1; i < m.size(); ++i) {
-    const double from = m.velocity[i - 1], to = m.velocity[i];
-    if (from * to <= 0) distances.push_back(0);
-    distances.back() += 0.5 * std::abs(from + to) * (m.time[i] - m.time[i - 1]);
-  }
-  std::erase(distances, 0.0);
-  return distances;
-}
-
 /// The smallest and the largest presliding distance that the motion may show, rad or m.
 std::pair<double, double> Distances(const LogSamples& m) {
-  double shortest = 0, longest = 0;
+  double shortest = 0, longest = 0, since_turn = 0;  // or since a rest
   for (Eigen::Index i = 1; i < m.size(); ++i) {
-    const double travel =
-        0.5 * std::abs(m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
+    const double from = m.velocity[i - 1], to = m.velocity[i];
+    const double travel = 0.5 * std::abs(from + to) * (m.time[i] - m.time[i - 1]);
     if (travel > 0 && (shortest == 0 || travel < shortest)) shortest = travel;
+    if (from * to <= 0) since_turn = 0;
+    since_turn += travel;
+    longest = std::max(longest, since_turn);
   }
-  for (const double distance : DistancesBetweenTurns(m)) longest = std::max(longest, distance);
   return {std::max(0.25 * shortest, 1e-5 * longest), longest};
 }
 
@@ -300,17 +290,17 @@ LugreFit RefineLugre(const LugreProblem& problem, const FitPoint& start) {
   });
 }
 
-Eigen::VectorXd LugreTorque(const LugreProblem& problem, const FitPoint& point,
-                            const std::vector<double>& loads) {
+Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugreFit& fit) {
   const Eigen::Index n = problem.motion.size();
   return ForLaw(problem, [&]<typename L>() {
-    const auto p = ValuesOf<L>(point.x.data());
-    Eigen::VectorXd torque = point.x[LayoutOf<L>().inertia()] * problem.acceleration;
+    const Eigen::VectorXd& x = fit.solution.x;
+    const auto p = ValuesOf<L>(x.data());
+    Eigen::VectorXd torque = x[LayoutOf<L>().inertia()] * problem.acceleration;
     size_t recording = 0;
     // each recording from its own load
     for (Eigen::Index first = 0, end = 0; first < n; first = end) {
       end = problem.EndOfRecording(first);
-      const LugreRun<L, double> run(problem.motion, first, end, p, loads[recording++]);
+      const LugreRun<L, double> run(problem.motion, first, end, p, fit.loads[recording++]);
       torque.segment(first, end - first) +=
           Eigen::Map<const Eigen::VectorXd>(run.force.data(), end - first);
     }

@@ -61,8 +61,7 @@ struct LugreFit {
 /// Minimises the sum of squares from a start by Levenberg-Marquardt.
 LugreFit RefineLugre(const LugreProblem& problem, const FitPoint& start);
 
-/// F + M a at x over all samples of a problem whose recordings begin with `loads`. [N] N.m or N
-Eigen::VectorXd LugreTorque(const LugreProblem& problem, const FitPoint& point,
-                            const std::vector<double>& loads);
+/// F + M a of a fit over all samples of a problem, whose recordings begin with its loads. [N] N.m or N
+Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugreFit& fit);
 
 }  // namespace warmjoint

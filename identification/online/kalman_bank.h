@@ -148,11 +148,10 @@ struct KalmanBank {
 /// Where a bank begins.
 template <int D>
 struct KalmanPrior {
-  KalmanState<D> state;     // of (p, k, ln tau, E); ln tau is set for each member
-  double shortest = 0;      // s, range of time constants; all are taken for equally likely
-  double longest = 0;       // s
-  double noise = 0;         // a guess of the torque's noise, (N.m)^2 or N^2
-  double confidence = 100;  // samples that this guess counts as
+  KalmanState<D> state;  // of (p, k, ln tau, E); ln tau is set for each member
+  double shortest = 0;   // s, range of time constants; all are taken for equally likely
+  double longest = 0;    // s
+  double noise = 0;      // a guess of the torque's noise, (N.m)^2 or N^2
 };
 
 /// Distance of neighbours in ln tau.
@@ -166,7 +165,7 @@ KalmanBank<D> MakeBank(const KalmanPrior<D>& prior) {
   constexpr double kOverlap = 0.6;  // deviation over spacing; why 0.6: their sum is flat to 1 %
   KalmanBank<D> bank;
   bank.noise = prior.noise;
-  bank.count = prior.confidence;
+  bank.count = 100;  // samples that this guess counts as
   bank.log_weight.fill(0);
   bank.members.fill(prior.state);
   const Eigen::Index at = prior.state.layout().log_time_constant();

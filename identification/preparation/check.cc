@@ -26,15 +26,14 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
 
   // steps within the recording show the jitter; longer ones are gaps
   double squares = 0;
-  for (const SampleRange& piece : PiecesOf(time)) {
-    for (Index i = piece.first + 1; i < piece.end(); ++i) {
-      const double off = time[i] - time[i - 1] - step;
+  for (Index i = 1; i < n; ++i) {
+    const double length = time[i] - time[i - 1], off = length - step;
+    if (length > kGapSteps * step) {
+      ++check.gaps;
+      check.longest_gap = std::max(check.longest_gap, length);
+    } else {
       squares += off * off;
     }
-  }
-  for (const LogGap& gap : GapsOf(time)) {
-    ++check.gaps;
-    check.longest_gap = std::max(check.longest_gap, gap.length);
   }
   // jitter in steps: root mean square of what a step differs from the median one
   const auto steps = static_cast<double>(std::max<Index>(n - 1 - check.gaps, 1));
@@ -44,15 +43,13 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
 
 /// Segments in groups of one speed: a group ends where the next speed is 5 % further on.
 std::vector<SpeedLevel> Levels(std::vector<Segment> segments) {
-  std::sort(segments.begin(), segments.end(),
-            [](const Segment& a, const Segment& b) { return a.velocity < b.velocity; });
+  std::ranges::sort(segments, {}, &Segment::velocity);
   std::vector<SpeedLevel> levels;
   double first = 0;  // slowest of the group
   for (const Segment& segment : segments) {
     const Index samples = segment.end - segment.begin;
-    const bool is_new = levels.empty() || segment.velocity - first > 0.05 * std::abs(first);
     // a new level begins where the speed has grown by 5 %
-    if (is_new) {
+    if (levels.empty() || segment.velocity - first > 0.05 * std::abs(first)) {
       levels.push_back({0, 0, 0});
       first = segment.velocity;
     }

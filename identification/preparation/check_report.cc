@@ -56,8 +56,8 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
   }
   // the slowest first
   if (sign < 0) {
-    std::reverse(speeds.begin(), speeds.end());
-    std::reverse(parts.begin(), parts.end());
+    std::ranges::reverse(speeds);
+    std::ranges::reverse(parts);
   }
 
   // as many words as there are speeds

@@ -120,11 +120,6 @@ double RmsOf(const Scale& scale, const SampleMask& moving, double noise) {
   return std::sqrt(std::max(0.0, mean - noise * noise));
 }
 
-Series SeriesOf(const Measurements& m, MotionSource source) {
-  if (source == MotionSource::velocity) return {m.velocity, 1, NoiseOfVelocity(m.velocity)};
-  return {m.position, 2, MeasurePositionNoise(m.position).deviation};
-}
-
 /// How much the acceleration differs from one side of each sample to the other; 0 where it is not known. [N]
 VectorXd ChangesOf(const LocalMotion& motion, const std::vector<SampleRange>& pieces) {
   VectorXd changes = VectorXd::Zero(motion.acceleration.size());
@@ -180,7 +175,9 @@ double NoiseOfVelocity(const VectorXd& velocity) {
 
 LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>& pieces,
                           MotionSource source) {
-  const Series series = SeriesOf(m, source);
+  const Series series = source == MotionSource::velocity
+                            ? Series{m.velocity, 1, NoiseOfVelocity(m.velocity)}
+                            : Series{m.position, 2, MeasurePositionNoise(m.position).deviation};
   const SampleMask moving = InMotion(m.velocity);
 
   // wider windows until noise no longer matters

@@ -28,7 +28,7 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
                                                    const Selection& selection);
 
 /// Positions that jump back by one and the same way, more than half of their range: those of a
-/// sensor that starts again after a range of its own (turns are undone while reading, UnwrapTurns). Two
+/// sensor that starts again after a range of its own (turns are undone while reading, UndoJumps). Two
 /// jumps are needed, equal to 1 %, each more than four times what the speed beside it allows.
 std::optional<std::string> WrappedPosition(const Measurements& measurements,
                                            const Selection& selection);

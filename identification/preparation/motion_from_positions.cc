@@ -24,11 +24,6 @@ constexpr double kAtSample = 1e-6;  // of a step: nearer to a sample is at it
 
 // DeriveVelocity: the smoothed slope.
 
-double SamplingRate(const VectorXd& time) {
-  const Index n = time.size();
-  return static_cast<double>(n - 1) / (time[n - 1] - time[0]);
-}
-
 /// Central differences, one-sided at the ends.
 VectorXd Differences(const VectorXd& time, const VectorXd& x) {
   const Index n = x.size();
@@ -60,7 +55,7 @@ VectorXd DerivePiece(const VectorXd& time, const VectorXd& position, double cuto
     const double moved = position[n - 1] - position[0];
     return VectorXd::Constant(n, n == 1 ? 0 : moved / (time[1] - time[0]));
   }
-  const double rate = SamplingRate(time);
+  const double rate = static_cast<double>(n - 1) / (time[n - 1] - time[0]);
   // a cutoff near half the rate filters nothing
   if (cutoff > 0.4 * rate) return Differences(time, position);
 
@@ -151,13 +146,15 @@ class MotionBuilder {
   MotionBuilder(const Measurements& log, PositionPlateaus found)
       : time_(log.time),
         position_(log.position),
-        count_(log.size()),
         found_(std::move(found)),
         velocity_(log.velocity) {
-    for (const Plateau& plateau : found_.plateaus) TakeSpeed(plateau);
-    FollowBefore();
-    for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) FollowTransition(i);
-    FollowBehind();
+    const std::vector<Plateau>& plateaus = found_.plateaus;
+    for (const Plateau& plateau : plateaus) TakeSpeed(plateau);
+    // before, between and behind the plateaus; or along all of a log that has none
+    const Index last = time_.size() - 1;
+    FollowSamples(0, plateaus.empty() ? last : plateaus.front().begin);
+    for (size_t i = 0; i + 1 < plateaus.size(); ++i) FollowTransition(i);
+    FollowSamples(plateaus.empty() ? last : plateaus.back().end, last);
   }
 
   FilledLog Fill(Measurements log) && {
@@ -188,22 +185,11 @@ class MotionBuilder {
   /// The transition from plateau i to the next.
   void FollowTransition(size_t i) {
     const Index last = found_.plateaus[i + 1].begin;
-    if (found_.plateaus[i].end == found_.plateaus[i].begin || last >= count_) return;
+    if (found_.plateaus[i].end == found_.plateaus[i].begin || last >= time_.size()) return;
     if (found_.changes[i]) {
       FollowChange(*found_.changes[i], found_.plateaus[i].end - 1, last);
     } else {
       FollowSamples(found_.plateaus[i].end, last);
-    }
-  }
-
-  void FollowBefore() {
-    if (found_.plateaus.empty()) return FollowSamples(0, count_ - 1);
-    if (found_.plateaus.front().begin > 0) FollowSamples(0, found_.plateaus.front().begin);
-  }
-
-  void FollowBehind() {
-    if (!found_.plateaus.empty() && found_.plateaus.back().end < count_) {
-      FollowSamples(found_.plateaus.back().end, count_ - 1);
     }
   }
 
@@ -273,7 +259,6 @@ class MotionBuilder {
 
   const VectorXd& time_;      // [N] s
   const VectorXd& position_;  // [N] rad or m
-  Index count_;               // N
   PositionPlateaus found_;
   VectorXd velocity_;  // [N] rad/s or m/s
   std::vector<InsertedSample> inserted_;

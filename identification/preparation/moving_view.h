@@ -5,8 +5,6 @@
 
 #include <vector>
 
-#include "models/recording/measurements.h"
-
 namespace warmjoint {
 
 /// The speed from which on a sample moves clearly: 5 % of the velocity's root mean square, above its

@@ -33,7 +33,7 @@ double StepOfPosition(const VectorXd& position) {
   const Index n = position.size() - 1;
   if (n < 1) return 0;
   VectorXd steps = (position.tail(n) - position.head(n)).cwiseAbs();
-  std::sort(steps.begin(), steps.end());
+  std::ranges::sort(steps);
   // what is not the rounding of numbers, the smallest first
   const double rounding = kLastBits * position.cwiseAbs().maxCoeff();
   const double* const end = steps.data() + n;

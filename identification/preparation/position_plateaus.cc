@@ -61,8 +61,7 @@ void ShareAcceleration(const Eigen::VectorXd& time,
 /// Finds plateaus in one recording.
 class PlateauSearch {
  public:
-  PlateauSearch(const Measurements& log, const ConstantSpeed& given)
-      : time_(log.time), count_(log.size()) {
+  PlateauSearch(const Measurements& log, const ConstantSpeed& given) : time_(log.time) {
     const auto [steps, step] = FromFirst(log.position);
     found_.position = step * steps;
     found_.keep = given.selection.keep;
@@ -116,7 +115,7 @@ class PlateauSearch {
   /// Joins neighbours whose samples, and those between them, lie on one line: a velocity that was
   /// smoothed from counts rings, so that the choice by velocity may have cut one speed to pieces.
   void JoinFragments() {
-    const SampleMask all = SampleMask::Constant(count_, true);
+    const SampleMask all = SampleMask::Constant(time_.size(), true);
     std::vector<Plateau> joined;
     for (const Plateau& next : found_.plateaus) {
       if (joined.empty() || !LieOnOneLine(joined.back(), next, all)) {
@@ -186,7 +185,7 @@ class PlateauSearch {
     const Index count = std::min(std::max(share, kFewestOfEnd), std::max<Index>(most, 2));
     const Index from = behind ? last - count + 1 : first;
     auto line = FitStraightLine(time_, found_.position, from, from + count - 1,
-                                SampleMask::Constant(count_, true));
+                                SampleMask::Constant(time_.size(), true));
     if (line) line->deviation = std::max(line->deviation, found_.noise.deviation);
     return line;
   }
@@ -238,7 +237,8 @@ class PlateauSearch {
       const Index lowest = PieceAt(found_.pieces, plateau.begin).first;
       const Index highest = PieceAt(found_.pieces, plateau.end - 1).end();
       const Index before = i > 0 ? found_.plateaus[i - 1].end : 0;
-      const Index behind = i + 1 < found_.plateaus.size() ? found_.plateaus[i + 1].begin : count_;
+      const Index behind =
+          i + 1 < found_.plateaus.size() ? found_.plateaus[i + 1].begin : time_.size();
       const auto is_on = [&](Index n) { return IsOn(*plateau.line, n); };
       Index begin = plateau.begin, end = plateau.end;
       while (begin > std::max(lowest, before) && is_on(begin - 1)) --begin;
@@ -272,13 +272,12 @@ class PlateauSearch {
     for (size_t i = 0; i < found_.plateaus.size(); ++i) {
       Plateau& plateau = found_.plateaus[i];
       const bool is_followed =
-          i < found_.changes.size() ? !found_.changes[i] : plateau.end < count_;
+          i < found_.changes.size() ? !found_.changes[i] : plateau.end < time_.size();
       if (is_followed && plateau.end - plateau.begin > 1) found_.keep[--plateau.end] = false;
     }
   }
 
   const VectorXd& time_;  // [N] s
-  Index count_;           // N
   PositionPlateaus found_;
 };
 

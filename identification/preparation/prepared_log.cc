@@ -1,9 +1,9 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "identification/preparation/log_faults.h"
@@ -43,10 +43,6 @@ std::vector<std::string> Named(const std::string& source, std::vector<std::strin
   return sentences;
 }
 
-void Append(const std::vector<std::string>& more, std::vector<std::string>& sentences) {
-  sentences.insert(sentences.end(), more.begin(), more.end());
-}
-
 template <typename Column>
 void Append(const Column& more, Column& column) {
   const Index n = column.size();
@@ -71,7 +67,7 @@ void Append(const LogView& next, double step, LogView& stack) {
   all.further_starts.push_back(n);
   for (const Index one : more.put_in) all.put_in.push_back(one + n);
   all.source += " + " + more.source;
-  Append(Named(more.source, more.notes), all.notes);
+  std::ranges::move(Named(more.source, more.notes), std::back_inserter(all.notes));
   // the columns; one that may be absent is gone where either lacks it
   Append<Eigen::VectorXd>(more.time.array() - more.time[0] + all.time[n - 1] + step, all.time);
   Append(more.position, all.position);
@@ -185,7 +181,7 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
     for (const auto& [sentence, is_absurd] : one.log_->faults) {
       all.faults.push_back({fmt::format("{}: {}", m.source, sentence), is_absurd});
     }
-    Append(Named(m.source, one.warnings()), all.warnings);
+    std::ranges::move(Named(m.source, one.warnings()), std::back_inserter(all.warnings));
     if (one.absurd()) {
       all.absurd = fmt::format("{}{}{}: {}", all.absurd.value_or(""), all.absurd ? "; " : "",
                                m.source, *one.absurd());

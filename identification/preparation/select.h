@@ -1,7 +1,6 @@
 // Which samples obey Eq. (6): constant speed, so that torque = gravity + friction.
 #pragma once
 
-#include <warmjoint/field.h>
 #include <warmjoint/recording.h>
 
 namespace warmjoint {

@@ -20,15 +20,6 @@ constexpr int kGolden = 40;
 // why: with the margin alone 1 to 4 samples a log of the wrong sign stay
 constexpr double kOfTheChange = 0.1;  // of its duration, beside the margin
 
-/// Sum of the squares of the positions around a change of that duration.
-double Squares(const VectorXd& time, const VectorXd& position, SpeedChange change, double duration,
-               Index first, Index last) {
-  change.duration = duration;
-  double squares = 0;
-  for (Index i = first; i <= last; ++i) squares += std::pow(position[i] - change.At(time[i]), 2);
-  return squares;
-}
-
 /// The minimum of squares(D) between two durations, one of which may be 0.
 template <typename Function>
 double GoldenSection(double low, double high, const Function& squares) {
@@ -51,11 +42,16 @@ double GoldenSection(double low, double high, const Function& squares) {
 /// The duration of least squares, 0 where a jump explains the positions as well.
 double FindDuration(const VectorXd& time, const VectorXd& position, const SpeedChange& jump,
                     Index first, Index last, double deviation) {
+  // of the positions around a change of that duration
+  const auto squares = [&](double duration) {
+    SpeedChange change = jump;
+    change.duration = duration;
+    double sum = 0;
+    for (Index i = first; i <= last; ++i) sum += std::pow(position[i] - change.At(time[i]), 2);
+    return sum;
+  };
   // the best duration of an even grid, then the minimum around it
   const double longest = 2 * std::min(jump.time - time[first], time[last] - jump.time);
-  const auto squares = [&](double duration) {
-    return Squares(time, position, jump, duration, first, last);
-  };
   const double at_jump = squares(0);
   double best = 0, least = at_jump;
   for (int i = 1; i <= kGrid; ++i) {

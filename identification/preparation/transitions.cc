@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
@@ -128,8 +127,8 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
 
   // where the samples that were taken stand now
   const auto moved = [&](Index n) {
-    const auto before = [](const InsertedSample& one, Index sample) { return one.after < sample; };
-    return n + (std::lower_bound(inserted.begin(), inserted.end(), n, before) - inserted.begin());
+    const auto behind = std::ranges::lower_bound(inserted, n, {}, &InsertedSample::after);
+    return n + (behind - inserted.begin());
   };
   for (Segment& segment : selection.segments) {
     segment.begin = moved(segment.begin);

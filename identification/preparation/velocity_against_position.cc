@@ -83,7 +83,8 @@ std::vector<Stretch> InARow(const std::vector<Stretch>& stretches, const SampleM
   for (size_t begin = 0, end = 0; begin < stretches.size(); begin = end + 1) {
     for (end = begin; end < stretches.size() && is_other[static_cast<Index>(end)];) ++end;
     if (end < begin + kRow) continue;
-    rows.insert(rows.end(), &stretches[begin], &stretches[end]);
+    const auto first = stretches.begin();
+    rows.insert(rows.end(), first + static_cast<Index>(begin), first + static_cast<Index>(end));
   }
   return rows;
 }

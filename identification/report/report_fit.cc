@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "identification/fit.h"
@@ -19,18 +18,19 @@
 #include "identification/preparation/check.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/along_motion.h"
 #include "models/friction/sign.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
 namespace {
 
-/// Some figures of a friction and the start of its log. [q]
-using FiguresOf =
-    std::function<Eigen::VectorXd(const Friction& friction, const ThermalStart& start)>;
+/// E of both stages at the end of a log, along its motion. N.m or N
+Eigen::Vector2d EndAlong(const LogSamples& m, const Friction& friction, const ThermalStart& start) {
+  const FrictionState end = PredictFriction(friction, m, start).end;
+  return {end.energy, end.second_energy};
+}
 
-/// Their errors.
+/// Errors of figures.
 struct FigureErrors {
   Eigen::MatrixXd covariance;  // [q x q] by noise
   Eigen::VectorXd widened;  // [q] how much farther their intervals reach by what the verdict found
@@ -78,13 +78,12 @@ double ValueByCoordinate(const FitParameter& row, double value) {
   return row.coordinate == Coordinate::logarithm ? value : 1;
 }
 
-/// Slopes of the figures over the parameters of law, heat, start and jumps, each in its coordinate, by central
-/// differences of a standard deviation; 0 over all others. [q x p]
+/// Slopes of EndAlong over the parameters of law, heat, start and jumps, each in its coordinate, by central
+/// differences of a standard deviation; 0 over all others. [2 x p]
 Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
-                                    const Friction& friction, const FiguresOf& figures) {
+                                    const Friction& friction, const LogSamples& m) {
   const Uncertainty& known = inference.known;
-  const Eigen::Index q = figures(friction, fit.Start()).size();
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(q, known.covariance.rows());
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, known.covariance.rows());
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
     const FitParameter& row = fit.parameters[at.row];
     const double value = inference.parameters[at.row].value;
@@ -95,13 +94,13 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
     const bool keeps_its_sign = row.role == Role::law || row.role == Role::heat;
     if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
 
-    // the figures on both sides
+    // E on both sides
     Friction above = friction, below = friction;
     ThermalStart above_start = fit.Start(), below_start = fit.Start();
     Set(row, at.jump, value + step, above, above_start);
     Set(row, at.jump, value - step, below, below_start);
     slopes.col(at.column) =
-        (figures(above, above_start) - figures(below, below_start)) / (2 * deviation);
+        (EndAlong(m, above, above_start) - EndAlong(m, below, below_start)) / (2 * deviation);
   }
   return slopes;
 }
@@ -125,14 +124,6 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
   return errors;
 }
 
-/// Whether the friction that is reported is the fitted one: a verdict may have moved parameters.
-bool IsAsFitted(const Fit& fit, const Inference& inference) {
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    if (inference.parameters[i].value != fit.parameters[i].value) return false;
-  }
-  return true;
-}
-
 /// Place of a row of the table among the estimated ones.
 Eigen::Index ColumnOf(const Fit& fit, size_t row) {
   Eigen::Index column = 0;
@@ -143,11 +134,8 @@ Eigen::Index ColumnOf(const Fit& fit, size_t row) {
 /// Covariance of (k, ln tau).
 Eigen::Matrix2d HeatCovariance(const Fit& fit, const Inference& inference, size_t gain,
                                size_t tau) {
-  const Eigen::Index k = ColumnOf(fit, gain), l = ColumnOf(fit, tau);
-  const Eigen::MatrixXd& all = inference.known.covariance;
-  Eigen::Matrix2d covariance;
-  covariance << all(k, k), all(k, l), all(l, k), all(l, l);
-  return covariance;
+  const std::array<Eigen::Index, 2> rows{ColumnOf(fit, gain), ColumnOf(fit, tau)};
+  return inference.known.covariance(rows, rows);
 }
 
 void Move(double shift, double widened, EstimatedParameter& parameter) {
@@ -190,8 +178,8 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   }
 
   // what the verdict moved
-  const DiscreteThermal moved = Discretise({known_gain.value, known_tau.value}, h);
   const Thermal now{known_gain.value, known_tau.value};
+  const DiscreteThermal moved = Discretise(now, h);
   // dte/dtau = te h/tau^2 carries what widened tau to te
   const double pole_reach = moved.pole * h / std::pow(now.time_constant, 2) * known_tau.widened;
   Move(moved.pole - discrete.pole, pole_reach, pole);
@@ -239,20 +227,14 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   ParameterCovariance of;
   std::vector<Eigen::Index> columns;
   std::vector<double> slopes;  // of the value by its coordinate
-  Eigen::Index column = 0;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
-    if (!row.estimated) continue;
-    // a value of which the logarithm was fitted moves by its own size
-    if (!row.name.empty() && inference.parameters[i].interval95) {
-      of.parameters.push_back(row.name);
-      columns.push_back(column);
-      slopes.push_back(row.coordinate == Coordinate::logarithm ? row.value : 1);
-    }
-    ++column;
+    if (!row.estimated || row.name.empty() || !inference.parameters[i].interval95) continue;
+    of.parameters.push_back(row.name);
+    columns.push_back(ColumnOf(fit, i));
+    slopes.push_back(ValueByCoordinate(row, row.value));
   }
-  const Eigen::Map<const Eigen::VectorXd> slope(slopes.data(),
-                                                static_cast<Eigen::Index>(slopes.size()));
+  const Eigen::Map<const Eigen::VectorXd> slope(slopes.data(), std::ssize(slopes));
   of.matrix =
       slope.asDiagonal() * inference.known.covariance(columns, columns).eval() * slope.asDiagonal();
   return of;
@@ -316,20 +298,19 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   if (!friction.thermal) return {};
 
   // E of both stages at the end of the log: by the fit's own recursion, or along the motion
-  const auto end_of = [&](const Friction& one, const ThermalStart& start) {
-    const FrictionState end = AlongMotion(one).Predict(TrajectoryOf(m), start).end;
-    return Eigen::VectorXd(Eigen::Vector2d(end.energy, end.second_energy));
-  };
-  Eigen::VectorXd end;
+  Eigen::Vector2d end;
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.known.covariance.rows());
   if (fit.end_energy) {
     const EndEnergy own = fit.end_energy();
-    end = Eigen::Vector2d(own.value, 0);
+    end = {own.value, 0};
     slopes.row(0).head(own.slopes.size()) = own.slopes;
   } else {
-    slopes = SlopesByDifferences(fit, inference, friction, end_of);
+    slopes = SlopesByDifferences(fit, inference, friction, m);
   }
-  if (!fit.end_energy || !IsAsFitted(fit, inference)) end = end_of(friction, fit.Start());
+  // a verdict may have moved parameters
+  const bool is_as_fitted = std::ranges::equal(inference.parameters, fit.parameters, {},
+                                               &ParameterInterval::value, &FitParameter::value);
+  if (!fit.end_energy || !is_as_fitted) end = EndAlong(m, friction, fit.Start());
   const FigureErrors errors = ErrorsBySlopes(fit, inference, slopes);
 
   // when, and a row for each stage

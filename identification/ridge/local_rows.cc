@@ -14,60 +14,6 @@ namespace warmjoint {
 
 namespace {
 
-using Eigen::Index;
-
-constexpr Index kMostValues = 1 << 24;  // 128 MiB, if every kernel counted at every sample
-
-}  // namespace
-
-KernelRows::KernelRows(const std::vector<FrictionMap>& maps, const MapPoints& points, Index spans)
-    : samples_(points.rows()), kernels_(KernelCount(maps)) {
-  for (Index i = 0; i < spans; ++i) {
-    groups_.push_back(GroupRows(maps, points, i * samples_ / spans, (i + 1) * samples_ / spans));
-  }
-}
-
-bool KernelRows::Fit(const std::vector<FrictionMap>& maps, Index samples) {
-  return samples * KernelCount(maps) <= kMostValues;
-}
-
-std::shared_ptr<const KernelRows> KernelRows::Kept(const std::vector<FrictionMap>& maps,
-                                                   const MapPoints& points, Index spans) {
-  if (!Fit(maps, points.rows())) return nullptr;
-  return std::make_shared<const KernelRows>(maps, points, spans);
-}
-
-NormalEquations KernelRows::Normal(Index span, const Eigen::MatrixXd& free,
-                                   const Eigen::VectorXd& y) const {
-  NormalEquations normal(free.cols() + kernels_);
-  AddGroups(groups_[static_cast<size_t>(span)], free, y, normal);
-  return normal;
-}
-
-NormalEquations KernelRows::Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const {
-  NormalEquations normal(free.cols() + kernels_);
-  for (const std::vector<RowGroup>& span : groups_) AddGroups(span, free, y, normal);
-  return normal;
-}
-
-Eigen::MatrixXd KernelRows::Products(const Eigen::Ref<const Eigen::MatrixXd>& y) const {
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(kernels_, y.cols());
-  for (const std::vector<RowGroup>& span : groups_) AddProducts(span, y, products);
-  return products;
-}
-
-Eigen::VectorXd KernelRows::Times(const Eigen::VectorXd& weights) const {
-  Eigen::VectorXd values(samples_);
-  for (const std::vector<RowGroup>& span : groups_) {
-    for (const RowGroup& group : span) {
-      values(group.samples) = group.values * weights(group.kernels);
-    }
-  }
-  return values;
-}
-
-namespace {
-
 /// The kernels of one axis that count: neighbours, on a circle across its end.
 struct Window {
   std::uint16_t first = 0;
@@ -354,10 +300,11 @@ Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoin
 
 namespace {
 
-constexpr Eigen::Index kChunk = 16384;  // samples whose rows are held at once
+constexpr Eigen::Index kChunk = 16384;         // samples whose rows are held at once
+constexpr Eigen::Index kMostValues = 1 << 24;  // 128 MiB, if every kernel counted at every sample
 
-}  // namespace
-
+/// Adds the rows [free columns, kernels] of the groups. free: [N x p]; y: [N]; both over the
+/// points' rows. normal: of size p + kernels.
 void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
                const Eigen::VectorXd& y, NormalEquations& normal) {
   const Eigen::Index p = free.cols();
@@ -388,16 +335,7 @@ void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
   normal.gram.triangularView<Eigen::StrictlyUpper>() = normal.gram.transpose();
 }
 
-NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoints& points,
-                            const Eigen::MatrixXd& free, const Eigen::VectorXd& y,
-                            Eigen::Index first, Eigen::Index last) {
-  NormalEquations normal(free.cols() + KernelCount(maps));
-  for (Eigen::Index begin = first; begin < last; begin += kChunk) {
-    AddGroups(GroupRows(maps, points, begin, std::min(last, begin + kChunk)), free, y, normal);
-  }
-  return normal;
-}
-
+/// Adds the products of the groups' rows with each y. y: [N x k] over the points' rows; products: [kernels x k]
 void AddProducts(const std::vector<RowGroup>& groups, const Eigen::Ref<const Eigen::MatrixXd>& y,
                  Eigen::MatrixXd& products) {
   const bool one = y.cols() == 1;
@@ -409,6 +347,18 @@ void AddProducts(const std::vector<RowGroup>& groups, const Eigen::Ref<const Eig
           group.values.transpose() * y(group.samples, Eigen::all);
     }
   }
+}
+
+}  // namespace
+
+NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                            const Eigen::MatrixXd& free, const Eigen::VectorXd& y,
+                            Eigen::Index first, Eigen::Index last) {
+  NormalEquations normal(free.cols() + KernelCount(maps));
+  for (Eigen::Index begin = first; begin < last; begin += kChunk) {
+    AddGroups(GroupRows(maps, points, begin, std::min(last, begin + kChunk)), free, y, normal);
+  }
+  return normal;
 }
 
 Eigen::MatrixXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
@@ -447,6 +397,49 @@ double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& f
     squares += (residual / (1 - leverage)).square().sum();
   }
   return squares / static_cast<double>(normal.rows);
+}
+
+KernelRows::KernelRows(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                       Eigen::Index spans)
+    : samples_(points.rows()), kernels_(KernelCount(maps)) {
+  for (Eigen::Index i = 0; i < spans; ++i) {
+    groups_.push_back(GroupRows(maps, points, i * samples_ / spans, (i + 1) * samples_ / spans));
+  }
+}
+
+std::shared_ptr<const KernelRows> KernelRows::Kept(const std::vector<FrictionMap>& maps,
+                                                   const MapPoints& points, Eigen::Index spans) {
+  if (points.rows() * KernelCount(maps) > kMostValues) return nullptr;
+  return std::make_shared<const KernelRows>(maps, points, spans);
+}
+
+NormalEquations KernelRows::Normal(Eigen::Index span, const Eigen::MatrixXd& free,
+                                   const Eigen::VectorXd& y) const {
+  NormalEquations normal(free.cols() + kernels_);
+  AddGroups(groups_[static_cast<size_t>(span)], free, y, normal);
+  return normal;
+}
+
+NormalEquations KernelRows::Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const {
+  NormalEquations normal(free.cols() + kernels_);
+  for (const std::vector<RowGroup>& span : groups_) AddGroups(span, free, y, normal);
+  return normal;
+}
+
+Eigen::MatrixXd KernelRows::Products(const Eigen::Ref<const Eigen::MatrixXd>& y) const {
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(kernels_, y.cols());
+  for (const std::vector<RowGroup>& span : groups_) AddProducts(span, y, products);
+  return products;
+}
+
+Eigen::VectorXd KernelRows::Times(const Eigen::VectorXd& weights) const {
+  Eigen::VectorXd values(samples_);
+  for (const std::vector<RowGroup>& span : groups_) {
+    for (const RowGroup& group : span) {
+      values(group.samples) = group.values * weights(group.kernels);
+    }
+  }
+  return values;
 }
 
 }  // namespace warmjoint

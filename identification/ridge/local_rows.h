@@ -33,20 +33,11 @@ std::vector<RowGroup> GroupRows(const std::vector<FrictionMap>& maps, const MapP
 Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoints& points,
                              Eigen::Index first, Eigen::Index last);
 
-/// Adds the rows [free columns, kernels] of the groups. free: [N x p]; y: [N]; both over the
-/// points' rows. normal: of size p + kernels.
-void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
-               const Eigen::VectorXd& y, NormalEquations& normal);
-
-/// Normal equations of the samples first <= i < last, in chunks, so that the memory that it needs
+/// Normal equations of the rows [free columns, kernels] of the samples first <= i < last, in chunks, so that the memory that it needs
 /// does not grow with their number.
 NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoints& points,
                             const Eigen::MatrixXd& free, const Eigen::VectorXd& y,
                             Eigen::Index first, Eigen::Index last);
-
-/// Adds the products of the groups' rows with each y. y: [N x k] over the points' rows; products: [kernels x k]
-void AddProducts(const std::vector<RowGroup>& groups, const Eigen::Ref<const Eigen::MatrixXd>& y,
-                 Eigen::MatrixXd& products);
 
 /// Of the kernels of all samples with each y, in chunks. y: [n x k]; returns [kernels x k].
 Eigen::MatrixXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
@@ -62,9 +53,6 @@ class KernelRows {
  public:
   /// maps: their weights are not read; points: [n x 5]; spans: at least 1.
   KernelRows(const std::vector<FrictionMap>& maps, const MapPoints& points, Eigen::Index spans);
-
-  /// Whether so many samples' rows are small enough to be kept.
-  static bool Fit(const std::vector<FrictionMap>& maps, Eigen::Index samples);
 
   /// Rows to keep for several fits; null where they are too many.
   static std::shared_ptr<const KernelRows> Kept(const std::vector<FrictionMap>& maps,

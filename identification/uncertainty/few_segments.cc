@@ -25,13 +25,9 @@ constexpr int kHalvings = 30;      // of the range of its logarithm
 constexpr double kPrecise = 1e-7;  // of the integral for the coverage
 constexpr unsigned kDepth = 12;
 
-/// Kept rows of one segment.
-struct Rows {
-  Index first = 0, count = 0;
-};
-
-std::vector<Rows> RowsOfSegments(const Selection& selection) {
-  std::vector<Rows> all;
+/// Of each segment its rows among those of all kept samples.
+std::vector<SampleRange> RowsOfSegments(const Selection& selection) {
+  std::vector<SampleRange> all;
   Index sample = 0, row = 0;
   for (const Segment& segment : selection.segments) {
     // rows of the samples in front of the segment, then its own
@@ -121,7 +117,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
   const Index p = cofactor.rows();
   MatrixXd scatter = MatrixXd::Zero(p, p);
   std::vector<Share> shares;
-  for (const Rows& rows : RowsOfSegments(selection)) {
+  for (const SampleRange& rows : RowsOfSegments(selection)) {
     shares.push_back(ShareOf(X.middleRows(rows.first, rows.count), cofactor,
                              residual.segment(rows.first, rows.count)));
     scatter += shares.back().score * shares.back().score.transpose();

@@ -219,10 +219,8 @@ Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A
   return ScatterThrough(noise, rows, A.cols(), selection);
 }
 
-Eigen::MatrixXd ScatterThrough(
-    const NoiseModel& noise,
-    const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
-    Eigen::Index d, const Selection& selection) {
+Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const RowsBetween& rows, Eigen::Index d,
+                               const Selection& selection) {
   // R = innovation M^-1 M^-T with M e = w, so that A^T R A = innovation Z^T Z, M^T Z = A;
   // Z is filled backwards in time, a block of rows after the last p of the block before it
   const Eigen::Index p = noise.order();

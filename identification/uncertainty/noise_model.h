@@ -44,11 +44,11 @@ bool IsSurelyColoured(const NoiseModel& noise, Eigen::Index n);
 Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A,
                                const Selection& selection);
 
-/// The same for an A too large to hold, of coloured noise. rows(first, last): its rows
-/// first <= i < last of the kept samples, [last - first x d].
-Eigen::MatrixXd ScatterThrough(
-    const NoiseModel& noise,
-    const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
-    Eigen::Index d, const Selection& selection);
+/// Of a matrix too large to hold its rows first <= i < last of the kept samples, [last - first x d].
+using RowsBetween = std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>;
+
+/// The same for such an A, of coloured noise. rows: of A.
+Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const RowsBetween& rows, Eigen::Index d,
+                               const Selection& selection);
 
 }  // namespace warmjoint

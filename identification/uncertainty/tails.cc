@@ -14,8 +14,6 @@ namespace {
 // double throughout: tails are good to some 1e-13 of themselves, and the same with every compiler
 using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 // of ReachBeyondEnds; why: the normal quantiles of 95 and 97.5 %, rounded outwards
 constexpr double kLeastReach = 1.64, kMostReach = 1.96;
 constexpr int kHalvings = 40;  // why: to the last digit
@@ -26,7 +24,7 @@ double PValueOfNormal(double z) { return std::erfc(std::abs(z) / std::numbers::s
 
 double ZOf(double p) {
   assert(p >= 0 && p <= 1);
-  if (p == 0) return kInfinite;
+  if (p == 0) return std::numeric_limits<double>::infinity();
   return std::numbers::sqrt2 * boost::math::erfc_inv(p, Policy());
 }
 

@@ -51,12 +51,6 @@ Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& k
 
 }  // namespace
 
-Uncertainty EstimateCovariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
-                               const Eigen::VectorXd& residual, const Selection& selection,
-                               const Eigen::VectorXd& fitted, const Eigen::VectorXd& prior) {
-  return EstimateCovariance([&] { return jacobian; }, cofactor, residual, selection, fitted, prior);
-}
-
 Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
                                const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
                                const Selection& selection, const Eigen::VectorXd& fitted,

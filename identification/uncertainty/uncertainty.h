@@ -35,16 +35,10 @@ struct Uncertainty {
 /// n/(n - d) C (sum of r^2 j^T j over the rows j of J) C (HC1, White 1980). Coloured noise is taken
 /// for s(|f|, t) u with a stationary u: s is the line through |r|, R that of u, and J is weighted
 /// by s.
-/// jacobian: [n x d] df/dx over the kept samples; cofactor: C; residual: [n] y - f; fitted: [n] f,
+/// jacobian: [n x d] df/dx over the kept samples, asked for where noise is not white and even; cofactor: C; residual: [n] y - f; fitted: [n] f,
 /// or empty where only time is asked about; prior: [d] what
 /// is known of x beforehand, P = diag(prior): the noise's variance over the variance of each
 /// parameter, or 0. With it C = (J^T J + P)^-1, and P times the noise's variance joins J^T R J.
-Uncertainty EstimateCovariance(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
-                               const Eigen::VectorXd& residual, const Selection& selection,
-                               const Eigen::VectorXd& fitted = {},
-                               const Eigen::VectorXd& prior = {});
-
-/// The same for a Jacobian that is costly to form: called for coloured noise alone.
 Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
                                const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
                                const Selection& selection, const Eigen::VectorXd& fitted = {},

@@ -15,6 +15,23 @@ using Eigen::Index;
 
 constexpr double kSure = 3;                       // deviations; why 3: by chance once in 740
 constexpr double kFewestChanges = kSure * kSure;  // of which all turning is as sure
+constexpr Index kLongestGap = 1000;               // sampling intervals
+
+/// Whether all samples of one recording are kept, less than half a step off an even clock: one place each.
+bool AreNeighbours(const Selection& selection, const LogSamples& m) {
+  const Index n = m.time.size();
+  if (n < 2 || !m.further_starts.empty() || selection.count() != n) return false;
+  const auto steps = m.time.tail(n - 1) - m.time.head(n - 1);
+  return steps.maxCoeff() < 1.5 * steps.minCoeff();
+}
+
+/// The kept samples on an even grid of time: keep[i] where one has the place i.
+Selection OnEvenGrid(const std::vector<Index>& places) {
+  Selection grid;
+  grid.keep.setConstant(places.empty() ? 0 : places.back() + 1, false);
+  for (const Index place : places) grid.keep[place] = true;
+  return grid;
+}
 
 }  // namespace
 
@@ -36,49 +53,14 @@ std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
   return turns - changes / 2 > kSure * std::sqrt(changes) / 2;
 }
 
-namespace {
-
-using Eigen::Index;
-
-constexpr Index kLongestGap = 1000;  // sampling intervals
-
-/// The kept samples. [n]
-std::vector<Index> KeptSamples(const Selection& selection) {
+std::vector<Index> PlacesInTime(const LogSamples& m, const Selection& selection) {
   std::vector<Index> kept;
   for (Index i = 0; i < selection.keep.size(); ++i) {
     if (selection.keep[i]) kept.push_back(i);
   }
-  return kept;
-}
-
-/// The median step between samples that are kept, s.
-double StepOfKept(const std::vector<Index>& kept, const Eigen::VectorXd& time) {
-  Eigen::VectorXd steps(static_cast<Index>(kept.size()) - 1);
-  for (size_t i = 1; i < kept.size(); ++i) {
-    steps[static_cast<Index>(i) - 1] = time[kept[i]] - time[kept[i - 1]];
-  }
-  return MedianInPlace(steps);
-}
-
-Eigen::VectorXd VelocityOf(const std::vector<Index>& kept, const LogSamples& m) {
-  Eigen::VectorXd velocity(static_cast<Index>(kept.size()));
-  for (size_t i = 0; i < kept.size(); ++i) velocity[static_cast<Index>(i)] = m.velocity[kept[i]];
-  return velocity;
-}
-
-/// Whether all samples of one recording are kept, less than half a step off an even clock: one place each.
-bool AreNeighbours(const Selection& selection, const LogSamples& m) {
-  const Index n = m.time.size();
-  if (n < 2 || !m.further_starts.empty() || selection.count() != n) return false;
-  const auto steps = m.time.tail(n - 1) - m.time.head(n - 1);
-  return steps.maxCoeff() < 1.5 * steps.minCoeff();
-}
-
-/// Where kept samples stand on an even grid of their median step, from 0 on. [n]
-std::vector<Index> PlacesOf(const std::vector<Index>& kept, const LogSamples& m) {
   std::vector<Index> places(kept.size(), 0);
   if (kept.size() < 2) return places;
-  const double step = StepOfKept(kept, m.time);
+  const double step = MedianStep(m.time(kept));
   size_t next = 0;
   for (size_t i = 1; i < kept.size(); ++i) {
     // in steps: most samples are one apart; gaps count as the longest distance
@@ -96,19 +78,6 @@ std::vector<Index> PlacesOf(const std::vector<Index>& kept, const LogSamples& m)
     places[i] = places[i - 1] + further;
   }
   return places;
-}
-
-}  // namespace
-
-std::vector<Index> PlacesInTime(const LogSamples& m, const Selection& selection) {
-  return PlacesOf(KeptSamples(selection), m);
-}
-
-Selection OnEvenGrid(const std::vector<Index>& places) {
-  Selection grid;
-  grid.keep.setConstant(places.empty() ? 0 : places.back() + 1, false);
-  for (const Index place : places) grid.keep[place] = true;
-  return grid;
 }
 
 Whitening::Whitening(NoiseModel noise, const std::vector<Index>& places)
@@ -173,12 +142,10 @@ std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
   const bool neighbours = AreNeighbours(selection, measurements);
   if (neighbours && !IsSurelyColoured(FitNoise(residual, selection), residual.size()))
     return nullptr;
-  const std::vector<Index> kept = KeptSamples(selection);
-  const std::vector<Index> places = PlacesOf(kept, measurements);
+  const std::vector<Index> places = PlacesInTime(measurements, selection);
   const NoiseModel noise = FitNoise(residual, OnEvenGrid(places));
   if (!IsSurelyColoured(noise, residual.size())) return nullptr;
-  const Eigen::VectorXd velocity = VelocityOf(kept, measurements);
-  const auto turns = TurnsWithDirection(residual, velocity);
+  const auto turns = TurnsWithDirection(residual, Chosen(measurements.velocity, selection.keep));
   if (!turns || *turns) return nullptr;
   return std::make_shared<const Whitening>(noise, places);
 }

@@ -28,9 +28,6 @@ inline constexpr const char* kWhitened = ", whitened";
 /// or the start of another recording, counts a thousand intervals at most, or exactly. [n]
 std::vector<Eigen::Index> PlacesInTime(const LogSamples& measurements, const Selection& selection);
 
-/// The kept samples on an even grid of time: keep[i] where one has the place i.
-Selection OnEvenGrid(const std::vector<Eigen::Index>& places);
-
 /// W with W R W^T = s^2 I, R the covariance of the noise at the rows and s^2 its innovation: row i
 /// less its best prediction from the rows before, times s over the error of that. Of p rows before,
 /// p the order of the noise (Vecchia 1988): exact where all of them are neighbours, and for AR(1)

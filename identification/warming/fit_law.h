@@ -6,7 +6,6 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
-#include "identification/warming/gaps.h"
 #include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "identification/fit_parameters.h"
@@ -20,8 +20,6 @@ bool RestsOver(const LogSamples& m, Eigen::Index behind) {
   return m.velocity[behind - 1] == 0 && m.velocity[behind] == 0 &&
          m.position[behind - 1] == m.position[behind];
 }
-
-bool IsLonger(const LogGap& a, const LogGap& b) { return a.length > b.length; }
 
 /// Once more from where a fit ended, with what is known of E(0) and the noise that the fit left.
 ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFit& fit) {
@@ -55,7 +53,7 @@ std::vector<LogGap> FindGaps(const LogSamples& measurements) {
   });
   if (gaps.size() <= kMostGaps) return gaps;
   // the longest of them, in order of time
-  std::nth_element(gaps.begin(), gaps.begin() + kMostGaps, gaps.end(), IsLonger);
+  std::ranges::nth_element(gaps, gaps.begin() + kMostGaps, std::greater(), &LogGap::length);
   gaps.resize(kMostGaps);
   std::ranges::sort(gaps, {}, &LogGap::behind);
   return gaps;
@@ -64,7 +62,7 @@ std::vector<LogGap> FindGaps(const LogSamples& measurements) {
 std::vector<LogGap> FurtherStarts(const LogSamples& measurements) {
   std::vector<LogGap> starts;
   for (const Eigen::Index start : measurements.further_starts) {
-    starts.push_back({start, std::numeric_limits<double>::infinity()});
+    starts.push_back({start, kInfinity});
   }
   return starts;
 }
@@ -90,8 +88,7 @@ Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, doub
   Eigen::VectorXd spread(static_cast<Eigen::Index>(gaps.size()));
   for (size_t i = 0; i < gaps.size(); ++i) {
     spread[static_cast<Eigen::Index>(i)] =
-        IsStart(gaps[i]) ? std::numeric_limits<double>::infinity()
-                         : warmest * HoldOver(gaps[i].length, time_constant).cooling;
+        IsStart(gaps[i]) ? kInfinity : warmest * HoldOver(gaps[i].length, time_constant).cooling;
   }
   return spread;
 }

@@ -1,6 +1,5 @@
 #include "identification/warming/law_problem.h"
 
-#include <cmath>
 #include <utility>
 
 #include "identification/fit_data.h"
@@ -40,8 +39,6 @@ LawProblem::LawProblem(const IdentifierInput& input, const LinearTask& task)
                               LossColumns(task.law, input.measurements))),
       level_(loop_.direction().cwiseProduct(input.measurements.torque)),
       offsets_(loop_.direction().asDiagonal() * task.gravity.columns) {}
-
-RowTreatment LawProblem::AsMeasured() const { return {.torque = torque_}; }
 
 ThermalFit LawProblem::FitCold(const RowTreatment& rows) const {
   // the rows as they count
@@ -125,8 +122,8 @@ Eigen::MatrixXd LawProblem::JacobianOf(const ThermalFit& fit) const {
 
 Uncertainty LawProblem::CovarianceOf(const ThermalFit& plain,
                                      const Eigen::VectorXd& residual) const {
-  return EstimateCovariance(Kept(JacobianOf(plain), input_.selection), plain.cofactor, residual,
-                            input_.selection, {}, plain.prior);
+  return EstimateCovariance([&] { return Kept(JacobianOf(plain), input_.selection); },
+                            plain.cofactor, residual, input_.selection, {}, plain.prior);
 }
 
 void LawProblem::TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& spread) {

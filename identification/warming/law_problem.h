@@ -35,7 +35,7 @@ class LawProblem {
   LawProblem(const IdentifierInput& input, const LinearTask& task);
 
   /// The rows as they were measured.
-  RowTreatment AsMeasured() const;
+  RowTreatment AsMeasured() const { return {.torque = torque_}; }
   /// Without heat, by linear least squares. A fit has not converged where the columns cannot be told apart.
   ThermalFit FitCold(const RowTreatment& rows) const;
   /// With heat.

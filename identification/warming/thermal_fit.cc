@@ -34,6 +34,10 @@ Eigen::VectorXd Prior(const ThermalRows& rows) {
   return prior;
 }
 
+/// Columns of [J r] for D law parameters and Q of warming; Dynamic where D is.
+template <int D, int Q>
+constexpr int kColumns = D == Eigen::Dynamic ? Eigen::Dynamic : D + Q + 1;
+
 /// The products of one log's rows with each other, for any x. What is summed over the samples is compiled for each size
 /// of the common laws; all else has its sizes at run time.
 class LogProducts {
@@ -44,26 +48,99 @@ class LogProducts {
         weight_(rows.weight.cwiseSqrt()),
         prior_(Prior(rows)) {}
 
-  const Layout& layout() const { return layout_; }
-
   /// [J r]^T [J r] at x, r = measured - modelled level, over the log's variance. x: [p]; returns [p + 1 x p + 1]
-  Eigen::MatrixXd At(const Eigen::VectorXd& x);
+  Eigen::MatrixXd At(const Eigen::VectorXd& x) {
+    measured_ = rows_.level;
+    if (layout_.rigid.size > 0) measured_ -= rows_.offsets * layout_.rigid.Of(x);
+    Eigen::MatrixXd products = SumProductsOfSize(x);
+
+    // what is known beside the samples: rows sqrt(w) [-1, -b] of unknowns that lie b from what they are known for
+    Eigen::VectorXd off = x;
+    if (layout_.start.size > 0) off[layout_.energy()] -= rows_.initial.mean;
+    const Eigen::Index p = layout_.size();
+    const Eigen::VectorXd pull = prior_.cwiseProduct(off);
+    products.diagonal().head(p) += prior_;
+    products.col(p).head(p) += pull;
+    products.row(p).head(p) += pull;
+    products(p, p) += prior_.dot(off.cwiseAbs2());
+    return products / (rows_.scale * rows_.scale);
+  }
 
  private:
   /// Sums the products over the samples at x. D: law parameters, or Dynamic, which jumps and offsets need; Q: gain,
   /// log(tau) and maybe E(0).
   template <int D, int Q>
-  Eigen::MatrixXd SumProducts(const Eigen::VectorXd& x) const;
-  Eigen::MatrixXd SumProductsOfSize(const Eigen::VectorXd& x) const;
+  Eigen::MatrixXd SumProducts(const Eigen::VectorXd& x) const {
+    const Thermal thermal = layout_.ThermalAt(x);
+    const double initial = Q == 3 ? x[layout_.energy()] : 0;
+    const double* jumps = x.data() + layout_.jumps.begin;
+    // rows of the kept samples along one simulation
+    const auto fill = [&](auto&& next) {
+      WithHolds(rows_.loop.intervals(), thermal, [&](const auto& hold) {
+        RunWithSensitivities<D>(
+            rows_.loop, x.data(), thermal.gain, initial, jumps, hold,
+            [&](Eigen::Index n, double level, const double* g, const double* S) {
+              if (weight_[n] != 0) Fill<D, Q>(n, measured_[n] - level, g, S, next(n));
+            });
+      });
+    };
+    // a transform takes all rows at once; else they are summed as they come
+    if (rows_.transform) return TransformedProducts(fill);
+    RowProducts<kColumns<D, Q>> products(layout_.size() + 1);
+    fill([&](Eigen::Index) { return products.Next(); });
+    return products.Sums();
+  }
+
+  Eigen::MatrixXd SumProductsOfSize(const Eigen::VectorXd& x) const {
+    const auto sum = [&]<int D>() {
+      return layout_.start.size == 0 ? SumProducts<D, 2>(x) : SumProducts<D, 3>(x);
+    };
+    // sizes that the compiler knows, without jumps and offsets; else of any size
+    switch (layout_.jumps.size + layout_.rigid.size == 0 ? layout_.law.size : Eigen::Dynamic) {
+      case 1:
+        return sum.template operator()<1>();
+      case 2:
+        return sum.template operator()<2>();
+      case 3:
+        return sum.template operator()<3>();
+      default:
+        return sum.template operator()<Eigen::Dynamic>();
+    }
+  }
 
   /// The products of the mapped rows. The map is one of torque: rows of the level change
   /// their sign with the direction.
   template <typename FillRows>
-  Eigen::MatrixXd TransformedProducts(const FillRows& fill) const;
+  Eigen::MatrixXd TransformedProducts(const FillRows& fill) const {
+    RowTransform::Rows rows(rows_.transform->size(), layout_.size() + 1);
+    Eigen::VectorXd sign(rows_.transform->size());
+    Eigen::Index count = 0;
+    fill([&](Eigen::Index n) {
+      sign[count] = rows_.loop.direction()[n];
+      return rows.row(count++);
+    });
+    // levels back to torques, whose noise the transform knows
+    rows.array().colwise() *= sign.array();
+    rows_.transform->Apply(rows);
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
+    products.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
+    return products.selfadjointView<Eigen::Upper>();
+  }
 
   /// Sets the row [-da/dx, r] of sample n from the derivatives g [d] and S [d + 3 + J] of closed_loop_kernel.h.
   template <int D, int Q, typename Row>
-  void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const;
+  void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const {
+    const Eigen::Index d = LoopSize<D>(layout_.law.size);
+    const Eigen::Index q = D == Eigen::Dynamic ? layout_.rigid.size : 0;
+    const Eigen::Index j = D == Eigen::Dynamic ? layout_.jumps.size : 0;
+    const double w = weight_[n];
+    // derivatives by law, warming, jumps and offsets, then the residual itself
+    for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
+    for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
+    for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
+    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * rows_.offsets(n, i);
+    row[d + Q + j + q] = w * residual;
+  }
 
   ThermalRows rows_;
   Layout layout_;
@@ -71,99 +148,6 @@ class LogProducts {
   Eigen::VectorXd prior_;     // [p]
   Eigen::VectorXd measured_;  // [N] level less what the offsets explain
 };
-
-/// Columns of [J r] for D law parameters and Q of warming; Dynamic where D is.
-template <int D, int Q>
-constexpr int kColumns = D == Eigen::Dynamic ? Eigen::Dynamic : D + Q + 1;
-
-Eigen::MatrixXd LogProducts::At(const Eigen::VectorXd& x) {
-  measured_ = rows_.level;
-  if (layout_.rigid.size > 0) measured_ -= rows_.offsets * layout_.rigid.Of(x);
-  Eigen::MatrixXd products = SumProductsOfSize(x);
-
-  // what is known beside the samples: rows sqrt(w) [-1, -b] of unknowns that lie b from what they are known for
-  Eigen::VectorXd off = x;
-  if (layout_.start.size > 0) off[layout_.energy()] -= rows_.initial.mean;
-  const Eigen::Index p = layout_.size();
-  const Eigen::VectorXd pull = prior_.cwiseProduct(off);
-  products.diagonal().head(p) += prior_;
-  products.col(p).head(p) += pull;
-  products.row(p).head(p) += pull;
-  products(p, p) += prior_.dot(off.cwiseAbs2());
-  return products / (rows_.scale * rows_.scale);
-}
-
-Eigen::MatrixXd LogProducts::SumProductsOfSize(const Eigen::VectorXd& x) const {
-  const auto sum = [&]<int D>() {
-    return layout_.start.size == 0 ? SumProducts<D, 2>(x) : SumProducts<D, 3>(x);
-  };
-  // sizes that the compiler knows, without jumps and offsets; else of any size
-  switch (layout_.jumps.size + layout_.rigid.size == 0 ? layout_.law.size : Eigen::Dynamic) {
-    case 1:
-      return sum.template operator()<1>();
-    case 2:
-      return sum.template operator()<2>();
-    case 3:
-      return sum.template operator()<3>();
-    default:
-      return sum.template operator()<Eigen::Dynamic>();
-  }
-}
-
-template <int D, int Q>
-Eigen::MatrixXd LogProducts::SumProducts(const Eigen::VectorXd& x) const {
-  const Thermal thermal = layout_.ThermalAt(x);
-  const double initial = Q == 3 ? x[layout_.energy()] : 0;
-  const double* jumps = x.data() + layout_.jumps.begin;
-  // rows of the kept samples along one simulation
-  const auto fill = [&](auto&& next) {
-    WithHolds(rows_.loop.intervals(), thermal, [&](const auto& hold) {
-      RunWithSensitivities<D>(rows_.loop, x.data(), thermal.gain, initial, jumps, hold,
-                              [&](Eigen::Index n, double level, const double* g, const double* S) {
-                                if (weight_[n] != 0)
-                                  Fill<D, Q>(n, measured_[n] - level, g, S, next(n));
-                              });
-    });
-  };
-  // a transform takes all rows at once; else they are summed as they come
-  if (rows_.transform) return TransformedProducts(fill);
-  RowProducts<kColumns<D, Q>> products(layout_.size() + 1);
-  fill([&](Eigen::Index) { return products.Next(); });
-  return products.Sums();
-}
-
-template <typename FillRows>
-Eigen::MatrixXd LogProducts::TransformedProducts(const FillRows& fill) const {
-  RowTransform::Rows rows(rows_.transform->size(), layout_.size() + 1);
-  Eigen::VectorXd sign(rows_.transform->size());
-  Eigen::Index count = 0;
-  fill([&](Eigen::Index n) {
-    sign[count] = rows_.loop.direction()[n];
-    return rows.row(count++);
-  });
-  // levels back to torques, whose noise the transform knows
-  rows.array().colwise() *= sign.array();
-  rows_.transform->Apply(rows);
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
-  products.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
-  return products.selfadjointView<Eigen::Upper>();
-}
-
-template <int D, int Q, typename Row>
-void LogProducts::Fill(Eigen::Index n, double residual, const double* g, const double* S,
-                       Row row) const {
-  const LoopSize<D> size(layout_.law.size);
-  const Eigen::Index d = size.value();
-  const Eigen::Index q = D == Eigen::Dynamic ? layout_.rigid.size : 0;
-  const Eigen::Index j = D == Eigen::Dynamic ? layout_.jumps.size : 0;
-  const double w = weight_[n];
-  // derivatives by law, warming, jumps and offsets, then the residual itself
-  for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
-  for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
-  for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
-  for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * rows_.offsets(n, i);
-  row[d + Q + j + q] = w * residual;
-}
 
 /// The sum over logs, as ceres::TinySolver wants it.
 class CondensedProblem {
@@ -182,10 +166,38 @@ class CondensedProblem {
 
   /// A square factor R of the products, R^T R = [J r]^T [J r]: its last column is the residuals [p + 1], the others the
   /// jacobian [p + 1 x p], where one is asked for.
-  bool operator()(const double* x, double* residuals, double* jacobian) const;
+  bool operator()(const double* x, double* residuals, double* jacobian) const {
+    Evaluate(Eigen::Map<const Eigen::VectorXd>(x, NumParameters()));
+
+    // a factor R of the products, R^T R = [J r]^T [J r]
+    const Eigen::Index p = NumParameters();
+    const Eigen::LDLT<Eigen::MatrixXd> factors(products_);
+    Eigen::MatrixXd root = factors.transpositionsP() * Eigen::MatrixXd::Identity(p + 1, p + 1);
+    root = factors.matrixU() * root;
+    root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
+    // residual and Jacobian of p + 1 rows, with the same squares as those of all samples
+    Eigen::Map<Eigen::VectorXd>(residuals, p + 1) = root.col(p);
+    if (jacobian) {
+      Eigen::Map<Eigen::MatrixXd>(jacobian, p + 1, p) = root.leftCols(p);
+      trace_.push_back({x_, products_(p, p)});
+    }
+    return true;
+  }
 
   /// [J r]^T [J r] at x, each log over its variance. [p + 1 x p + 1]
-  const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const;
+  const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const {
+    if (x_ == x) return products_;
+    x_ = x;
+    // each log's own products, at the places of its unknowns; the residual's come last
+    products_.setZero(NumResiduals(), NumResiduals());
+    for (size_t i = 0; i < logs_.size(); ++i) {
+      std::vector<Eigen::Index> places = logs_[i].places;
+      const Eigen::VectorXd own = x(places);
+      places.push_back(NumParameters());
+      products_(places, places) += products_of_[i].At(own);
+    }
+    return products_;
+  }
 
   std::vector<FitPoint>& trace() const { return trace_; }
 
@@ -199,38 +211,6 @@ class CondensedProblem {
   mutable std::vector<FitPoint> trace_;
 };
 
-bool CondensedProblem::operator()(const double* x, double* residuals, double* jacobian) const {
-  Evaluate(Eigen::Map<const Eigen::VectorXd>(x, NumParameters()));
-
-  // a factor R of the products, R^T R = [J r]^T [J r]
-  const Eigen::Index p = NumParameters();
-  const Eigen::LDLT<Eigen::MatrixXd> factors(products_);
-  Eigen::MatrixXd root = factors.transpositionsP() * Eigen::MatrixXd::Identity(p + 1, p + 1);
-  root = factors.matrixU() * root;
-  root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
-  // residual and Jacobian of p + 1 rows, with the same squares as those of all samples
-  Eigen::Map<Eigen::VectorXd>(residuals, p + 1) = root.col(p);
-  if (jacobian) {
-    Eigen::Map<Eigen::MatrixXd>(jacobian, p + 1, p) = root.leftCols(p);
-    trace_.push_back({x_, products_(p, p)});
-  }
-  return true;
-}
-
-const Eigen::MatrixXd& CondensedProblem::Evaluate(const Eigen::VectorXd& x) const {
-  if (x_ == x) return products_;
-  x_ = x;
-  // each log's own products, at the places of its unknowns; the residual's come last
-  products_.setZero(NumResiduals(), NumResiduals());
-  for (size_t i = 0; i < logs_.size(); ++i) {
-    std::vector<Eigen::Index> places = logs_[i].places;
-    const Eigen::VectorXd own = x(places);
-    places.push_back(NumParameters());
-    products_(places, places) += products_of_[i].At(own);
-  }
-  return products_;
-}
-
 constexpr int kMostIterations = 50;
 
 }  // namespace
@@ -241,10 +221,6 @@ Layout ThermalRows::layout() const {
                           {&Layout::start, initial.spread > 0 ? 1 : 0},
                           {&Layout::jumps, std::ssize(loop.jumps())},
                           {&Layout::rigid, offsets.cols()}});
-}
-
-double ThermalFit::initial_energy() const {
-  return estimates_initial_energy() ? x[layout.energy()] : 0;
 }
 
 InitialGuess StartFrom(const ThermalFit& fit) {
@@ -299,14 +275,11 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
   std::vector<Eigen::Index> places(static_cast<size_t>(x.size()));
   std::iota(places.begin(), places.end(), 0);
   const SharedRows one{rows, std::move(places)};
-  SharedFit found = FitTogether({&one, 1}, x);
+  static_cast<SharedFit&>(fit) = FitTogether({&one, 1}, x);
   const double variance = rows.scale * rows.scale;
-  for (FitPoint& iterate : found.trace) iterate.squares *= variance;
-  fit.x = std::move(found.x);
-  fit.squares = variance * found.squares;
-  fit.cofactor = found.cofactor / variance;
-  fit.trace = std::move(found.trace);
-  fit.converged = found.converged;
+  for (FitPoint& iterate : fit.trace) iterate.squares *= variance;
+  fit.squares *= variance;
+  fit.cofactor /= variance;
   return fit;
 }
 

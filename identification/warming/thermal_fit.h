@@ -61,22 +61,28 @@ struct ThermalRows {
   }
 };
 
-/// What a fit of law, heat, gravity and inertia to one log came to.
-struct ThermalFit {
-  Layout layout;
+/// A minimum over all unknowns of several logs.
+struct SharedFit {
   Eigen::VectorXd x;            // [p]
-  double squares = 0;           // infinite where the columns cannot be told apart
-  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1 of the rows as fitted
-  Eigen::VectorXd prior;        // [p] the diagonal P: what is known of x beside the log
-  std::vector<FitPoint> trace;  // the solution last; empty without heat
+  double squares = 0;           // in units of each log's scale
+  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1 of the rows over their scales
+  std::vector<FitPoint> trace;  // the solution last
   bool converged = false;
+};
+
+/// What a fit of law, heat, gravity and inertia to one log came to, its rows as they were fitted and not over their scale.
+/// Without heat it has no trace, and infinite squares where the columns cannot be told apart.
+struct ThermalFit : SharedFit {
+  Layout layout;
+  Eigen::VectorXd prior;            // [p] the diagonal P: what is known of x beside the log
   InitialEnergy initial;            // what was known of E(0)
   std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be told apart
 
   bool has_heat() const { return layout.heat.size > 0; }
   bool estimates_initial_energy() const { return layout.start.size > 0; }
-  Thermal thermal() const { return layout.ThermalAt(x); }       // of a fit with heat
-  double initial_energy() const;                                // N.m or N
+  Thermal thermal() const { return layout.ThermalAt(x); }  // of a fit with heat
+  // N.m or N
+  double initial_energy() const { return estimates_initial_energy() ? x[layout.energy()] : 0; }
   Eigen::VectorXd law() const { return layout.law.Of(x); }      // [d]
   Eigen::VectorXd jumps() const { return layout.jumps.Of(x); }  // [J] of E, N.m or N
   Eigen::VectorXd rigid() const { return layout.rigid.Of(x); }  // [q]
@@ -103,15 +109,6 @@ struct SharedRows {
   ThermalRows rows;
   /// [p of this log] which unknown of the whole each one of its own is; two logs share those that are the same.
   std::vector<Eigen::Index> places;
-};
-
-/// A minimum over all unknowns of several logs.
-struct SharedFit {
-  Eigen::VectorXd x;            // [p]
-  double squares = 0;           // in units of each log's scale
-  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1 of the rows over their scales
-  std::vector<FitPoint> trace;  // the solution last
-  bool converged = false;
 };
 
 /// The same over several logs, each with rows of its own, whose unknowns are partly shared: the gravity of two

@@ -160,16 +160,14 @@ std::string Suggestion(std::string_view given, const std::vector<std::string>& k
   // the nearest of those that are known
   const std::string name = Excerpt(given);
 
-  const auto nearer = [&](const std::string& x, const std::string& y) {
-    return EditDistance(name, x) < EditDistance(name, y);
-  };
-  const std::string& nearest = *std::min_element(known.begin(), known.end(), nearer);
+  const auto distance = [&](const std::string& one) { return EditDistance(name, one); };
+  const std::string& nearest = *std::ranges::min_element(known, {}, distance);
 
   // suggest only what a slip of the fingers or a word left half explains
   const int allowed = std::max<int>(2, static_cast<int>(name.size()) / 3);
-  const auto half = std::find_if(known.begin(), known.end(),
-                                 [&](const std::string& one) { return IsHalfOf(name, one); });
-  const bool is_near = EditDistance(name, nearest) <= allowed;
+  const auto half =
+      std::ranges::find_if(known, [&](const std::string& one) { return IsHalfOf(name, one); });
+  const bool is_near = distance(nearest) <= allowed;
   if (!is_near && half == known.end()) return fmt::format("; known: {}", ShortList(known));
   const std::string meant = Excerpt(is_near ? nearest : *half);
   // the whole list beside it, where it is short

@@ -14,11 +14,6 @@ namespace {
 
 std::string NameOrDocument(const std::string& key) { return key.empty() ? "the document" : key; }
 
-Place PlaceOf(const std::string& text, std::size_t byte, const std::string& file) {
-  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
-  return {file, static_cast<int>(1 + std::count(text.begin(), end, '\n'))};
-}
-
 /// Refuses brackets within brackets beyond kDeepestJson, which code that walks the tree may not bear.
 void CheckDepth(const std::string& text, const std::string& file) {
   int depth = 0;
@@ -33,7 +28,7 @@ void CheckDepth(const std::string& text, const std::string& file) {
       quoted = true;
     } else if (c == '[' || c == '{') {
       if (++depth <= kDeepestJson) continue;
-      Refuse(PlaceOf(text, i, file), "nests deeper than {} levels; what is read here has fewer",
+      Refuse(PlaceOfByte(text, i, file), "nests deeper than {} levels; what is read here has fewer",
              kDeepestJson);
     } else if (c == ']' || c == '}') {
       --depth;
@@ -226,43 +221,39 @@ void RefuseWord(const Node& node, const std::string& word, const std::vector<std
          Suggestion(word, known));
 }
 
-Node ReadJsonNode(const std::filesystem::path& path) {
-  return {ReadJsonFile<Tree>(path), path.string()};
-}
+Node ReadJsonNode(const std::filesystem::path& path) { return {ReadJsonFile(path), path.string()}; }
 
 Node ParseJsonNode(const std::string& text, const std::string& file) {
-  return {ParseJson<Tree>(text, file), file};
+  return {ParseJson(text, file), file};
 }
 
-template <typename Json>
-Json ReadJsonFile(const std::filesystem::path& path) {
-  return ParseJson<Json>(ReadWholeFile(path, kLargestJson), path.string());
+Tree ReadJsonFile(const std::filesystem::path& path) {
+  return ParseJson(ReadWholeFile(path, kLargestJson), path.string());
 }
 
-template <typename Json>
-Json ParseJson(const std::string& text, const std::string& file) {
+Tree ParseJson(const std::string& text, const std::string& file) {
   if (const auto broken = FirstBrokenByte(text)) {
-    Refuse(PlaceOf(text, *broken, file), "byte {} is not UTF-8, as JSON must be", *broken + 1);
+    Refuse(PlaceOfByte(text, *broken, file), "byte {} is not UTF-8, as JSON must be", *broken + 1);
   }
   CheckDepth(text, file);
   try {
     const auto turn = JsonTurn();
-    return Json::parse(text);
+    return Tree::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
-    Refuse(PlaceOf(text, error.byte, file), "is not JSON: {}",
+    Refuse(PlaceOfByte(text, error.byte, file), "is not JSON: {}",
            Excerpt(error.what(), kLongestComplaint));
   } catch (const nlohmann::json::out_of_range& error) {
     // the library tells no place, but the number, which is looked for
     const std::string_view number = Quoted(error.what());
-    Refuse(PlaceOf(text, text.find(number), file),
+    Refuse(PlaceOfByte(text, text.find(number), file),
            "{} is beyond the largest number, 1.8e308; write null for what is unknown",
            Excerpt(number));
   }
 }
 
-template nlohmann::json ReadJsonFile(const std::filesystem::path&);
-template nlohmann::ordered_json ReadJsonFile(const std::filesystem::path&);
-template nlohmann::json ParseJson(const std::string&, const std::string&);
-template nlohmann::ordered_json ParseJson(const std::string&, const std::string&);
+Place PlaceOfByte(const std::string& text, std::size_t byte, const std::string& file) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+  return {file, static_cast<int>(1 + std::count(text.begin(), end, '\n'))};
+}
 
 }  // namespace warmjoint

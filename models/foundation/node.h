@@ -119,15 +119,15 @@ Node ParseJsonNode(const std::string& text, const std::string& file);
 inline constexpr std::size_t kLargestJson = std::size_t{512} << 20;
 inline constexpr int kDeepestJson = 64;
 
-/// The whole of a JSON file. Throws BadInput naming the file, and for what is no JSON the line. Json: nlohmann::json, or
-/// nlohmann::ordered_json, whose keys keep their order.
-template <typename Json = nlohmann::json>
-Json ReadJsonFile(const std::filesystem::path& path);
+/// The whole of a JSON file. Throws BadInput naming the file, and for what is no JSON the line.
+Tree ReadJsonFile(const std::filesystem::path& path);
 
 /// The same from a text, whose refusals name `file`. Refused besides what is no JSON: bytes that are
 /// no UTF-8, numbers that no double holds, more levels than kDeepestJson.
-template <typename Json = nlohmann::json>
-Json ParseJson(const std::string& text, const std::string& file);
+Tree ParseJson(const std::string& text, const std::string& file);
+
+/// Where a byte of a text stands: file and line.
+Place PlaceOfByte(const std::string& text, std::size_t byte, const std::string& file);
 
 /// The turn of a thread to read or write JSON: held while nlohmann's parser or writer works on a thread of several.
 /// Both ask localeconv() for the decimal point, which glibc calls unsafe for threads.

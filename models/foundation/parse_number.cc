@@ -10,38 +10,34 @@
 namespace warmjoint {
 namespace {
 
-/// What from_chars reads of a text.
-std::string_view Readable(std::string_view text) {
+/// Reads a number that is all of a text, and tells why it cannot.
+template <typename T>
+std::errc FromChars(std::string_view text, T& value) {
   text = Trimmed(text);
   // from_chars knows no plus sign
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  return text;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return rest == end ? error : std::errc::invalid_argument;
 }
 
 template <typename T>
 std::optional<T> Parse(std::string_view text) {
-  const std::string_view trimmed = Readable(text);
-  const char* end = trimmed.data() + trimmed.size();
   T value{};
-  const auto [rest, error] = std::from_chars(trimmed.data(), end, value);
-  // all of the text must be the number
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return value;
+  return FromChars(text, value) == std::errc() ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<double> ParseNumber(std::string_view text) {
-  if (const auto number = Parse<double>(text)) return number;
+  double number = 0;
+  const std::errc error = FromChars(text, number);
+  if (error == std::errc()) return number;
+  if (error != std::errc::result_out_of_range) return std::nullopt;
 
   // from_chars tells overflow from underflow by nothing, strtod by its value
-  const std::string_view trimmed = Readable(text);
-  double ignored = 0;
-  const char* end = trimmed.data() + trimmed.size();
-  const auto [rest, error] = std::from_chars(trimmed.data(), end, ignored);
-  if (error != std::errc::result_out_of_range || rest != end) return std::nullopt;
+  const double value = std::strtod(std::string(text).c_str(), nullptr);
   // too small for a double counts as what strtod makes of it, too large is refused
-  const double value = std::strtod(std::string(trimmed).c_str(), nullptr);
   if (std::abs(value) > 1) return std::nullopt;
   return value;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace warmjoint {
@@ -31,8 +32,7 @@ double Quantile(const std::vector<double>& sorted, double share) {
 double MedianOf(Eigen::VectorXd values) { return values.size() > 0 ? MedianInPlace(values) : 0; }
 
 double MedianOf(const std::vector<double>& values) {
-  return MedianOf(Eigen::VectorXd(
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))));
+  return MedianOf(Eigen::VectorXd(Eigen::VectorXd::Map(values.data(), std::ssize(values))));
 }
 
 double MedianStep(const Eigen::VectorXd& time) {

@@ -20,10 +20,10 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -203,8 +203,7 @@ inline void ReadValue(const Node& node, std::vector<double>* value, const FieldI
 inline void ReadValue(const Node& node, Eigen::VectorXd* value, const FieldInfo& info) {
   std::vector<double> numbers;
   ReadValue(node, &numbers, info);
-  *value =
-      Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  *value = Eigen::VectorXd::Map(numbers.data(), std::ssize(numbers));
 }
 
 /// A list of rows, row by row; null is NaN.

@@ -116,7 +116,7 @@ class HeatAlong {
   HeatAlong(const Friction& friction, const JointTrajectory& trajectory) {
     const Index n = trajectory.velocity.size();
     if (!friction.thermal || n < 2) {
-      intervals_ = {{1}, std::vector<int>(static_cast<size_t>(n), 0), 1};
+      intervals_ = EvenIntervals(n, 1);
       heats_.resize(1);
       return;
     }

@@ -21,9 +21,6 @@ class AlongMotion {
 
   Prediction Predict(const JointTrajectory& trajectory, const ThermalStart& start = {}) const;
 
-  /// The friction at one place, as JointFriction tells it.
-  const JointFriction& joint() const { return joint_; }
-
  private:
   Friction friction_;
   JointFriction joint_;

@@ -115,8 +115,7 @@ size_t FrictionMap::size() const {
 }
 
 const MapAxis* FindAxis(const FrictionMap& map, MapQuantity quantity) {
-  const auto is = [quantity](const MapAxis& axis) { return axis.quantity == quantity; };
-  const auto found = std::find_if(map.axes.begin(), map.axes.end(), is);
+  const auto found = std::ranges::find(map.axes, quantity, &MapAxis::quantity);
   return found == map.axes.end() ? nullptr : &*found;
 }
 

@@ -216,8 +216,6 @@ Friction FrictionFrom(const Node& node) {
 
 void ReadValue(const Node& node, Friction* value, const FieldInfo&) { *value = FrictionFrom(node); }
 
-Tree MapsToTree(const std::vector<FrictionMap>& maps) { return WriteValue(maps); }
-
 std::vector<FrictionMap> MapsFrom(const Node& node) {
   std::vector<FrictionMap> maps;
   ReadValue(node, &maps, {});

@@ -3,8 +3,6 @@
 
 #include <warmjoint/friction.h>
 
-#include <nlohmann/json_fwd.hpp>
-#include <string>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
@@ -19,10 +17,8 @@ Tree FrictionToTree(const Friction& friction);
 /// The inverse; checked. Unknown keys, missing parameters and wrong types throw BadInput.
 Friction FrictionFrom(const Node& node);
 
-/// A list of maps, each {axes[{quantity, centres[], width, period, sides}], kernels, factor, weights[]}.
-Tree MapsToTree(const std::vector<FrictionMap>& maps);
-
-/// The inverse; checked. Throws BadInput.
+/// Of a list of maps, each {axes[{quantity, centres[], width, period, sides}], kernels, factor, weights[]}; checked. Throws
+/// BadInput.
 std::vector<FrictionMap> MapsFrom(const Node& node);
 
 /// Throws BadInput where a friction is in amperes, which no simulator can use.

@@ -18,7 +18,7 @@ Intervals FindSteps(const Eigen::VectorXd& time) {
   const double mean = (time[n] - time[0]) / static_cast<double>(n);
   // a clock that ticks evenly has one length
   if ((steps - mean).abs().maxCoeff() <= kSame * mean) {
-    return {{mean}, std::vector<int>(n + 1, 0), mean};
+    return EvenIntervals(n + 1, mean);
   }
 
   // ascending lengths, one for each group that the rounding of the time stamps makes

@@ -177,8 +177,7 @@ void JointFriction::SetTimestep(double h) {
 }
 
 double JointFriction::HoldingLevel() const {
-  const double* p = values_.data();
-  return std::max(law_.holding_level(1, p), law_.holding_level(-1, p)) + terms_->LargestAtRest();
+  return std::max(OwnLevelAtRest(1), OwnLevelAtRest(-1)) + terms_->LargestAtRest();
 }
 
 double JointFriction::SlidingForce(double v, const JointPlace& place) const {

@@ -27,11 +27,6 @@ struct StateMember {
 /// energy always, second energy for two stages of warming, slip for laws that break away.
 std::vector<StateMember> StateOf(const Friction& friction);
 
-/// Slope of the force over speed at heat E, (27): never below 0. N.m.s/rad or N.s/m.
-inline double SlopeAt(double viscous, double per_energy, double energy) {
-  return std::max(0.0, viscous + per_energy * energy);
-}
-
 /// Steps F = (kv + b E) v + bristle, whose level on the side of motion is
 ///   L(side) = g(side, |v|) + E + c |load| + maps (LevelTerms),   E = E1 + E2.
 /// Sliding, F is Eq. (20) with maps exactly and W = |F v| (19); at rest the bristle holds, W = 0.
@@ -44,13 +39,12 @@ class JointFriction {
 
   /// Sets the step, s. Must precede Step; costs exponentials.
   void SetTimestep(double h);
-  double timestep() const { return h_; }
 
   /// Slope of a cold joint's force over speed, at most, N.m.s/rad or N.s/m: kv and the maps'.
   double SteepestSlope() const { return viscous_ + terms_->SteepestSlope(); }
 
   /// Slope of a cold joint's force over speed without the maps', and its change with the heat:
-  /// kv, N.m.s/rad or N.s/m, and b, s/rad or s/m. At E the slope is SlopeAt(kv, b, E).
+  /// kv, N.m.s/rad or N.s/m, and b, s/rad or s/m. At E the slope is max(0, kv + b E), (27).
   double viscous() const { return viscous_; }
   double viscous_per_energy() const { return per_energy_; }
 
@@ -138,7 +132,7 @@ class JointFriction {
     const double of_load = load_gain_ * std::abs(place.load);
     return terms_->empty() ? of_load : of_load + terms_->At(side, speed, place);
   }
-  double Slope(double energy) const { return SlopeAt(viscous_, per_energy_, energy); }
+  double Slope(double energy) const { return std::max(0.0, viscous_ + per_energy_ * energy); }
   /// law: the law's own force at v.
   double WithAdded(double law, double v, const JointPlace& place) const {
     const int side = Sign(v);

@@ -25,8 +25,23 @@ struct SlidesAtLevel {
   }
 };
 
+/// A law whose first parameter is its level at any side and speed, and which has no slope: F(v) = kc sign(v), F(0) = 0.
+struct SlidesAtCoulomb {
+  /// p: {kc, ...}; returns N.m or N.
+  template <typename T>
+  static T Level(int, double, const T* p) {
+    return p[0];
+  }
+
+  /// v: rad/s or m/s; p: {kc, ...}; returns N.m or N.
+  template <typename T>
+  static T Force(double v, const T* p) {
+    return p[0] * T(Sign(v));
+  }
+};
+
 /// F(v) = kc sign(v), Eq. (1). F(0) = 0.
-struct Coulomb {
+struct Coulomb : SlidesAtCoulomb {
   static constexpr std::string_view name = "coulomb";
   static constexpr std::string_view equation = "(1) F = kc sign(v)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
@@ -34,18 +49,6 @@ struct Coulomb {
   static constexpr std::array parameters{
       kCoulombRow,
   };
-
-  /// p: {kc}; returns N.m or N, at any side and speed.
-  template <typename T>
-  static T Level(int, double, const T* p) {
-    return p[0];
-  }
-
-  /// v: rad/s or m/s; p: {kc}; returns N.m or N.
-  template <typename T>
-  static T Force(double v, const T* p) {
-    return p[0] * T(Sign(v));
-  }
 };
 
 /// F(v) = kv v + kc sign(v), Eq. (2). F(0) = 0.
@@ -93,26 +96,19 @@ struct Asymmetric {
   }
 };
 
-/// Sliding, F(v) = kv v + kc sign(v). At rest F equals the load up to ks >= kc, Eq. (4); beyond it
+/// Sliding as ViscousCoulomb. At rest F equals the load up to ks >= kc, Eq. (4); beyond it
 /// the joint breaks away and slides until it stops again. The stop alone restores ks.
-struct Stiction : SlidesAtLevel<Stiction> {
+struct Stiction : ViscousCoulomb {
   static constexpr std::string_view name = "stiction";
   static constexpr std::string_view equation = "(4) F = kv v + kc sign(v); at rest the load, to ks";
   static constexpr PreSliding pre_sliding = PreSliding::breakaway;
-  static constexpr bool level_at_any_speed = true;
   static constexpr std::array parameters{
       kViscousRow,
       kCoulombRow,
       kStaticRow,
   };
 
-  /// p: {kv, kc, ks}; returns N.m or N, of sliding at any side and speed.
-  template <typename T>
-  static T Level(int, double, const T* p) {
-    return p[1];
-  }
-
-  /// What a joint at rest bears before it breaks away, N.m or N.
+  /// What a joint at rest bears before it breaks away, N.m or N. p: {kv, kc, ks}.
   template <typename T>
   static T StaticLevel(int, const T* p) {
     return p[2];
@@ -193,7 +189,7 @@ struct AsymmetricStribeck : SlidesAtLevel<AsymmetricStribeck> {
 
 /// dF/dt = sigma0 (v - |v| F / kc), which is LuGre without damping, Stribeck effect and slope; in
 /// steady sliding F(v) = kc sign(v). Source: Dahl, Aerospace Corp. TOR-158 (1968), exponent 1.
-struct Dahl {
+struct Dahl : SlidesAtCoulomb {
   static constexpr std::string_view name = "dahl";
   static constexpr std::string_view equation = "dF/dt = sigma0 (v - |v| F / kc); steady: (1)";
   static constexpr PreSliding pre_sliding = PreSliding::bristle;
@@ -202,22 +198,10 @@ struct Dahl {
       kBristleStiffnessRow,
   };
 
-  /// p: {kc, sigma0}; returns N.m or N, at any side and speed.
-  template <typename T>
-  static T Level(int, double, const T* p) {
-    return p[0];
-  }
-
-  /// A bristle that carries F.
+  /// A bristle that carries F. p: {kc, sigma0}.
   template <typename T>
   static LawBristle<T> BristleOf(const T* p) {
     return {p[1], T(0), T(0)};
-  }
-
-  /// Steady sliding. v: rad/s or m/s; p: {kc, sigma0}; returns N.m or N.
-  template <typename T>
-  static T Force(double v, const T* p) {
-    return p[0] * T(Sign(v));
   }
 };
 

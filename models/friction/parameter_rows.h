@@ -8,13 +8,12 @@
 
 namespace warmjoint {
 
+// Where a row says nothing else, its number is at least 0, and 0 by default.
+
 inline constexpr ParameterInfo kViscousRow{
     .name = "viscous",
     .symbol = "kv",
     .unit = kViscousUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "slope over speed",
     .part = LawPart::slope,
 };
@@ -23,9 +22,6 @@ inline constexpr ParameterInfo kCoulombRow{
     .name = "coulomb",
     .symbol = "kc",
     .unit = kTorqueUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "level at any speed",
     .part = LawPart::level,
 };
@@ -34,9 +30,6 @@ inline constexpr ParameterInfo kCoulombPositiveRow{
     .name = "coulomb_positive",
     .symbol = "kc+",
     .unit = kTorqueUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "level for v > 0",
     .part = LawPart::level,
 };
@@ -45,9 +38,6 @@ inline constexpr ParameterInfo kCoulombNegativeRow{
     .name = "coulomb_negative",
     .symbol = "kc-",
     .unit = kTorqueUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "level for v < 0",
     .part = LawPart::level,
 };
@@ -56,9 +46,6 @@ inline constexpr ParameterInfo kStaticRow{
     .name = "static",
     .symbol = "ks",
     .unit = kTorqueUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "level at rest, >= coulomb",
     .part = LawPart::rest_level,
 };
@@ -67,9 +54,6 @@ inline constexpr ParameterInfo kStaticRiseRow{
     .name = "static_rise",
     .symbol = "kr",
     .unit = kTorqueUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "level at rest less that at any speed, in both directions",
     .part = LawPart::rest_rise,
 };
@@ -79,7 +63,6 @@ inline constexpr ParameterInfo kStribeckVelocityRow{
     .symbol = "vs",
     .unit = kVelocityUnit,
     .lower = kSmallestPositive,
-    .upper = kInfinity,
     .default_value = 0.1,
     .meaning = "speed over which static falls to coulomb",
 };
@@ -100,7 +83,6 @@ inline constexpr ParameterInfo kBristleStiffnessRow{
     .symbol = "sigma0",
     .unit = kStiffnessUnit,
     .lower = kSmallestPositive,
-    .upper = kInfinity,
     .default_value = 1,
     .meaning = "slope of the force over travel before sliding",
     .part = LawPart::bristle,
@@ -110,9 +92,6 @@ inline constexpr ParameterInfo kBristleDampingRow{
     .name = "bristle_damping",
     .symbol = "sigma1",
     .unit = kViscousUnit,
-    .lower = 0,
-    .upper = kInfinity,
-    .default_value = 0,
     .meaning = "damping of the bristle's motion",
 };
 

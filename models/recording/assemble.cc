@@ -126,12 +126,9 @@ void IntegrateVelocity(Measurements& measurements) {
 void Unwrap(double range, Measurements& measurements) {
   // a linear sensor has no turn
   if (range == 0 && measurements.joint != JointKind::rotary) return;
-  const Eigen::VectorXd &time = measurements.time, &velocity = measurements.velocity;
-  Eigen::VectorXd& position = measurements.position;
-
   // by the range that is given, else by turns, with the speed to tell jumps from motion
-  const int jumps = range > 0 ? UnwrapRange(time, velocity, range, position)
-                              : UnwrapTurns(time, velocity, position);
+  const int jumps =
+      UndoJumps(measurements.time, measurements.velocity, range, measurements.position);
   if (jumps == 0) return;
   measurements.notes.push_back(fmt::format("position jumps by {} {} times; unwrapped",
                                            range > 0 ? "its range" : "a turn", jumps));

@@ -7,7 +7,6 @@
 #include "models/recording/arrays.h"
 #include "models/recording/read_recording.h"
 #include "models/recording/recording_columns.h"
-#include "models/recording/units.h"
 
 namespace warmjoint {
 namespace {

@@ -138,8 +138,9 @@ MendedClock MendClock(const Eigen::VectorXd& position, bool is_stamp, Eigen::Vec
   return {{}, ticks ? SpreadTicks(begin, time) : ""};
 }
 
-int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
-                Eigen::VectorXd& position) {
+int UndoJumps(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
+              Eigen::VectorXd& position) {
+  if (range > 0) return Undo(time, velocity, range, position).jumps;
   constexpr double turn = 2 * std::numbers::pi;  // rad
   constexpr double slack = 1e-3 * turn;          // sensors round their last step
   // what spans more than a turn already counts its turns
@@ -151,11 +152,6 @@ int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
   if (undone.jumps == undone.at_gaps) return 0;
   position = std::move(unwrapped);
   return undone.jumps;
-}
-
-int UnwrapRange(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
-                Eigen::VectorXd& position) {
-  return Undo(time, velocity, range, position).jumps;
 }
 
 }  // namespace warmjoint

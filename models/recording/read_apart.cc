@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/excerpt.h"
 #include "models/recording/read_recording.h"
 
 namespace warmjoint {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <type_traits>
 
@@ -13,7 +14,6 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -140,9 +140,8 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
   // named columns go through the layout of a file
   FileContent content;
   for (const auto& [column, values] : columns) {
-    content.columns.push_back({column, "",
-                               Eigen::Map<const Eigen::VectorXd>(
-                                   values.data(), static_cast<Eigen::Index>(values.size()))});
+    content.columns.push_back(
+        {column, "", Eigen::VectorXd::Map(values.data(), std::ssize(values))});
   }
   Measurements made = AssembleContent(std::move(content), name, settings);
   TakeTorqueConstant(settings.torque_constant, made);

@@ -11,9 +11,7 @@
 namespace warmjoint {
 
 /// Reads .h5 and .hdf5 as HDF5, .mat as MATLAB files, anything else as CSV, as ReadCsv does; attributes of a file count
-/// where the layout has its defaults. Libraries for HDF5 and MATLAB work in a child process with limits on memory and time
-/// (ReadApart): their crash or hang is BadInput. For a process with one thread, as programs are at first. patience: s of
-/// computing for a small file; large ones get more.
+/// where the layout has its defaults. For a process with one thread, as programs are at first. patience: as of ReadApart.
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout = {},
                                double patience = 30);
 
@@ -31,8 +29,7 @@ std::string RecordingToCsv(const Measurements& measurements);
 
 /// The one-dimensional datasets at the root of an HDF5 file, as far as the layout asks for them, with their attribute
 /// `unit`, and the root's `joint` ("rotary" or "linear") and `gear`. Throws BadInput, also where the layout's columns are
-/// not there or have more than kMostSamples. One thread at a time. The HDF5 library crashes and hangs on some damaged files:
-/// ReadRecordings calls this in a child process.
+/// not there or have more than kMostSamples. One thread at a time. For ReadApart.
 FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout);
 
 /// The bytes of a file with the columns that are present, SI, with those attributes. Safe to call from many threads,
@@ -43,8 +40,7 @@ std::string RecordingToHdf5(const Measurements& measurements);
 /// log.time; names without one may leave out the struct where the file holds one alone. A variable
 /// `joint` ("rotary" or "linear"), a number `gear`, and texts in a struct `unit` by the columns' names count where
 /// the layout has its defaults. Objects, as timeseries, cannot be read: save their Time and Data. Throws BadInput, also
-/// where the layout's columns are not there. One thread at a time. The library (matio)
-/// crashes on some damaged files: ReadRecordings calls this in a child process.
+/// where the layout's columns are not there. One thread at a time. For ReadApart.
 FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout);
 
 /// A format that a library reads.
@@ -54,7 +50,7 @@ struct FileFormat {
 };
 
 /// Reads in a child process with limits on memory (8 GiB besides what this process has) and time
-/// (patience, s, and 1 s for each 10 MB of the file): crash and hang become BadInput.
+/// (patience, s, and 1 s for each 10 MB of the file): the libraries crash and hang on some damaged files, which becomes BadInput.
 FileContent ReadApart(const FileFormat& format, const std::string& path, const ReadSettings& layout,
                       double patience);
 

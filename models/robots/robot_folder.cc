@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/node.h"
 #include "models/foundation/xml_tags.h"
-#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;
@@ -56,12 +54,10 @@ void CollectJoints(const urdf::Link& link, std::vector<RobotJoint>& joints) {
 
 std::string ReadFrictionJoint(const fs::path& path, const std::vector<RobotJoint>& joints) {
   // the joint that the friction file is for
-  const nlohmann::json file = ReadJsonFile(path);
+  const Tree file = ReadJsonFile(path);
   const std::string name =
       file.contains("joint") && file["joint"].is_string() ? file["joint"].get<std::string>() : "";
-  const bool known = std::any_of(joints.begin(), joints.end(),
-                                 [&](const RobotJoint& joint) { return joint.name == name; });
-  if (!known)
+  if (std::ranges::find(joints, name, &RobotJoint::name) == joints.end())
     Refuse({path.string()}, "joint is '{}', which is none of the robot's joints", Excerpt(name));
   return name;
 }

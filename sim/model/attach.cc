@@ -6,7 +6,6 @@
 #include <iterator>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "models/foundation/atomic_file.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -214,10 +213,10 @@ void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 }
 
 bool ClearOwnFriction(mjsJoint& joint) {
-  const bool damped = std::any_of(std::begin(joint.damping), std::end(joint.damping),
-                                  [](double coefficient) { return coefficient != 0; });
+  const bool damped =
+      std::ranges::any_of(joint.damping, [](double coefficient) { return coefficient != 0; });
   const bool any = damped || joint.frictionloss != 0;
-  std::fill(std::begin(joint.damping), std::end(joint.damping), 0.0);
+  std::ranges::fill(joint.damping, 0.0);
   joint.frictionloss = 0;
   return any;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "models/friction/parameter_rows.h"
@@ -54,7 +55,7 @@ std::string InlineConfigs(const FrictionForJoint& of) {
 
   // maps and the first heat
   if (!friction.maps.empty()) {
-    configs += Config("maps", MapsToTree(friction.maps).dump());
+    configs += Config("maps", WriteValue(friction.maps).dump());
   }
   if (!of.initial_energy.empty()) {
     configs += Config("initial_energy", EnergyToJson(of.initial_energy).dump());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "models/foundation/low_pass.h"
+#include "models/foundation/serialize.h"
 #include "models/friction/sign.h"
 #include "models/recording/measurements.h"
 #include "sim/plant/plant.h"
@@ -76,7 +77,7 @@ VectorXd Delayed(const VectorXd& values, double samples) {
 }
 
 /// Keeps a value for a while.
-void Stick(const Stuck& stuck, const VectorXd& time, VectorXd& column) {
+void Stick(const TimeSpan& stuck, const VectorXd& time, VectorXd& column) {
   if (stuck.duration == 0 || column.size() == 0) return;
   double held = column[0];
   for (Index i = 0; i < column.size(); ++i) {
@@ -168,7 +169,7 @@ void AddColouredNoise(const ColouredNoise& noise, double rate, RandomStream rand
 }
 
 void AddUnevenNoise(const UnevenNoise& noise, RandomStream random, Simulation& recording) {
-  if (noise == UnevenNoise{}) return;
+  if (noise.of_torque == 0 && noise.of_speed == 0) return;
   const Truth& truth = recording.truth;
   // a deviation of each sample, with friction and speed
   const Eigen::VectorXd deviation =
@@ -256,7 +257,8 @@ void LoseSamples(const LostSamples& lost, RandomStream random, Simulation& recor
 /// Faults of SensorFaults, in the order in which they arise: drift and factors of the torque, columns that stick, limits,
 /// late samples; then scales; then what the file leaves out and how its clock runs.
 void SpoilLog(const SensorFaults& faults, Simulation& recording) {
-  if (faults == SensorFaults{}) return;
+  // what is at its default is not written
+  if (WriteFields(faults).empty()) return;
   Measurements& log = recording.measurements;
   // each sensor by itself
   SpoilTorque(faults, log.time, log.torque);

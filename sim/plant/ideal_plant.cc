@@ -108,11 +108,6 @@ SampledPlan SampleRamps(VelocityReference reference, double start, double rate, 
   return samples;
 }
 
-/// Every so many values, from the first on.
-Eigen::VectorXd EveryOf(const Eigen::VectorXd& values, int parts) {
-  return values(Eigen::seq(0, Eigen::last, parts));
-}
-
 /// values plus white noise of the given standard deviation; no numbers are drawn for 0.
 Eigen::VectorXd WithNoise(Eigen::VectorXd values, double deviation, RandomStream random) {
   if (deviation == 0) return values;
@@ -130,15 +125,14 @@ class IdealPlant : public Plant {
              "friction.thermal.second and disturbances.second_heat are both given; the joint has "
              "one second stage, so leave one out");
     }
-    if (scenario.motion.travel_between_joint_limits) {
+    if (scenario.motion.travel.joint_limits) {
       Refuse({scenario.name},
              "the ideal plant has no robot, so the motion cannot travel between its joint limits; "
              "give the limits as numbers, or use the mujoco plant");
     }
   }
 
- private:
-  Simulation CarryOut(std::uint64_t realization, const RunWatch&) override {
+  Simulation Run(std::uint64_t realization, const RunWatch&) override {
     // friction along the motion, finer where speeds change by ramps
     const RandomKey key{scenario_.seed, realization};
     const int parts = PartsOfStep(scenario_);
@@ -152,7 +146,7 @@ class IdealPlant : public Plant {
     for (Eigen::VectorXd* column :
          {&samples.time, &samples.velocity, &samples.position, &samples.acceleration,
           &friction.force, &friction.loss, &friction.energy}) {
-      *column = EveryOf(*column, parts);
+      *column = (*column)(Eigen::seq(0, Eigen::last, parts)).eval();
     }
 
     // the log and the truth behind it
@@ -173,6 +167,7 @@ class IdealPlant : public Plant {
     return recording;
   }
 
+ private:
   /// The planned motion. rate: Hz
   SampledPlan Sample(double rate, RandomKey key) const {
     const Motion& motion = scenario_.motion;
@@ -270,7 +265,8 @@ class IdealPlant : public Plant {
     log.position = WithNoise(samples.position, noise.position, {key, Stream::position_noise});
     log.velocity = WithNoise(samples.velocity, noise.velocity, {key, Stream::velocity_noise});
     log.torque = WithNoise(force, noise.torque, {key, Stream::torque_noise});
-    if (scenario_.disturbances.gravity != Gravity{}) log.torque += GravityAt(samples.position);
+    const Gravity& gravity = scenario_.disturbances.gravity;
+    if (gravity.sine != 0 || gravity.cosine != 0) log.torque += GravityAt(samples.position);
     if (NeedsLoad(scenario_.friction)) {
       log.load = TransmittedLoad(samples);
     } else if (scenario_.disturbances.load_change.load != 0) {

@@ -74,8 +74,7 @@ class MujocoPlant : public Plant {
              joint_.gravity_slope};
   }
 
- private:
-  Simulation CarryOut(std::uint64_t realization, const RunWatch& watch) override {
+  Simulation Run(std::uint64_t realization, const RunWatch& watch) override {
     const RandomKey key{scenario_.seed, realization};
     // where it goes, and at which speeds
     const double start = StartPosition(scenario_.motion, joint_.limits);
@@ -96,6 +95,7 @@ class MujocoPlant : public Plant {
     return recording;
   }
 
+ private:
   /// The pieces at constant speed, of motions that stay within the joint's limits.
   std::vector<MotionSegment> CheckedPlan(RandomStream& motion, double start) const {
     const JointRoom room{scenario_, joint_.limits};

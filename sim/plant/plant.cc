@@ -37,11 +37,11 @@ class DrawnPlant : public Plant {
     MakeFixedPlant(middle);
   }
 
- private:
-  Simulation CarryOut(std::uint64_t realization, const RunWatch& watch) override {
+  Simulation Run(std::uint64_t realization, const RunWatch& watch) override {
     return MakeFixedPlant(Realize(scenario_, realization))->Run(realization, watch);
   }
 
+ private:
   const Scenario scenario_;
 };
 

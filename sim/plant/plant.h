@@ -24,12 +24,7 @@ class Plant {
   virtual ~Plant() = default;
   /// One realization: all its random numbers come from (scenario.seed, realization).
   /// Throws BadInput where the scenario asks what the plant cannot do. watch: of runs that take their time.
-  Simulation Run(std::uint64_t realization, const RunWatch& watch = {}) {
-    return CarryOut(realization, watch);
-  }
-
- private:
-  virtual Simulation CarryOut(std::uint64_t realization, const RunWatch& watch) = 0;
+  virtual Simulation Run(std::uint64_t realization, const RunWatch& watch = {}) = 0;
 };
 
 /// The plant that the scenario names, with its model loaded and checked. Throws BadInput.

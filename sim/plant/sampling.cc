@@ -22,8 +22,8 @@ Lie LieOf(Eigen::Index sample, double readings_per_sample) {
   return {static_cast<Eigen::Index>(reading), beyond < tolerance ? 0.0 : beyond};
 }
 
+/// Of a sampling with a cutoff.
 std::vector<Biquad> Filter(const Sampling& sampling) {
-  if (sampling.cutoff == 0) return {};
   return ButterworthLowPass(kSensorFilterOrder, sampling.cutoff, sampling.sensor_rate);
 }
 
@@ -73,7 +73,8 @@ LoggedSignal::LoggedSignal(const Sampling& sampling, double noise, const RandomS
 void LoggedSignal::Read(double value) {
   // the filter begins settled on the first reading
   if (reading_ == 0 && filter_) filter_->Settle(value);
-  const double current = Filtered(noise_ > 0 ? value + noise_ * random_.Normal() : value);
+  const double reading = noise_ > 0 ? value + noise_ * random_.Normal() : value;
+  const double current = filter_ ? filter_->Step(reading) : reading;
 
   // every sample after the last reading and up to this one
   while (next_ < samples_.size()) {
@@ -90,8 +91,6 @@ void LoggedSignal::Read(double value) {
   last_ = current;
   ++reading_;
 }
-
-double LoggedSignal::Filtered(double reading) { return filter_ ? filter_->Step(reading) : reading; }
 
 SensorLog::SensorLog(const Scenario& scenario, RandomKey key, Eigen::Index stored)
     : rate_(scenario.sampling.rate),

@@ -42,8 +42,6 @@ class LoggedSignal {
   const Eigen::VectorXd& samples() const { return samples_; }
 
  private:
-  double Filtered(double reading);
-
   double readings_per_sample_;
   double noise_;
   RandomStream random_;

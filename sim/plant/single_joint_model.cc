@@ -9,7 +9,7 @@
 #include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
 #include "sim/model/spec_elements.h"
-#include "sim/plugin/friction_instance.h"
+#include "sim/plugin/bound_joints.h"
 #include "sim/plugin/stability.h"
 
 namespace warmjoint {

@@ -157,7 +157,7 @@ void BoundJoints::BindNumbers(const mjModel* m) {
   }
 }
 
-bool BoundJoints::ReadArrays(const mjModel* m) {
+bool BoundJoints::ReadNumbers(const mjModel* m) {
   bool any = false;
   // a number that changed since the last look goes into its joint's friction
   for (NumberArray& array : numbers_) {

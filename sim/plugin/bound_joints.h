@@ -54,14 +54,13 @@ struct BoundSensor {
 
 /// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints. One
 /// more stands behind those: the mark of the attributes with which the state was stepped or reset
-/// (AttributeWatch), which tells apart states of models that one place in memory holds in turn. Never
-/// read by the dynamics.
+/// (AttributeWatch), which tells apart states of models that one place in memory holds in turn. That mark
+/// and the first two are never read by the dynamics.
 enum FrictionReport : int {
   /// The sum of 2^i over those of the instance's joints, counted from 0 in their order (BoundJoints),
-  /// in which friction would have pushed, until a reset. Never read by the dynamics.
+  /// in which friction would have pushed, until a reset.
   kReportsPush,
-  /// 1 where the model's step was set to one that cannot carry the friction, until a reset. Never
-  /// read by the dynamics.
+  /// 1 where the model's step was set to one that cannot carry the friction, until a reset.
   kReportsStep,
   /// Passive form: rise of the ambient temperature, Ts - T0, K, for all joints; 0 after a reset.
   kAmbientRise,
@@ -107,11 +106,10 @@ class BoundJoints {
   /// Sets the joints' numbers to those of the model's arrays; whether any is new. For a number out of
   /// its bounds the attributes' one acts, with a warning, once for each; one that a joint's friction
   /// does not have changes nothing.
-  bool ReadNumbers(const mjModel* m) { return !numbers_.empty() && ReadArrays(m); }
+  bool ReadNumbers(const mjModel* m);
 
  private:
   bool IsPlaceOf(const mjModel* m) const { return m == model_ && m->signature == signature_; }
-  bool ReadArrays(const mjModel* m);
   bool SetNumber(const NumberArray& array, size_t joint, double value);
   void WarnOfNumber(const mjModel* m, NumberArray& array, size_t joint, double value) const;
   void BindJoints(const mjModel* m);

@@ -1,7 +1,6 @@
 #include "sim/plugin/coupled_bristles.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "models/foundation/bad_input.h"
 #include "sim/plugin/stability.h"

@@ -4,7 +4,6 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
-#include <cmath>
 #include <span>
 #include <vector>
 

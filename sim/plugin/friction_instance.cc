@@ -137,10 +137,8 @@ void FrictionInstance::TakeNumbers(const mjModel* m) {
 void FrictionInstance::Rebind(const mjModel* m) {
   const std::vector<BoundJoint>& joints = bound_.joints();
   // what has to be found for the joints at each step
-  const bool needs_load = std::any_of(joints.begin(), joints.end(),
-                                      [](const BoundJoint& joint) { return joint.needs_load; });
-  needs_ambient_ = std::any_of(joints.begin(), joints.end(),
-                               [](const BoundJoint& joint) { return joint.needs_ambient; });
+  const bool needs_load = std::ranges::any_of(joints, &BoundJoint::needs_load);
+  needs_ambient_ = std::ranges::any_of(joints, &BoundJoint::needs_ambient);
 
   // where the engine wants forces and states of those that actuators drive
   driven_.clear();
@@ -161,8 +159,7 @@ void FrictionInstance::Rebind(const mjModel* m) {
   mark_ = entries == kFrictionEntries + static_cast<int>(own) ? entries - 1 : -1;
   ReadNumbers(m);
   // binding has checked all but the drives
-  checked_ = std::all_of(joints.begin(), joints.end(),
-                         [](const BoundJoint& joint) { return joint.drive == 0; });
+  checked_ = std::ranges::all_of(joints, [](const BoundJoint& joint) { return joint.drive == 0; });
   stepped_ = false;
 }
 
@@ -274,7 +271,8 @@ void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
   }
 }
 
-void FrictionInstance::AskSensors(const mjModel* m, mjData* d) {
+void FrictionInstance::Sense(const mjModel* m, mjData* d) {
+  if (bound_.sensors().empty()) return;
   const bool off = passive() ? PassiveForcesOff(m) : m->opt.disableflags & mjDSBL_ACTUATION;
   sensors_.Ask(m, d, bound_, off);
 }

@@ -39,8 +39,7 @@ class FrictionSensors {
 /// step has left, which tells where nothing has to look for another model.
 class FrictionInstance {
  public:
-  /// Reads the instance's attributes and checks them and its joints against the model.
-  /// Throws BadInput that names actuator or joint, attribute, value and bound.
+  /// Throws BadInput as BoundJoints does.
   FrictionInstance(const mjModel* m, int instance);
 
   bool passive() const { return bound_.passive(); }
@@ -60,11 +59,8 @@ class FrictionInstance {
   /// Writes the instance's part of plugin_state at a reset.
   void Reset(const mjModel* m, mjtNum* state);
 
-  /// Lets the step that follows write sensordata of the instance's sensors, kSensed numbers for each
-  /// joint; writes zeros where none will follow.
-  void Sense(const mjModel* m, mjData* d) {
-    if (!bound_.sensors().empty()) AskSensors(m, d);
-  }
+  /// Lets the step that follows write sensordata; writes zeros where none will follow.
+  void Sense(const mjModel* m, mjData* d);
 
   /// Commits the states of the last step: plugin_state, or act where the engine's own integration
   /// of it would not do (RK4, or a state that was not finite).
@@ -86,7 +82,6 @@ class FrictionInstance {
   void ReadNumbers(const mjModel* m);
   void Prepare(const mjModel* m, mjData* d);
   void Step(const mjModel* m, mjData* d, const mjtNum* load);
-  void AskSensors(const mjModel* m, mjData* d);
   void BeginJoints(const mjData* d, bool warm);
   void AdvancePassive(const mjModel* m, mjData* d);
   void AdvanceActuators(const mjModel* m, mjData* d);

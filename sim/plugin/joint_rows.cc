@@ -1,8 +1,5 @@
 #include "sim/plugin/joint_rows.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "sim/plugin/stability.h"
 
 namespace warmjoint {

@@ -83,9 +83,6 @@ class LeftStates {
   LeftStates() = default;
   explicit LeftStates(const std::vector<BoundJoint>& joints);
 
-  /// All states, as few stretches as there are.
-  const std::vector<StateRun>& runs() const { return runs_; }
-
   /// Whether these are the states and the time that were kept. states: d->act or d->plugin_state.
   bool Match(const mjtNum* states, double time) const;
 
@@ -103,8 +100,8 @@ class LeftStates {
   void Ended(double time) { time_ = time; }
 
  private:
-  std::vector<StateRun> runs_;
-  std::vector<double> left_;  // of all joints, one joint after the other
+  std::vector<StateRun> runs_;  // all states, as few stretches as there are
+  std::vector<double> left_;    // of all joints, one joint after the other
   double time_ = std::numeric_limits<double>::quiet_NaN();  // s; matches none before the first step
 };
 

@@ -215,14 +215,6 @@ std::vector<ActingJoint> FindJoints(const mjModel* m, int instance) {
                                         : FindPassive(m, instance, prepared);
 }
 
-int PassiveStates(const mjModel* m, int instance) {
-  size_t states = 0;
-  for (const ActingJoint& joint : FindJoints(m, instance)) {
-    states += joint.prepared->friction.state().size();
-  }
-  return static_cast<int>(states);
-}
-
 std::string FrictionOn(const mjModel* m, int joint, int plugin, int actuators, int instances) {
   // actuators of the same plugin
   for (int i = 0; i < actuators; ++i) {

@@ -41,9 +41,6 @@ struct ActingJoint {
 /// first of them by which every joint is found. Throws BadInput as PrepareInstance does, and where a joint is not found.
 std::vector<ActingJoint> FindJoints(const mjModel* m, int instance);
 
-/// Numbers of state that the joints of a passive instance need together. Throws BadInput.
-int PassiveStates(const mjModel* m, int instance);
-
 /// What has given a joint friction already, of the plugin in this slot: one of the first `actuators`, or of the passive
 /// ones among the first `instances`; empty where nothing has. Throws BadInput for attributes that cannot be read.
 std::string FrictionOn(const mjModel* m, int joint, int plugin, int actuators, int instances);

@@ -44,11 +44,6 @@ class Shelf {
   size_t text_ = 0;  // of all keys, bytes
 };
 
-Shelf& TheShelf() {
-  static Shelf shelf;
-  return shelf;
-}
-
 constexpr size_t kShort = 2048;  // bytes
 constexpr size_t kBlock = 64, kBlocks = 16;
 
@@ -70,7 +65,8 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
   }
   // the same text and the same file are prepared once
   const std::string key = std::string(AttributeText(m, instance)) + FileStamp(texts);
-  if (auto known = TheShelf().Find(key)) return known;
+  static Shelf shelf;
+  if (auto known = shelf.Find(key)) return known;
 
   auto prepared = std::make_shared<PreparedInstance>();
   if (texts.contains("instance")) prepared->written_name = texts.at("instance");
@@ -80,7 +76,7 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
   }
   // DescribeJoints has checked it
   prepared->joint_sensors = texts.contains("joint_sensors") && texts["joint_sensors"] == "true";
-  TheShelf().Keep(key, prepared);
+  shelf.Keep(key, prepared);
   return prepared;
 }
 

@@ -73,8 +73,11 @@ int States(const mjModel* m, int instance) {
   int states = 0;
   const char* const refusal = RefusalOf([&] {
     PrepareInstance(m, instance);
-    const bool passive = !DrivenByActuators(m, instance);
-    states = kFrictionEntries + (passive ? PassiveStates(m, instance) : 0);
+    states = kFrictionEntries;
+    if (DrivenByActuators(m, instance)) return;
+    for (const ActingJoint& joint : FindJoints(m, instance)) {
+      states += static_cast<int>(joint.prepared->friction.state().size());
+    }
   });
   if (refusal) mju_error("%s: %s", kFrictionPlugin, refusal);
   return states;

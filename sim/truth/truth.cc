@@ -6,7 +6,6 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
-#include "models/friction/friction_json.h"
 
 namespace warmjoint {
 

@@ -34,7 +34,7 @@ std::vector<double> Durations(const std::vector<MotionSegment>& plan) {
 
 Motion Held(std::vector<double> speeds, SegmentOrder order) {
   Motion motion;
-  motion.speed_list = std::move(speeds);
+  motion.speeds.list = std::move(speeds);
   motion.hold = 1;
   motion.order = order;
   return motion;
@@ -42,7 +42,7 @@ Motion Held(std::vector<double> speeds, SegmentOrder order) {
 
 Motion Drawn(SegmentOrder order) {
   Motion motion = Held({}, order);
-  motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
+  motion.speeds.draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
   return motion;
 }
 
@@ -115,7 +115,7 @@ TEST(Motion, ShuffledDrawsHaveAFairSign) {
 TEST(Motion, TravelsFromLimitToLimit) {
   Motion motion = Held({0.5, 1, 3}, SegmentOrder::alternating);
   motion.hold = 0;
-  motion.travel_between_joint_limits = true;
+  motion.travel.joint_limits = true;
   const auto plan = Plan(motion, 100);
 
   // the plan's position stays between the limits and ends each segment on one of them
@@ -130,7 +130,7 @@ TEST(Motion, TravelsFromLimitToLimit) {
 TEST(Motion, ShuffledTravelStillTurnsAtEachLimit) {
   Motion motion = Held({0.5, 1, 3}, SegmentOrder::shuffled);
   motion.hold = 0;
-  motion.travel = {0.0, 1.0};
+  motion.travel.limits = {0.0, 1.0};
   const auto velocities = Velocities(Plan(motion, 100));
   for (size_t i = 0; i < velocities.size(); ++i) EXPECT_EQ(velocities[i] > 0, i % 2 == 0);
 }

@@ -130,6 +130,7 @@ TEST(ReadScenario, RefusesSettingsThatCannotBe) {
       {"motion", "{phases: [{rest: 3}], hold: 5}", "hold"},
       {"motion", "{fourier: {period: 10, harmonics: 2.5, speed: 1}}",
        "motion.fourier.harmonics is '2.5'"},
+      {"motion", "{moves: {between: [-1, 1], speed: 1, acceleration: 2e6}}", "lower acceleration"},
       {"motion", "{corners: []}", "speeds, phases"},
       {"motion", "{corners: [[0, 0, 1]]}", "corners"},
       {"motion", "{corners: [[-1, 0]]}", "motion.corners.0.0 is '-1'"},
@@ -165,8 +166,9 @@ TEST(ReadScenario, RefusesSettingsThatCannotBe) {
 TEST(ReadScenario, AppliesSettings) {
   EXPECT_EQ(Read(Lines(), {{"noise.torque", "2"}}).noise.torque, 2);
   EXPECT_EQ(Read(Lines(), {{"controller.bandwidth", "7"}}).controller.bandwidth, 7);
-  EXPECT_EQ(Read(Lines(), {{"motion.speeds", "[1, 2]"}}).motion.speed_list.size(), 2);
-  EXPECT_TRUE(Read(Lines(), {{"motion.hold", "null"}, {"motion.travel", "[0, 1]"}}).motion.travel);
+  EXPECT_EQ(Read(Lines(), {{"motion.speeds", "[1, 2]"}}).motion.speeds.list.size(), 2);
+  EXPECT_TRUE(
+      Read(Lines(), {{"motion.hold", "null"}, {"motion.travel", "[0, 1]"}}).motion.travel.limits);
 }
 
 TEST(ReadScenario, ReadsFilesAndTheFrictionFilesBesideThem) {

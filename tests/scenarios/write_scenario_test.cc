@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "models/foundation/serialize.h"
 #include "scenarios/disturbances.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/scenario.h"
@@ -29,8 +30,8 @@ Scenario Unusual() {
                                                                     6};
   scenario.draws.numbers["initial_energy"] = {Distribution::Kind::normal, -0.1, 1.0 / 3};
   scenario.initial_energy = -0.1;
-  scenario.motion.speed_list = {0.1, 1.0 / 3, 1e-7};
-  scenario.motion.travel = {-1.0 / 3, 2.0 / 3};
+  scenario.motion.speeds.list = {0.1, 1.0 / 3, 1e-7};
+  scenario.motion.travel.limits = {-1.0 / 3, 2.0 / 3};
   scenario.motion.order = SegmentOrder::shuffled;
   scenario.motion.rests = Rests{100.0 / 3, 1e3 / 7};
   scenario.controller = {31.4159265358979, 0.1};
@@ -63,22 +64,17 @@ TEST(WriteScenario, ReadsBackBitForBit) {
   EXPECT_EQ(back.friction.thermal->time_constant, scenario.friction.thermal->time_constant);
   EXPECT_EQ(back.friction.ambient, scenario.friction.ambient);
   EXPECT_EQ(back.friction.gear, scenario.friction.gear);
-  EXPECT_EQ(back.draws, scenario.draws);
   EXPECT_EQ(back.initial_energy, scenario.initial_energy);
-  EXPECT_EQ(back.motion, scenario.motion);
-  EXPECT_EQ(back.controller, scenario.controller);
-  EXPECT_EQ(back.noise, scenario.noise);
-  EXPECT_EQ(back.disturbances, scenario.disturbances);
-  EXPECT_EQ(back.sampling, scenario.sampling);
   EXPECT_EQ(back.timestep, scenario.timestep);
   EXPECT_EQ(back.duration, scenario.duration);
   EXPECT_EQ(back.seed, scenario.seed);
+  EXPECT_EQ(WriteFields(back), WriteFields(scenario));
 }
 
 TEST(WriteScenario, IsAFixedPoint) {
   Scenario limits = test::Table1();
   limits.motion.hold = 0;
-  limits.motion.travel_between_joint_limits = true;
+  limits.motion.travel.joint_limits = true;
   limits.friction.thermal.reset();
   Scenario phases = test::Table1();
   phases.motion = {};
@@ -100,8 +96,6 @@ TEST(WriteScenario, IsAFixedPoint) {
       {{"motion", "{moves: {between: [-1, 2], speed: 1, acceleration: 4, pause: 0.5}}"}});
   for (const Scenario& scenario :
        {Unusual(), test::Table1(), limits, phases, ideal_only, corners, fourier, moves}) {
-    EXPECT_EQ(ReadBack(scenario).disturbances, scenario.disturbances);
-    EXPECT_EQ(ReadBack(scenario).motion, scenario.motion);
     EXPECT_EQ(ScenarioToYaml(ReadBack(scenario)), ScenarioToYaml(scenario));
   }
 }
@@ -149,7 +143,7 @@ TEST(Realize, RepeatsTheTruthOfARealization) {
   EXPECT_NE(ScenarioToYaml(Realize(Drawn(), 3)), ScenarioToYaml(Realize(Drawn(), 4)));
 }
 
-TEST(Disturbances, DifferWhereAnyOfThemDoes) {
+TEST(Disturbances, AreWrittenWhereAnyOfThemIsNotAtItsDefault) {
   // one number of each member
   const std::vector<std::function<void(Disturbances&)>> changes{
       [](Disturbances& d) { d.outliers.fraction = 0.1; },
@@ -174,12 +168,11 @@ TEST(Disturbances, DifferWhereAnyOfThemDoes) {
         d.second_heat = Thermal{-1, 60};
       },
   };
-  EXPECT_EQ(Disturbances{}, Disturbances{});
+  EXPECT_TRUE(WriteFields(Disturbances{}).empty());
   for (size_t i = 0; i < changes.size(); ++i) {
     Disturbances changed;
     changes[i](changed);
-    EXPECT_FALSE(changed == Disturbances{}) << "member " << i;
-    EXPECT_EQ(changed, changed) << "member " << i;
+    EXPECT_FALSE(WriteFields(changed).empty()) << "member " << i;
   }
 }
 

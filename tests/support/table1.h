@@ -11,7 +11,7 @@ inline Scenario Table1() {
   Scenario scenario;
   scenario.name = "table1";
   scenario.friction = {"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-3, 600}};
-  scenario.motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
+  scenario.motion.speeds.draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
   scenario.motion.hold = 20;
   scenario.noise.torque = 0.5;
   scenario.sampling.rate = 1;

@@ -76,7 +76,7 @@ TEST(RoundTrip, OfAJointThatWarmsUp) {
                   {"asymmetric",
                    {{"viscous", 5}, {"coulomb_positive", 15}, {"coulomb_negative", 13}},
                    Thermal{-1.5, 240}});
-  scenario.motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
+  scenario.motion.speeds.draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
   scenario.motion.hold = 20;
   scenario.noise.torque = 0.2;
   scenario.sampling = {10, 10, 0};
@@ -116,8 +116,8 @@ Scenario Sweeps(const std::filesystem::path& robot, const std::string& joint) {
 
   Scenario scenario = InTheEngine(
       robot, joint, {"viscous_coulomb", {{"viscous", 2}, {"coulomb", 8}}, Thermal{-0.8, 240}});
-  scenario.motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
-  scenario.motion.travel = {{middle - reach, middle + reach}};
+  scenario.motion.speeds.draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
+  scenario.motion.travel.limits = {{middle - reach, middle + reach}};
   scenario.timestep = 0.001;
   return scenario;
 }
@@ -149,8 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
 Measurements Swings(const std::string& robot) {
   Scenario scenario = InTheEngine(
       robot, "hinge", {"viscous_coulomb", {{"viscous", 1}, {"coulomb", 6}}, Thermal{-0.6, 300}});
-  scenario.motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.2, 2};
-  scenario.motion.travel = {{-2.5, 2.5}};
+  scenario.motion.speeds.draws = Distribution{Distribution::Kind::uniform, 0.2, 2};
+  scenario.motion.travel.limits = {{-2.5, 2.5}};
   scenario.seed = 7;
   return LogOf(scenario);
 }
@@ -180,8 +180,8 @@ TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
 
 TEST(LuGreInTheEngine, ComesBackFromSlowAndSmallTurns) {
   Scenario scenario = InTheEngine("rotary", "hinge", test::LuGreJoint());
-  scenario.motion.speed_list = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1};
-  scenario.motion.travel = {{-0.04, 0.04}};
+  scenario.motion.speeds.list = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1};
+  scenario.motion.travel.limits = {{-0.04, 0.04}};
   scenario.motion.order = SegmentOrder::shuffled;
   scenario.controller = {};
   scenario.sampling = {250, 250, 0};

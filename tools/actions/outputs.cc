@@ -1,12 +1,9 @@
 #include "tools/actions/outputs.h"
 
-#include <warmjoint/simulation.h>
-
 #include <algorithm>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/recording/read_recording.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;
@@ -24,8 +21,7 @@ bool AreOne(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 std::FILE* WordsBeside(const std::vector<fs::path>& outputs) {
-  const bool taken = std::any_of(outputs.begin(), outputs.end(), IsStandardOutput);
-  return taken ? stderr : stdout;
+  return std::ranges::any_of(outputs, IsStandardOutput) ? stderr : stdout;
 }
 
 void KeepApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
@@ -41,19 +37,6 @@ void KeepApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>
       Refuse({output->string()}, "is given for two outputs; choose another name for one of them");
     }
   }
-}
-
-const std::vector<std::string>& SimulatedFiles() {
-  static const std::vector<std::string> files{"recording.csv", "recording.h5", "truth.json",
-                                              "scenario.yaml"};
-  return files;
-}
-
-void WriteSimulated(const Simulation& recording, const std::string& scenario,
-                    const std::string& format, const std::filesystem::path& folder) {
-  WriteRecording(recording.measurements, folder / ("recording." + format));
-  WriteTruth(recording.truth, folder / "truth.json");
-  WriteWholeFile(folder / "scenario.yaml", scenario);
 }
 
 }  // namespace warmjoint

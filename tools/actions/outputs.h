@@ -1,11 +1,8 @@
 // What commands write, kept apart from what they read and say.
 #pragma once
 
-#include <warmjoint/simulation.h>
-
 #include <cstdio>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace warmjoint {
@@ -17,12 +14,5 @@ std::FILE* WordsBeside(const std::vector<std::filesystem::path>& outputs);
 /// that are empty were not given.
 void KeepApart(const std::vector<std::filesystem::path>& outputs,
                const std::vector<std::filesystem::path>& inputs);
-
-/// What a directory of `simulate` may hold: recording.csv or recording.h5, truth.json, scenario.yaml.
-const std::vector<std::string>& SimulatedFiles();
-
-/// Writes them into `folder`. scenario: its YAML; format: csv or h5. Throws OutputFailed.
-void WriteSimulated(const Simulation& recording, const std::string& scenario,
-                    const std::string& format, const std::filesystem::path& folder);
 
 }  // namespace warmjoint

@@ -14,13 +14,12 @@
 #include "sim/plant/plant.h"
 #include "tools/board/format_board.h"
 #include "tools/store/database.h"
-#include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
-#include "tools/suite/prepare_identifiers.h"
 
 namespace fs = std::filesystem;
 
 namespace warmjoint {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExtension = ".yaml";
@@ -29,9 +28,9 @@ fs::path SuiteFolder() { return DataFolder() / "scenarios" / "suites"; }
 
 /// A resumed run takes its own copy of the suite; one with a person's changes is left as it is.
 void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& description) {
-  const std::filesystem::path copy = std::filesystem::path(arguments.output) / "suite.yaml";
+  const fs::path copy = fs::path(arguments.output) / "suite.yaml";
   std::error_code absent;
-  if (!std::filesystem::equivalent(arguments.suite, copy, absent)) return;
+  if (!fs::equivalent(arguments.suite, copy, absent)) return;
   if (ReadWholeFile(copy) == description.suite_yaml) return;
   Refuse({arguments.suite},
          "is the run's own copy, which a run writes anew, and holds more than that; name another "

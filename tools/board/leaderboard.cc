@@ -17,14 +17,7 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// Realizations of the variants first .. last.
-struct Group {
-  int first = 0;
-  int last = 0;
-};
 
 /// A figure of each result, and where its summary goes.
 struct Figure {
@@ -40,28 +33,19 @@ constexpr std::array<Figure, 7> kFigures{{{"npe_continuous", &LeaderboardRow::np
                                           {"mae", &LeaderboardRow::mae},
                                           {"seconds", &LeaderboardRow::seconds}}};
 
-double Number(const SQLite::Column& column) {
-  return column.isNull() ? kUnknown : column.getDouble();
-}
+/// Puts questions on the realizations of a store's variants first .. last.
+struct Questions {
+  const RunStore& store;
+  int first = 0;
+  int last = 0;
 
-/// Puts questions on one group of a store.
-class Questions {
- public:
-  Questions(const RunStore& store, Group group) : store_(store), group_(group) {}
-
-  bool of_one_variant() const { return group_.first == group_.last; }
-
-  /// The query's ?1 and ?2 are the group's variants, the following ones `more`.
+  /// The query's ?1 and ?2 are the first and the last variant, the following ones `more`.
   template <typename... More>
   SQLite::Statement Ask(const std::string& query, const More&... more) const {
-    SQLite::Statement statement(store_.database(), query);
-    SQLite::bind(statement, group_.first, group_.last, more...);
+    SQLite::Statement statement(store.database(), query);
+    SQLite::bind(statement, first, last, more...);
     return statement;
   }
-
- private:
-  const RunStore& store_;
-  Group group_;
 };
 
 /// Failures by status, and the message of the first one.
@@ -75,8 +59,7 @@ void AddFailures(const Questions& questions, int identifier, LeaderboardRow& row
   }
   SQLite::Statement first = questions.Ask(
       "SELECT message FROM result WHERE variant BETWEEN ?1 AND ?2 AND identifier = ?3 AND status "
-      "<> "
-      "'ok' AND message <> '' ORDER BY variant, realization LIMIT 1",
+      "<> 'ok' AND message <> '' ORDER BY variant, realization LIMIT 1",
       identifier);
   if (first.executeStep()) row.failure_example = first.getColumn(0).getString();
 }
@@ -86,15 +69,14 @@ void AddFailures(const Questions& questions, int identifier, LeaderboardRow& row
 void AddFigures(const Questions& questions, int identifier, LeaderboardRow& row) {
   std::string columns;
   for (const Figure& figure : kFigures) columns += fmt::format(", {}", figure.column);
-  SQLite::Statement results = questions.Ask(
-      "SELECT variant" + columns +
-          " FROM result WHERE variant BETWEEN ?1 AND ?2 AND identifier = ?3 ORDER BY variant, "
-          "realization",
-      identifier);
+  SQLite::Statement results = questions.Ask("SELECT variant" + columns +
+                                                " FROM result WHERE variant BETWEEN ?1 AND ?2 AND "
+                                                "identifier = ?3 ORDER BY variant, realization",
+                                            identifier);
   std::array<std::vector<double>, kFigures.size()> numbers;
   for (; results.executeStep(); ++row.runs) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      numbers[i].push_back(Number(results.getColumn(static_cast<int>(i) + 1)));
+      numbers[i].push_back(NumberIn(results.getColumn(static_cast<int>(i) + 1)));
     }
   }
   std::vector<double> ranked = numbers.front();
@@ -119,8 +101,8 @@ struct ParameterErrors {
 void AddParameters(const Questions& questions, int identifier, LeaderboardRow& row) {
   SQLite::Statement one = questions.Ask(
       "SELECT name, covered, estimated, estimate - truth, bound FROM parameter WHERE variant "
-      "BETWEEN "
-      "?1 AND ?2 AND identifier = ?3 AND discrete = 0 ORDER BY variant, realization, position",
+      "BETWEEN ?1 AND ?2 AND identifier = ?3 AND discrete = 0 ORDER BY variant, realization, "
+      "position",
       identifier);
   std::vector<ParameterErrors> all;
   while (one.executeStep()) {
@@ -131,8 +113,8 @@ void AddParameters(const Questions& questions, int identifier, LeaderboardRow& r
     errors->intervals += !one.getColumn(1).isNull();
     errors->covered += one.getColumn(1).getInt() != 0;
     if (one.getColumn(2).getInt() == 0) continue;
-    errors->error.push_back(Number(one.getColumn(3)));
-    errors->bound.push_back(Number(one.getColumn(4)));
+    errors->error.push_back(NumberIn(one.getColumn(3)));
+    errors->bound.push_back(NumberIn(one.getColumn(4)));
   }
   for (const ParameterErrors& errors : all) {
     ParameterRow parameter{errors.name, {}, 0};
@@ -173,9 +155,9 @@ bool Better(const LeaderboardRow& a, const LeaderboardRow& b) {
 }
 
 /// Rows, best first, each with its distance from the best.
-std::vector<LeaderboardRow> Rank(const Questions& questions, const Suite& suite) {
+std::vector<LeaderboardRow> Rank(const Questions& questions) {
   std::vector<std::pair<LeaderboardRow, int>> rows;
-  for (const SuiteIdentifier& identifier : suite.identifiers) {
+  for (const SuiteIdentifier& identifier : questions.store.suite().identifiers) {
     const auto position = static_cast<int>(rows.size());
     LeaderboardRow& row = rows.emplace_back(LeaderboardRow{}, position).first;
     row.identifier = identifier.label;
@@ -191,8 +173,9 @@ std::vector<LeaderboardRow> Rank(const Questions& questions, const Suite& suite)
   // all others are compared with the best one, realization by realization: errors of different variants are not alike
   std::vector<LeaderboardRow> ranked;
   for (auto& [row, position] : rows) {
-    if (!ranked.empty() && questions.of_one_variant())
+    if (!ranked.empty() && questions.first == questions.last) {
       row.behind = Behind(questions, position, rows.front().second);
+    }
     ranked.push_back(std::move(row));
   }
   return ranked;
@@ -203,29 +186,27 @@ void AddBounds(const Questions& questions, Standing& sum) {
   SQLite::Statement unit = questions.Ask(
       "SELECT bound_npe_continuous, bound_npe_discrete, min(identifier) FROM result WHERE variant "
       "BETWEEN ?1 AND ?2 AND coalesce(bound_npe_continuous, bound_npe_discrete) IS NOT NULL GROUP "
-      "BY "
-      "variant, realization ORDER BY variant, realization");
+      "BY variant, realization ORDER BY variant, realization");
   std::vector<double> continuous, discrete;
   while (unit.executeStep()) {
-    continuous.push_back(Number(unit.getColumn(0)));
-    discrete.push_back(Number(unit.getColumn(1)));
+    continuous.push_back(NumberIn(unit.getColumn(0)));
+    discrete.push_back(NumberIn(unit.getColumn(1)));
   }
   sum.bound_npe_continuous = RootMeanSquareOf(continuous);
   sum.bound_npe_discrete = RootMeanSquareOf(discrete);
 }
 
-Standing SumUp(const RunStore& store, Group group) {
+Standing SumUp(const Questions& questions) {
   // how many, how well it could be done, and how well it was done
-  const Suite& suite = store.suite();
-  const Questions questions(store, group);
   Standing sum;
-  sum.realizations = suite.realizations * (group.last - group.first + 1);
+  const int variants = questions.last - questions.first + 1;
+  sum.realizations = questions.store.suite().realizations * variants;
   SQLite::Statement units =
       questions.Ask("SELECT count(*) FROM realization WHERE variant BETWEEN ?1 AND ?2");
   units.executeStep();
   sum.finished = units.getColumn(0).getInt();
   AddBounds(questions, sum);
-  sum.rows = Rank(questions, suite);
+  sum.rows = Rank(questions);
   return sum;
 }
 
@@ -264,7 +245,7 @@ Leaderboard ReadBoard(const RunStore& store) {
     // all variants together
     const Suite& suite = store.suite();
     Leaderboard board;
-    static_cast<Standing&>(board) = SumUp(store, {0, suite.variants() - 1});
+    static_cast<Standing&>(board) = SumUp({store, 0, suite.variants() - 1});
     board.suite = suite.name;
     board.question = suite.question;
     board.joint = suite.scenario.joint_kind;
@@ -275,7 +256,7 @@ Leaderboard ReadBoard(const RunStore& store) {
     if (!suite.ladder->unit.empty()) board.variable += " " + suite.ladder->unit;
     for (int i = 0; i < suite.variants(); ++i) {
       const Variant& variant = suite.ladder->variants[static_cast<std::size_t>(i)];
-      board.groups.push_back({SumUp(store, {i, i}), variant.name, variant.value});
+      board.groups.push_back({SumUp({store, i, i}), variant.name, variant.value});
     }
     RankByVariants(board);
     return board;

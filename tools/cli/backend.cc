@@ -9,12 +9,12 @@
 #include <cerrno>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
 #include "tools/suite/run_command.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
 namespace {
@@ -36,9 +36,7 @@ Ended Call(std::vector<std::string> words, std::string_view input) {
   posix_spawn_file_actions_init(&actions);
   const int files[] = {in.descriptor(), out.descriptor(), err.descriptor()};
   for (int i = 0; i < 3; ++i) posix_spawn_file_actions_adddup2(&actions, files[i], i);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+  const std::vector<char*> arguments = ExecWords(words);
 
   pid_t child = 0;
   const int failed =

@@ -90,10 +90,11 @@ ExitStatus Attach(const AttachArguments& arguments) {
 
   // nothing is written over, and every doubt of the estimates is told before the model is made
   KeepApart({arguments.output}, inputs);
-  for (const std::string& warning : warnings) Say(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Attached attached = AttachFriction(model, frictions, arguments.output, options);
   for (const std::string& notice : attached.notices) SayNotice("notice: {}\n", notice);
-  Say(WordsBeside({arguments.output}),
+  fmt::print(
+      WordsBeside({arguments.output}),
       "{}: friction on {} of its joints; load it with libwarmjoint_friction.so in MuJoCo {}\n",
       arguments.output, attached.joints.size(), mj_versionString());
   return ExitStatus::done;
@@ -106,11 +107,10 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
       ->take_all();
   std::vector<std::string> names;
   for (const auto& [name, unused] : kIntegrators) names.push_back(name);
-  const auto take = [&arguments](const std::string& given) {
-    const auto found = kIntegrators.find(given);
-    if (found != kIntegrators.end()) arguments.options.integrator = found->second;
+  const auto take = [&arguments](const std::string& choice) {
+    arguments.options.integrator = kIntegrators.at(choice);
   };
-  AddChoice(parser, "--integrator", ChoiceTarget{"", take}, names, "integrator of the result");
+  AddChoice(parser, "--integrator", take, names, "integrator of the result");
   AddValue(parser, "--timestep", "NUMBER", arguments.options.timestep, "step of the result, s");
   AddValue(parser, "--package", "NAME=DIR", arguments.packages,
            "NAME=FOLDER: where package://NAME of a URDF's meshes lies")

@@ -162,11 +162,12 @@ ExitStatus Check(const CheckArguments& arguments) {
     if (arguments.format == "json") {
       fmt::print(words, "{}\n", Json(files).dump(2));
     } else {
-      Say(words, "{}", Text(files));
+      fmt::print(words, "{}", Text(files));
     }
     if (!arguments.plot.empty() && !files.front().check) {
-      Say(stderr, "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
-          arguments.plot, files.front().file);
+      fmt::print(stderr,
+                 "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
+                 arguments.plot, files.front().file);
     }
   });
 

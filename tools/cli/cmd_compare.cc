@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "models/friction/friction_json.h"
+#include "models/foundation/bad_input.h"
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/typed_options.h"
-#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {

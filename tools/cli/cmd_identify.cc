@@ -48,14 +48,6 @@ struct Asked {
   std::optional<CheckedCommand> command;
 };
 
-/// What came of it; without an estimate the status and message of a command that gave no answer.
-struct Answered {
-  std::string name;
-  std::optional<Identified> identified;
-  std::string status;
-  std::string message;
-};
-
 IdentifySettings SettingsOf(const IdentifyArguments& arguments, const std::string& identifier) {
   // the settings that all identifiers share, and what is this one's
   IdentifySettings settings = arguments.settings;
@@ -149,7 +141,8 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction || !estimate.friction->torque_unit.empty()) {
     activity.Aside([&] {
-      Say(stderr, "{} is not written: there is no friction that MuJoCo can use\n", arguments.mjcf);
+      fmt::print(stderr, "{} is not written: there is no friction that MuJoCo can use\n",
+                 arguments.mjcf);
     });
     return;
   }
@@ -185,7 +178,7 @@ void Deliver(const IdentifyArguments& arguments, const Identified& identified,
       if (!IsStandardOutput(arguments.output)) fmt::print(words, "{}", file);
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
-      Say(words, "{}", EstimateToText(estimate, measurements, PageOf(words), detail));
+      fmt::print(words, "{}", EstimateToText(estimate, measurements, PageOf(words), detail));
     }
   });
 }
@@ -194,12 +187,10 @@ void Deliver(const IdentifyArguments& arguments, const Identified& identified,
 void PrintSeveral(const IdentifyArguments& arguments, const std::vector<Answered>& answers,
                   const std::string& unit) {
   if (arguments.format != "json") {
-    std::vector<EstimateRow> rows;
     for (const Answered& one : answers) {
-      rows.push_back({one.name, one.status, one.identified ? &one.identified->estimate : nullptr});
-      if (!one.message.empty()) Say(stderr, "{}: {}\n", one.name, one.message);
+      if (!one.message.empty()) fmt::print(stderr, "{}: {}\n", one.name, one.message);
     }
-    Say(stdout, "{}", EstimatesToText(rows, unit));
+    fmt::print(stdout, "{}", EstimatesToText(answers, unit));
     return;
   }
   Tree estimates = Tree::array();
@@ -251,7 +242,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
     Deliver(arguments, *first.identified, heat, log, backend, activity);
   } else {
     activity.Aside([&] {
-      Say(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);
+      fmt::print(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);
     });
   }
   return any_ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
@@ -283,9 +274,8 @@ Command AddIdentifyCommand(CLI::App& program) {
 
   // which identifier, and what it is told
   AddValue(*parser, "--identifier", "IDENTIFIER", arguments->identifiers,
-           "see: warmjoint list identifiers; or a command of your own, as "
-           "'mine=python3 mine.py {recording} {estimate}'; given several times: a table with "
-           "a row for each")
+           "see: warmjoint list identifiers; or a command of your own, as 'mine=python3 mine.py "
+           "{recording} {estimate}'; given several times: a table with a row for each")
       ->take_all()
       ->capture_default_str();
   AddChoice(*parser, "--gravity", arguments->settings.gravity,

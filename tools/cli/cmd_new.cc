@@ -11,7 +11,6 @@
 #include "models/robots/robot_folder.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
-#include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
@@ -39,11 +38,6 @@ struct NewArguments {
   std::string name;
 };
 
-/// The text with every "NAME" replaced.
-std::string Named(const std::string& text, const std::string& name) {
-  return Replaced(text, "NAME", name);
-}
-
 /// Names become files, labels of rows and words of a shell: letters, digits, - and _ do for all.
 void CheckName(const std::string& name) {
   // ASCII alone: the locale must not decide
@@ -67,9 +61,9 @@ ExitStatus MakeNew(const NewArguments& arguments) {
   }
 
   // the template with the name in it, and the command to try it
-  WriteWholeFile(target, Named(ReadWholeFile(source), arguments.name));
-  Say(stdout, "{}: try it as it stands:\n  {}\n", target.string(),
-      Named(chosen->next, arguments.name));
+  WriteWholeFile(target, Replaced(ReadWholeFile(source), "NAME", arguments.name));
+  fmt::print(stdout, "{}: try it as it stands:\n  {}\n", target.string(),
+             Replaced(chosen->next, "NAME", arguments.name));
   return ExitStatus::done;
 }
 

@@ -1,7 +1,6 @@
 // warmjoint plot SOURCE... -o DIR: pictures of runs, estimates and simulated recordings.
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -35,7 +34,6 @@ struct PlotArguments {
 struct Wanted {
   fs::path folder;
   figures::Figure figure;
-  bool required = false;  // asked for by name
   std::string source;
 };
 
@@ -44,7 +42,7 @@ void WriteAll(const std::vector<Wanted>& wanted, const std::vector<DrawnFigure>&
               const PlotArguments& arguments, const std::vector<fs::path>& recordings,
               Activity& activity) {
   const auto print = [&](const fs::path& path, const std::string& finding) {
-    activity.Aside([&] { Say(stdout, "{}: {}\n", path.string(), finding); });
+    activity.Aside([&] { fmt::print(stdout, "{}: {}\n", path.string(), finding); });
   };
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const figures::Figure& figure = wanted[i].figure;
@@ -54,8 +52,8 @@ void WriteAll(const std::vector<Wanted>& wanted, const std::vector<DrawnFigure>&
       continue;
     }
     // the file is called as the figure
-    const fs::path path =
-        wanted[i].folder / fmt::format("{}.{}", figure.name, arguments.pictures.format);
+    const auto format = NameOf(arguments.pictures.setting.format);
+    const fs::path path = wanted[i].folder / fmt::format("{}.{}", figure.name, format);
     WriteWholeFile(path, drawn[i].bytes);
     print(path, figure.finding);
 
@@ -125,7 +123,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
     SourcePictures pictures = PicturesOf(source, arguments.recording);
     if (all) activity.Aside([&] { TellLeftOut(source, pictures); });
     for (figures::Figure& figure : Chosen(arguments.pictures, source, pictures)) {
-      wanted.push_back({folders[i], std::move(figure), !all, source});
+      wanted.push_back({folders[i], std::move(figure), source});
     }
     recordings.insert(recordings.end(), pictures.recordings.begin(), pictures.recordings.end());
     if (pictures.estimate) {
@@ -134,7 +132,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   }
   // several estimates in one figure
   if (auto overlay = figures::MakeOverlay(estimates); overlay && all) {
-    wanted.push_back({arguments.output, *std::move(overlay), false, arguments.output});
+    wanted.push_back({arguments.output, *std::move(overlay), arguments.output});
   }
 
   // all of them at once
@@ -143,8 +141,8 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   for (const Wanted& one : wanted) figures.push_back(one.figure);
   const auto drawn = backend.Draw(figures, setting);
   // nothing is written where a figure that was asked for by name could not be drawn
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i].required && !drawn[i].refusal.empty()) Refuse({}, "{}", drawn[i].refusal);
+  for (const DrawnFigure& one : drawn) {
+    if (!all && !one.refusal.empty()) Refuse({}, "{}", one.refusal);
   }
   for (const fs::path& folder : folders) MakeFolder(folder);
   WriteAll(wanted, drawn, arguments, recordings, activity);

@@ -86,15 +86,15 @@ ExitStatus Predict(PredictArguments arguments) {
   activity.Aside([&] {
     // void numbers are shown, since they were asked for
     if (stored.status != Status::ok) {
-      Say(stderr, "{} is {}: its friction is void, and so is what it predicts\n",
-          arguments.estimate, StatusName(stored.status));
+      fmt::print(stderr, "{} is {}: its friction is void, and so is what it predicts\n",
+                 arguments.estimate, StatusName(stored.status));
     }
     if (arguments.format == "json") {
       nlohmann::json told = PredictedToJson(stored, predicted);
       if (begin.follows) told["follows"] = WriteFields(*begin.follows);
       fmt::print(words, "{}\n", told.dump(2));
     } else {
-      Say(words, "{}", PredictedToText(arguments, stored, predicted, begin));
+      fmt::print(words, "{}", PredictedToText(arguments, stored, predicted, begin));
     }
   });
   return ExitStatus::done;

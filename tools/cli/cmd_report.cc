@@ -1,6 +1,5 @@
 // warmjoint report SOURCE: a run, or a log with its estimate, on one web page.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>

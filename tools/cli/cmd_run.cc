@@ -21,7 +21,6 @@
 #include "tools/suite/external_identifier.h"
 #include "tools/suite/prepare_identifiers.h"
 #include "tools/terminal/say.h"
-#include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
 namespace {
@@ -91,13 +90,13 @@ ExitStatus RunHere(const Plan& plan, const RunArguments& arguments) {
   const LocalEnd end = RunLocally(plan, static_cast<int>(*arguments.local_shards),
                                   ForEachShard(arguments, plan.suite));
   if (end.interrupted) {
-    Say(stderr, "interrupted: {} of {} shards are finished; the same command goes on\n",
-        plan.shards - plan.Open().size(), plan.shards);
+    fmt::print(stderr, "interrupted: {} of {} shards are finished; the same command goes on\n",
+               plan.shards - plan.Open().size(), plan.shards);
     return ExitStatus::interrupted;
   }
   if (end.failed != 0) {
-    Say(stderr, "shard {} of {} ended with status {}; the same command starts it again\n",
-        end.failed, plan.shards, end.status);
+    fmt::print(stderr, "shard {} of {} ended with status {}; the same command starts it again\n",
+               end.failed, plan.shards, end.status);
     return static_cast<ExitStatus>(end.status > 128 ? 1 : end.status);
   }
   return Conclude(plan);
@@ -110,8 +109,8 @@ ExitStatus SubmitAll(const Plan& plan) {
     Refuse({plan.run.string()}, "is submitted already; see `warmjoint status {}`",
            plan.run.string());
   }
-  Say(stdout, "submitted: shards {}; see: warmjoint status {}\n", Ranges(submitted),
-      plan.run.string());
+  fmt::print(stdout, "submitted: shards {}; see: warmjoint status {}\n", Ranges(submitted),
+             plan.run.string());
   return ExitStatus::done;
 }
 
@@ -132,12 +131,6 @@ void AddShardOptions(CLI::App& parser, RunArguments& arguments) {
       ->group("In shards");
   parser.add_flag("--dry-run", arguments.dry_run, "write plan and script, and submit nothing")
       ->group("In shards");
-}
-
-/// Refuses options of a run in shards where it is none.
-void RefuseShardOptions(const RunArguments& arguments) {
-  if (!arguments.shards && arguments.sbatch.empty() && !arguments.dry_run) return;
-  Refuse({"warmjoint run"}, "--shards, --sbatch and --dry-run go with --slurm or --local-shards N");
 }
 
 /// Plans the run, or takes the plan that is there, and submits it or carries it out.
@@ -167,6 +160,20 @@ ExitStatus RunInShards(const RunArguments& arguments) {
   return arguments.slurm ? SubmitAll(plan) : RunHere(plan, arguments);
 }
 
+/// Runs what the store lacks. An interrupt ends it after the realizations in hand. Says what commands can reach, and in how
+/// many realizations the simulated joint did not follow its motion, if in any.
+RunOutcome RunAndTell(const RunArguments& arguments, const RunTask& task, bool keep_recordings,
+                      RunStore& store) {
+  ReportConfinement(task.suite.identifiers, {arguments.suite, store.directory()},
+                    arguments.confinement);
+  CatchInterrupts();
+  RunOutcome outcome =
+      RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, keep_recordings}, store);
+  const std::string words = outcome.following.Words(task.suite);
+  if (!words.empty()) SayNotice("notice: {}\n", words);
+  return outcome;
+}
+
 /// One shard of a planned run, as its tasks do it: on this machine's own disk (TMPDIR), and into RUN once
 /// it is finished. One that is interrupted or killed leaves nothing and begins anew.
 ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task) {
@@ -181,7 +188,7 @@ ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task) {
            arguments.shard, arguments.output, plan.shards);
   }
   const auto say = [&](const char* what) {
-    Say(stdout, "shard {} of {}: {}\n", number, plan.run.string(), what);
+    fmt::print(stdout, "shard {} of {}: {}\n", number, plan.run.string(), what);
     return ExitStatus::done;
   };
   if (plan.IsDone(number)) return say("its results are there already");
@@ -191,12 +198,7 @@ ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task) {
   const fs::path directory = folder.path() / "run";
   {
     RunStore store = RunStore::CreateOrResume(directory, task.description);
-    ReportConfinement(task.suite.identifiers, {arguments.suite, directory}, arguments.confinement);
-    CatchInterrupts();
-    const RunOutcome outcome =
-        RunSuite(task.suite, task.identifiers, {task.jobs, task.shard}, store);
-    NoticeNotFollowing(outcome.following, task.suite);
-    if (outcome.interrupted) {
+    if (RunAndTell(arguments, task, false, store).interrupted) {
       say("interrupted; it begins anew with the same command");
       return ExitStatus::interrupted;
     }
@@ -211,21 +213,18 @@ ExitStatus RunCommand(RunArguments arguments) {
   // a suite by its name or file, in shards or here
   arguments.suite = FindSuite(arguments.suite);
   if (arguments.in_shards()) return RunInShards(arguments);
-  RefuseShardOptions(arguments);
+  if (arguments.shards || !arguments.sbatch.empty() || arguments.dry_run) {
+    Refuse({"warmjoint run"},
+           "--shards, --sbatch and --dry-run go with --slurm or --local-shards N");
+  }
 
   const RunTask task = PrepareRun(arguments);
   if (HasPlan(arguments.output)) return RunPlannedShard(arguments, task);
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
-  ReportConfinement(task.suite.identifiers, {arguments.suite, arguments.output},
-                    arguments.confinement);
-  // interrupts end the run after the realizations in hand
-  CatchInterrupts();
-  const RunOutcome outcome =
-      RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
-  NoticeNotFollowing(outcome.following, task.suite);
+  const RunOutcome outcome = RunAndTell(arguments, task, arguments.keep, store);
   if (outcome.interrupted) {
-    Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
-        outcome.finished, outcome.total);
+    fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
+               outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
   // tables and words of a run that is over; a shard says little by itself

@@ -109,16 +109,21 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   const Scenario scenario = ResolveScenario(arguments);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   std::vector<std::filesystem::path> outputs, inputs{arguments.scenario};
-  for (const std::string& file : SimulatedFiles()) {
+  const std::vector<std::string> files{"recording.csv", "recording.h5", "truth.json",
+                                       "scenario.yaml"};
+  for (const std::string& file : files) {
     outputs.push_back(std::filesystem::path(arguments.output) / file);
   }
   // none of its inputs is written over
   for (const std::string& input : arguments.motion.files) inputs.emplace_back(input);
   KeepApart(outputs, inputs);
-  AtomicDirectory directory(arguments.output, SimulatedFiles());
+  AtomicDirectory directory(arguments.output, files);
 
   const Simulation recording = Carried(*plant, scenario, arguments.realization.value_or(0));
-  WriteSimulated(recording, ScenarioToYaml(scenario), arguments.format, directory.temporary());
+  const std::filesystem::path& folder = directory.temporary();
+  WriteRecording(recording.measurements, folder / ("recording." + arguments.format));
+  WriteTruth(recording.truth, folder / "truth.json");
+  WriteWholeFile(folder / "scenario.yaml", ScenarioToYaml(scenario));
   directory.Commit();
   // what came of it, and whether the joint did what it should
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),

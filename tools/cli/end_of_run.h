@@ -3,7 +3,6 @@
 
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
-#include "tools/suite/engine.h"
 
 namespace warmjoint {
 
@@ -15,8 +14,5 @@ enum class RunPart { whole, shard };
 /// status 5; of a shard, which may hold few realizations or none, only the whole says.
 ExitStatus PrintEnding(const std::filesystem::path& directory, const RunEnding& ending,
                        RunPart part);
-
-/// Says on stderr in how many realizations the simulated joint did not follow its motion, if in any.
-void NoticeNotFollowing(const FollowingTally& following, const Suite& suite);
 
 }  // namespace warmjoint

@@ -11,7 +11,6 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
 #include "tools/figures/shown_estimate.h"
-#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {
@@ -40,18 +39,13 @@ std::string PairedGravity(const GravityModel& gravity, const std::string& unit) 
                      turn * static_cast<double>(gravity.knots.size()));
 }
 
-/// A figure that may not exist.
-std::string FigureText(double figure, int digits) {
-  return std::isfinite(figure) ? fmt::format("{:.{}g}", figure, digits) : "-";
-}
-
 void AddMetrics(Table& table, const std::string& name, const std::optional<Metrics>& metrics) {
   // a figure that does not exist is a dash
   if (!metrics) return;
   table.rows.push_back({name, std::to_string(metrics->n), fmt::format("{:.4g}", metrics->rmse),
                         fmt::format("{:.4g}", metrics->mae),
                         std::isfinite(metrics->fit) ? fmt::format("{:.2f}", metrics->fit) : "-",
-                        FigureText(metrics->fpe, 4)});
+                        std::isfinite(metrics->fpe) ? fmt::format("{:.4g}", metrics->fpe) : "-"});
 }
 
 std::string RemarksText(const Estimate& estimate, Detail detail) {
@@ -209,13 +203,13 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   return text;
 }
 
-std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit) {
+std::string EstimatesToText(const std::vector<Answered>& answers, const std::string& unit) {
   Table table{{"identifier", "verdict", "RMSE " + unit, "held-out RMSE"}, {}};
   // a column for each parameter that one of them has
   std::vector<std::string> names;
-  for (const EstimateRow& row : rows) {
-    if (!row.estimate) continue;
-    for (const EstimatedParameter& one : ShownParameters(*row.estimate)) {
+  for (const Answered& answer : answers) {
+    if (!answer.identified) continue;
+    for (const EstimatedParameter& one : ShownParameters(answer.identified->estimate)) {
       if (std::ranges::find(names, one.name) != names.end()) continue;
       names.push_back(one.name);
       table.header.push_back(one.unit == "1" ? one.name : one.name + " " + one.unit);
@@ -223,15 +217,17 @@ std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::str
   }
 
   // what one does not have is a dash
-  for (const auto& [name, status, estimate] : rows) {
+  for (const Answered& answer : answers) {
     std::vector<std::string>& cells =
         table.rows.emplace_back(std::vector<std::string>(table.header.size(), "-"));
-    cells[0] = name;
-    cells[1] = estimate ? std::string(StatusName(estimate->status)) : status;
-    if (!estimate) continue;
-    if (estimate->metrics) cells[2] = fmt::format("{:.4g}", estimate->metrics->rmse);
-    if (estimate->holdout) cells[3] = fmt::format("{:.4g}", estimate->holdout->rmse);
-    for (const EstimatedParameter& one : ShownParameters(*estimate)) {
+    cells[0] = answer.name;
+    cells[1] = answer.status;
+    if (!answer.identified) continue;
+    const Estimate& estimate = answer.identified->estimate;
+    cells[1] = StatusName(estimate.status);
+    if (estimate.metrics) cells[2] = fmt::format("{:.4g}", estimate.metrics->rmse);
+    if (estimate.holdout) cells[3] = fmt::format("{:.4g}", estimate.holdout->rmse);
+    for (const EstimatedParameter& one : ShownParameters(estimate)) {
       const auto column = std::ranges::find(names, one.name) - names.begin();
       cells[4 + static_cast<size_t>(column)] = fmt::format("{:.4g}", one.value);
     }

@@ -4,9 +4,11 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/recording.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/identify/identify_recording.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {
@@ -20,16 +22,17 @@ enum class Detail { brief, full };
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail);
 
-/// One of several identifiers on a log. status: of one that gave no estimate.
-struct EstimateRow {
+/// What came of an identifier on a log; without an estimate the status and message of a command that gave no answer.
+struct Answered {
   std::string name;
+  std::optional<Identified> identified;
   std::string status;
-  const Estimate* estimate = nullptr;
+  std::string message;
 };
 
 /// A table with a row for each: verdict, RMSE on all data and on the part held out, and a column for each parameter.
 /// unit: of the torque.
-std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit);
+std::string EstimatesToText(const std::vector<Answered>& answers, const std::string& unit);
 
 /// An estimate beside the truth, with the NPE and a row for each parameter of the truth: estimate, 95 % interval, truth,
 /// whether the interval holds it, relative error. format: text, markdown, json or csv.

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "identification/estimate.h"
 #include "models/foundation/bad_input.h"
-#include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
 #include "tools/cli/typed_options.h"
 #include "tools/figures/estimate_figures.h"
@@ -49,7 +46,8 @@ RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) 
   for (const std::string& recording : remembered->files) {
     if (fs::exists(recording)) continue;
     // a warning, which --quiet leaves: it was there when the estimate was made
-    Say(stderr,
+    fmt::print(
+        stderr,
         "{}: its recording {} is not there; give --recording for the pictures that need it\n", file,
         recording);
     return {};
@@ -57,27 +55,19 @@ RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) 
   return *remembered;
 }
 
-/// The estimate beside the recording that is given, else beside its own, else alone.
-figures::EstimateView ViewOf(Estimate estimate, const RecordingSource& given,
-                             const RecordingSource& own) {
-  if (!given.files.empty()) {
-    return figures::MakeEstimateView(std::move(estimate), ReadAndPrepare(given));
-  }
-  if (own.files.empty()) return figures::MakeEstimateView(std::move(estimate));
-  return figures::ViewOwnRecording(std::move(estimate), ReadAndPrepare(own));
-}
-
 SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& given) {
-  // the estimate with the data that it is shown beside
+  // the estimate beside the recording that is given, else beside its own, else alone
   Estimate estimate = ReadEstimate(path);
-  RecordingSource own;
-  if (given.files.empty()) own = OwnRecording(estimate, path);
-  figures::EstimateView view = ViewOf(std::move(estimate), given, own);
+  const bool is_own = given.files.empty();
+  const RecordingSource shown = is_own ? OwnRecording(estimate, path) : given;
+  figures::EstimateView view =
+      shown.files.empty() ? figures::EstimateView{std::move(estimate)}
+      : is_own            ? figures::ViewOwnRecording(std::move(estimate), ReadAndPrepare(shown))
+                          : figures::MakeEstimateView(std::move(estimate), ReadAndPrepare(shown));
 
   // what it gives, and itself for the figure of several
   SourcePictures pictures = Make(figures::EstimateFigures(), view);
   pictures.estimate = std::move(view);
-  const RecordingSource& shown = given.files.empty() ? own : given;
   pictures.recordings.assign(shown.files.begin(), shown.files.end());
   return pictures;
 }
@@ -159,20 +149,24 @@ SourcePictures PicturesOf(const std::string& source, const RecordingSource& reco
 
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
   // format and style
-  AddChoice(parser, "--format", arguments.format, {"png", "svg", "pdf"}, "of the pictures");
-  AddChoice(parser, "--style", arguments.style, {"screen", "dark", "paper"},
+  AddChoice(parser, "--format", arguments.setting.format, "of the pictures");
+  AddChoice(parser, "--style", arguments.setting.style, {"screen", "dark", "paper"},
             "screen: words of 10 points, 144 pixels an inch; dark: the same for dark screens; "
             "paper: 180 mm wide, words of 8 points, black, 300 pixels an inch");
 
   // size and resolution
   AddValue(parser, "--size", "WxH", arguments.size,
            "width x height of each picture in mm, as 88x60, or its width alone");
-  AddNumber(parser, "--dpi", arguments.dpi, {30, 1200, "30 to 1200"},
+  AddNumber(parser, "--dpi", arguments.setting.dpi, {30, 1200, "30 to 1200"},
             "pixels an inch of PNG; the style's where it is not given");
 
   // titles, and which figures
-  AddChoice(parser, "--title", arguments.title, {"shown", "none"},
-            "of the figures, which papers give in the caption");
+  const auto show = [&arguments](const std::string& choice) {
+    arguments.setting.titled = choice == "shown";
+  };
+  AddChoice(parser, "--title", show, {"shown", "none"},
+            "of the figures, which papers give in the caption")
+      ->default_str("shown");
   AddValue(parser, "--figure", "NAME|N", arguments.figures,
            "only this one, by its name, or by the number (3 to 12) of the paper's figure "
            "that it repeats")
@@ -180,12 +174,7 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
 }
 
 PictureSetting SettingOf(const PictureArguments& arguments) {
-  PictureSetting setting;
-  // format, style and resolution by name
-  setting.format = PictureFormatOf("picture." + arguments.format);
-  setting.style = arguments.style;
-  setting.dpi = arguments.dpi;
-  setting.titled = arguments.title != "none";
+  PictureSetting setting = arguments.setting;
   // one number is the width, and the height follows
   if (!arguments.size.empty()) {
     const std::size_t cross = arguments.size.find('x');
@@ -207,11 +196,8 @@ std::vector<figures::Figure> Chosen(const PictureArguments& arguments, const std
     const auto paper = PaperFigures().find(figure);
     const Names names = paper == PaperFigures().end() ? Names{figure} : paper->second.names;
     const Names there = NamesOf(figures);
-    const bool any = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-      return std::find(there.begin(), there.end(), name) != there.end();
-    });
     // what cannot be had is refused with what there is
-    if (!any) {
+    if (std::ranges::find_first_of(there, names) == there.end()) {
       const std::string what = paper == PaperFigures().end()
                                    ? Lacking(figure, pictures)
                                    : fmt::format("figure {} of the paper ({}) needs {}", figure,
@@ -224,7 +210,7 @@ std::vector<figures::Figure> Chosen(const PictureArguments& arguments, const std
 
   // in the family's own order, each once
   std::erase_if(figures, [&](const figures::Figure& figure) {
-    return std::find(wanted.begin(), wanted.end(), figure.name) == wanted.end();
+    return std::ranges::find(wanted, figure.name) == wanted.end();
   });
   return figures;
 }

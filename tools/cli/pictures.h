@@ -34,11 +34,8 @@ SourcePictures PicturesOf(const std::string& source, const RecordingSource& reco
 
 /// The options as given.
 struct PictureArguments {
-  std::string format = "png";
-  std::string style = "screen";
+  PictureSetting setting;  // but for width and height
   std::string size;
-  double dpi = 0;  // 0: the style's
-  std::string title = "shown";
   std::vector<std::string> figures;
 };
 

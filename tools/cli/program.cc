@@ -1,5 +1,4 @@
 // The command line as a whole: its subcommands, and what is said of words that none takes.
-#include <fmt/format.h>
 
 #include <algorithm>
 

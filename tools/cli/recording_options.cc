@@ -16,7 +16,6 @@
 #include "models/recording/table_format.h"
 #include "scenarios/yaml.h"
 #include "tools/cli/typed_options.h"
-#include "tools/identify/recording_source.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {
@@ -38,10 +37,9 @@ fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
     // links to one file are one file
     const fs::path one = here ? fs::weakly_canonical(file, ignored) : fs::path();
     if (found && *found != one) {
-      Refuse(
-          {recording},
-          "does not lie beside the project file of the other recordings, which may be of another "
-          "joint; give --no-project, and the options that describe them");
+      Refuse({recording},
+             "does not lie beside the project file of the other recordings, which may be of "
+             "another joint; give --no-project, and the options that describe them");
     }
     found = one;
   }
@@ -141,9 +139,8 @@ CLI::Option* AddPairs(CLI::App& parser, const char* name, const char* descriptio
 
 void AddRecordingOptions(CLI::App& parser, RecordingSource& source) {
   AddValue(parser, "RECORDING", "RECORDING", source.files,
-           "table of text, HDF5 or MATLAB file, or - for a text on standard input; several "
-           "of one joint, each from a "
-           "cold start")
+           "table of text, HDF5 or MATLAB file, or - for a text on standard input; several of one "
+           "joint, each from a cold start")
       ->required();
   AddLayoutOptions(parser, source.read);
 }
@@ -190,8 +187,8 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
   AddValue(parser, "--gear", "NUMBER", settings.gear, "motor turns for each joint turn")
       ->capture_default_str();
   AddValue(parser, "--torque-constant", "NUMBER", settings.torque_constant,
-           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m "
-           "or N of --unit torque=A");
+           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m or N "
+           "of --unit torque=A");
   parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
 }
 
@@ -210,11 +207,11 @@ void AddHoldOptions(CLI::App& parser, PrepareSettings& holds) {
 
 void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier) {
   AddValue(parser, "--follows", "FILE", earlier.file,
-           "recording before this one, or its estimate.json: the heat that it left is "
-           "there at the start, less what cooled in the pause between");
+           "recording before this one, or its estimate.json: the heat that it left is there at the "
+           "start, less what cooled in the pause between");
   AddValue(parser, "--pause", "SECONDS", earlier.pause,
-           "s of rest between the end of --follows and the start of the recording; where "
-           "their stamps share a clock, these tell it");
+           "s of rest between the end of --follows and the start of the recording; where their "
+           "stamps share a clock, these tell it");
 }
 
 void TakeProject(const CLI::App& parser, RecordingSource& arguments) {

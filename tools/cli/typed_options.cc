@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -11,37 +10,35 @@
 
 namespace warmjoint {
 
-CLI::Option* AddChoice(CLI::App& parser, const std::string& name, const ChoiceTarget& target,
+CLI::Option* AddChoice(CLI::App& parser, const std::string& name,
+                       const std::function<void(const std::string& choice)>& take,
                        const std::vector<std::string>& choices, const std::string& description,
                        const std::map<std::string, std::string>& synonyms) {
   // the parser hands each text over, so that refusals name the nearest choice
-  const auto read = [take = target.take, name, choices, synonyms](const std::string& given) {
-    take(given);
-    if (std::ranges::find(choices, given) != choices.end()) return;
+  const auto read = [take, name, choices, synonyms](const std::string& given) {
+    if (std::ranges::find(choices, given) != choices.end()) return take(given);
     const auto synonym = synonyms.find(given);
     if (synonym != synonyms.end()) {
       Refuse({name}, "is '{}'; warmjoint says '{}'", given, synonym->second);
     }
     Refuse({name}, "is '{}'{}", Excerpt(given), Suggestion(given, choices));
   };
-  CLI::Option* option = parser.add_option_function<std::string>(name, read, description);
-  option->type_name(fmt::format("{}", fmt::join(choices, "|")));
-  return target.default_value.empty() ? option : option->default_str(target.default_value);
+  return parser.add_option_function<std::string>(name, read, description)
+      ->type_name(fmt::format("{}", fmt::join(choices, "|")));
 }
 
 CLI::Option* AddChoice(CLI::App& parser, const std::string& name, std::string& value,
-                       const std::vector<std::string>& choices, const std::string& description,
-                       const std::map<std::string, std::string>& synonyms) {
-  const auto take = [&value](const std::string& given) { value = given; };
-  return AddChoice(parser, name, ChoiceTarget{value, take}, choices, description, synonyms);
+                       const std::vector<std::string>& choices, const std::string& description) {
+  const auto take = [&value](const std::string& choice) { value = choice; };
+  CLI::Option* option = AddChoice(parser, name, take, choices, description);
+  return value.empty() ? option : option->default_str(value);
 }
 
 CLI::Option* AddNumber(CLI::App& parser, const std::string& name, double& number,
                        const NumberRange& bounds, const std::string& description) {
   const auto read = [&number, name, bounds](const std::string& text) {
-    // NaN fails every comparison, and infinity is no finite number
-    const auto given = ParseNumber(text);
-    if (!given || !std::isfinite(*given) || !(*given >= bounds.lowest) || *given > bounds.highest) {
+    const auto given = ParseFinite(text);
+    if (!given || *given < bounds.lowest || *given > bounds.highest) {
       Refuse({name}, "is '{}'; it must be a number {}", Excerpt(text), bounds.words);
     }
     number = *given;

@@ -21,22 +21,16 @@ CLI::Option* AddValue(CLI::App& parser, const std::string& name, const std::stri
   return parser.add_option(name, value, description)->type_name(form);
 }
 
-/// Where a choice goes: its default, and what takes one that is given.
-struct ChoiceTarget {
-  std::string default_value;
-  std::function<void(const std::string& given)> take;
-};
-
 /// Adds an option, or an argument, for one of the choices, which help shows as the form of the value. What is none of
-/// them is refused with the nearest. synonyms: what other fields call a choice, {"prismatic", "linear"}.
-CLI::Option* AddChoice(CLI::App& parser, const std::string& name, const ChoiceTarget& target,
+/// them is refused with the nearest. take: gets the choice; synonyms: what other fields call one, {"prismatic", "linear"}.
+CLI::Option* AddChoice(CLI::App& parser, const std::string& name,
+                       const std::function<void(const std::string& choice)>& take,
                        const std::vector<std::string>& choices, const std::string& description,
                        const std::map<std::string, std::string>& synonyms = {});
 
 /// The same for a text, which holds the default.
 CLI::Option* AddChoice(CLI::App& parser, const std::string& name, std::string& value,
-                       const std::vector<std::string>& choices, const std::string& description,
-                       const std::map<std::string, std::string>& synonyms = {});
+                       const std::vector<std::string>& choices, const std::string& description);
 
 /// The same for a choice whose words a file has, too (field.h).
 template <typename E>
@@ -50,8 +44,8 @@ requires std::is_enum_v<E> CLI::Option* AddChoice(
       if (word.name == given) value = word.value;
     }
   };
-  return AddChoice(parser, name, ChoiceTarget{std::string(NameOf(value)), take}, words, description,
-                   synonyms);
+  return AddChoice(parser, name, take, words, description, synonyms)
+      ->default_str(std::string(NameOf(value)));
 }
 
 /// What a number of the command line may be.

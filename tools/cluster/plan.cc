@@ -9,7 +9,6 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"
-#include "scenarios/suite.h"
 #include "tools/suite/engine.h"
 
 namespace warmjoint {

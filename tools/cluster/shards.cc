@@ -1,7 +1,6 @@
 #include "tools/cluster/shards.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>

@@ -49,13 +49,13 @@ exit $status
 )sh";
 
 /// What a program answered.
-struct Answer {
+struct CommandAnswer {
   int status = 127;  // as a shell has it; 127: there is no such program
   std::string words;
 };
 
-Answer Ask(const std::vector<std::string>& command, const char* errors) {
-  Answer answer;
+CommandAnswer Ask(const std::vector<std::string>& command, const char* errors) {
+  CommandAnswer answer;
   FILE* pipe = popen((JoinCommand(command) + errors).c_str(), "re");
   if (!pipe) return answer;
   std::array<char, 4096> block;
@@ -72,7 +72,7 @@ std::string Sbatch(const Plan& plan, const std::vector<std::string>& options) {
   std::vector<std::string> command{"sbatch", "--parsable"};
   command.insert(command.end(), options.begin(), options.end());
   command.push_back(plan.script());
-  const Answer answer = Ask(command, " 2>&1");
+  const CommandAnswer answer = Ask(command, " 2>&1");
   if (answer.status != 0) {
     Refuse({"sbatch"},
            "{}; RUN/slurm/array.sbatch may be edited, then `warmjoint status {} "
@@ -161,7 +161,8 @@ std::string ArrayScript(const Plan& plan, const std::vector<std::string>& sbatch
 
 std::optional<QueuedShards> AskQueue(const Plan& plan) {
   // one line for each task: its array job, its index, its state and its name
-  const Answer answer = Ask({"squeue", "-h", "-r", "--me", "-o", "%F %K %T %j"}, " 2>/dev/null");
+  const CommandAnswer answer =
+      Ask({"squeue", "-h", "-r", "--me", "-o", "%F %K %T %j"}, " 2>/dev/null");
   if (answer.status != 0) return std::nullopt;
   QueuedShards queued;
   std::istringstream lines(answer.words);

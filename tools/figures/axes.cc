@@ -22,7 +22,7 @@ Axis Padded(std::string label, double lower, double upper) {
     upper += about;
   }
   const double spare = kSpare * (upper - lower);
-  return {std::move(label), lower - spare, upper + spare, Scale::linear, {}};
+  return {std::move(label), lower - spare, upper + spare};
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ Axis LinearAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
 Axis ZeroAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
   const double upper = RangeOf(values).second;
   const double top = std::isfinite(upper) && upper > 0 ? upper : 1;
-  return {std::move(label), 0, (1 + 2 * kSpare) * top, Scale::linear, {}};
+  return {std::move(label), 0, (1 + 2 * kSpare) * top};
 }
 
 Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
@@ -109,13 +109,13 @@ Axis MagnitudeAxis(std::string label, const std::vector<Eigen::VectorXd>& values
 
 Axis AngleAxis(std::string label) {
   static constexpr const char* kNames[] = {"0", "π/2", "π", "3π/2", "2π"};
-  Axis axis{std::move(label), 0, 2 * std::numbers::pi, Scale::linear, {}};
+  Axis axis{std::move(label), 0, 2 * std::numbers::pi};
   for (int i = 0; i < 5; ++i) axis.ticks.push_back({i * std::numbers::pi / 2, kNames[i]});
   return axis;
 }
 
 Axis CategoryAxis(std::string label, const std::vector<std::string>& names) {
-  Axis axis{std::move(label), -0.5, static_cast<double>(names.size()) - 0.5, Scale::linear, {}};
+  Axis axis{std::move(label), -0.5, static_cast<double>(names.size()) - 0.5};
   for (const std::string& name : names) {
     axis.ticks.push_back({static_cast<double>(axis.ticks.size()), name});
   }
@@ -143,13 +143,12 @@ Line BinnedMedian(const Eigen::VectorXd& x, const Eigen::VectorXd& y, int bins) 
   return line;
 }
 
-Figure SinglePlot(const Caption& caption, const Plot& plot) {
-  return RowOfPlots(caption, 440, {{"", plot}});
+Figure SinglePlot(Figure figure, const Plot& plot) {
+  return RowOfPlots(std::move(figure), 440, {{"", plot}});
 }
 
-Figure RowOfPlots(const Caption& caption, double height,
+Figure RowOfPlots(Figure figure, double height,
                   const std::vector<std::pair<std::string, Plot>>& plots) {
-  Figure figure{caption.name, caption.title, caption.subtitle, caption.finding};
   figure.height = height;
   figure.columns.clear();
   for (const auto& [title, plot] : plots) {
@@ -160,8 +159,7 @@ Figure RowOfPlots(const Caption& caption, double height,
   return figure;
 }
 
-Figure WithoutPanels(const Caption& caption, std::size_t across) {
-  Figure figure{caption.name, caption.title, caption.subtitle, caption.finding};
+Figure WithoutPanels(Figure figure, std::size_t across) {
   figure.height = 0;
   figure.rows.clear();
   figure.columns.assign(across, 1);

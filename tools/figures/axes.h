@@ -1,6 +1,7 @@
 // Axes that fit their data, and figures put together of plots.
 #pragma once
 
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,9 +11,9 @@
 namespace warmjoint::figures {
 
 /// Numbers that were gathered one by one, as shapes have them.
-inline Eigen::VectorXd VectorOf(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
-                                           static_cast<Eigen::Index>(numbers.size()));
+template <typename Number>
+Eigen::VectorX<Number> VectorOf(const std::vector<Number>& numbers) {
+  return Eigen::Map<const Eigen::VectorX<Number>>(numbers.data(), std::ssize(numbers));
 }
 
 /// Lowest and highest finite value of all; (NaN, NaN) where there is none.
@@ -53,23 +54,17 @@ Axis CategoryAxis(std::string label, const std::vector<std::string>& names);
 /// x, y: [N]; returns a line of `bins` points in the middles.
 Line BinnedMedian(const Eigen::VectorXd& x, const Eigen::VectorXd& y, int bins);
 
-/// What stands around a plot: see Figure.
-struct Caption {
-  std::string name;
-  std::string title;
-  std::string subtitle;
-  std::string finding;
-};
+// Figures put together, of one that has its name and words alone.
 
 /// A figure of that one plot.
-Figure SinglePlot(const Caption& caption, const Plot& plot);
+Figure SinglePlot(Figure figure, const Plot& plot);
 
 /// A figure of plots beside each other, each with its title. height: points. Plots without series are left out.
-Figure RowOfPlots(const Caption& caption, double height,
+Figure RowOfPlots(Figure figure, double height,
                   const std::vector<std::pair<std::string, Plot>>& plots);
 
 /// A figure for AddPanel, without panels yet: `across` of them to a row, as high as its rows ask for.
-Figure WithoutPanels(const Caption& caption, std::size_t across = 1);
+Figure WithoutPanels(Figure figure, std::size_t across = 1);
 
 /// Adds a panel behind the last one. height: of its row, points.
 void AddPanel(Figure& figure, const std::string& title, Content content, double height);

@@ -1,6 +1,8 @@
 // One recording as it warms: its level of friction and the guesses read off it.
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "identification/alternating/first_guess.h"
 #include "identification/fit_parameters.h"
 #include "tools/figures/axes.h"
@@ -27,7 +29,7 @@ Plot TorquePanel(const FitView& view, const TorqueEnvelope& envelope) {
   // the level with both signs encloses the torque
   plot.series.push_back({"level of friction", Hue::blue, Line{middle, envelope.level, 2}});
   plot.series.push_back({"", Hue::blue, Line{middle, -envelope.level, 2}});
-  plot.x = {TimeLabel(view), 0, time.tail(1)[0], Scale::linear, {}};
+  plot.x = TimeAxis(view);
   // accelerations may leave the picture
   const Eigen::VectorXd kept = KeptOf(view, view.torque);
   plot.y = LinearAxis(TorqueLabel(view, "torque"), {kept, envelope.level, -envelope.level});
@@ -36,23 +38,22 @@ Plot TorquePanel(const FitView& view, const TorqueEnvelope& envelope) {
 
 /// The level alone, with the places where the guess reads it.
 Plot LevelPanel(const FitView& view, const TorqueEnvelope& envelope) {
-  const double end = view.time.tail(1)[0] / TimeUnit(view);
   // what the guess is read off: the settled last quarter, and 63 % of the way to it
   const double settled_from = 0.75 * envelope.time.tail(1)[0] / TimeUnit(view);
   const double at = envelope.time_to_63 / TimeUnit(view);
   const double reached = envelope.cold + 0.632 * (envelope.settled - envelope.cold);
   const Eigen::VectorXd middle = envelope.time / TimeUnit(view);
   Plot plot;
-  plot.x = {TimeLabel(view), 0, end, Scale::linear, {}};
+  plot.x = TimeAxis(view);
   plot.y = LinearAxis(TorqueLabel(view, "sign(v) · torque − k_{v} |v|"),
                       {envelope.level, Eigen::Vector2d(envelope.cold, envelope.settled)});
   // the level over time between its cold and its settled value
   plot.series.push_back({"level of friction", Hue::blue, Line{middle, envelope.level, 1.4}});
   plot.series.push_back({"", Hue::blue, Scatter{middle, envelope.level, 3}});
   plot.series.push_back({"cold", Hue::green, LevelLine{envelope.cold}});
-  plot.series.push_back(
-      {"settled: mean of the last quarter", Hue::vermilion,
-       Line{Eigen::Vector2d(settled_from, end), Eigen::Vector2d::Constant(envelope.settled), 2.5}});
+  plot.series.push_back({"settled: mean of the last quarter", Hue::vermilion,
+                         Line{Eigen::Vector2d(settled_from, plot.x.upper),
+                              Eigen::Vector2d::Constant(envelope.settled), 2.5}});
   // across at 63 % of the way and down to the time that it takes
   plot.series.push_back({"63 % of the way", Hue::text,
                          Line{Eigen::Vector3d(0, at, at),
@@ -74,22 +75,22 @@ std::optional<Figure> MakeEnvelope(const std::string& what, const LogSamples& me
 
   // the guess stands below the title
   const std::string read = ThermalText(*guess.thermal, measurements);
-  Caption caption{"envelope", "The level of friction and the first guess of its warming",
-                  fmt::format("{}; first guess (25): {}", what, read), ""};
+  Figure figure{"envelope", "The level of friction and the first guess of its warming",
+                fmt::format("{}; first guess (25): {}", what, read), ""};
   // in words: how far the level goes, how long it takes, what is guessed from that
-  caption.finding = fmt::format(
+  figure.finding = fmt::format(
       "The level of friction goes from {} to {} {}; 63 % of the way takes {} {}. Guess: {}",
       SignificantText(envelope.cold), SignificantText(envelope.settled), view.torque_unit,
       SignificantText(envelope.time_to_63 / TimeUnit(view)), TimeUnitName(view), read);
   // the truth beside the guess, where it is known
   if (truth) {
     const std::string known = ThermalText(*truth, measurements);
-    caption.subtitle += fmt::format("; truth: {}", known);
-    caption.finding += fmt::format("; truth: {}", known);
+    figure.subtitle += fmt::format("; truth: {}", known);
+    figure.finding += fmt::format("; truth: {}", known);
   }
-  caption.finding += ".";
+  figure.finding += ".";
   // the recording at the left, what is read off it at the right
-  return RowOfPlots(caption, 430,
+  return RowOfPlots(std::move(figure), 430,
                     {{"The recording and its level of friction", TorquePanel(view, envelope)},
                      {"What the guess is read off", LevelPanel(view, envelope)}});
 }

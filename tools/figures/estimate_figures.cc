@@ -21,8 +21,8 @@ bool GoesInBothDirections(const FitView& view) {
   return kept.size() > 0 && kept.minCoeff() < 0 && kept.maxCoeff() > 0;
 }
 
-/// Torque over position within a window. limits: of the torque.
-Plot Loop(const FitView& view, const Window& window, const std::pair<double, double>& limits) {
+/// Torque over position within a window.
+Plot Loop(const FitView& view, const Window& window, const Axis& torque) {
   const Eigen::VectorXd position = window.Of(view.position);
   Plot plot;
   plot.series = {{"measured", Hue::grey, Line{position, window.Of(view.torque), 1.4}}};
@@ -33,7 +33,7 @@ Plot Loop(const FitView& view, const Window& window, const std::pair<double, dou
         {FitLabel(view), Hue::vermilion, Line{position, fitted, 1.6, FitDash(view)}});
   }
   plot.x = LinearAxis(PositionLabel(view), {position});
-  plot.y = {TorqueLabel(view, "torque"), limits.first, limits.second, Scale::linear, {}};
+  plot.y = torque;
   return plot;
 }
 
@@ -44,7 +44,7 @@ std::optional<Figure> MakeHysteresis(const FitView& view) {
   if (!GoesInBothDirections(view)) return std::nullopt;
   // the first and the last segments back and forth, over the same torques
   const Window first = ColdWindow(view, kSegments), last = WarmWindow(view, kSegments);
-  const auto limits = TorqueLimits(view, first, last);
+  const Axis torque = TorqueAxis(view, first, last);
   const std::string taken = TakenOff(view);
   // a log without segments has its begin and its end
   const bool any = view.selection.segments.empty();
@@ -54,8 +54,8 @@ std::optional<Figure> MakeHysteresis(const FitView& view) {
        "The height of the loop is twice the friction; from the first to the last it changes by "
        "what the joint has warmed."},
       400,
-      {{any ? "The begin" : "First segments", Loop(view, first, limits)},
-       {any ? "The end" : "Last segments", Loop(view, last, limits)}});
+      {{any ? "The begin" : "First segments", Loop(view, first, torque)},
+       {any ? "The end" : "Last segments", Loop(view, last, torque)}});
 }
 
 std::string ValuesOf(const Estimate& estimate) {
@@ -122,7 +122,7 @@ Plot ColumnPlot(const FitView& view, const Eigen::VectorXd& values, const std::s
   Plot plot;
   plot.series = {{"all samples", Hue::grey, Line{time, values, 1.0}},
                  {"kept for the fit", Hue::blue, Line{time, KeptOrGap(view, values), 1.4}}};
-  plot.x = {TimeLabel(view), 0, time.tail(1)[0], Scale::linear, {}};
+  plot.x = TimeAxis(view);
   plot.y = LinearAxis(label, {values});
   return plot;
 }

@@ -54,13 +54,8 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
 
 }  // namespace
 
-EstimateView MakeEstimateView(Estimate estimate) {
-  return {std::move(estimate), std::nullopt, std::nullopt, std::nullopt};
-}
-
 EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other) {
-  EstimateView view = MakeEstimateView(std::move(estimate));
-  view.measurements = other.raw().measurements;
+  EstimateView view{std::move(estimate), other.raw().measurements};
   view.fit = MakeFitView(other, view.estimate);
   return view;
 }

@@ -14,14 +14,11 @@ namespace warmjoint::figures {
 /// An estimate, and the recording that it came from where that is at hand.
 struct EstimateView {
   Estimate estimate;
-  std::optional<LogSamples> measurements;
-  std::optional<FitView> fit;  // with measurements
+  std::optional<LogSamples> measurements = std::nullopt;
+  std::optional<FitView> fit = std::nullopt;  // with measurements
   /// The last part of the recording, predicted by a fit that has seen the rest alone.
   std::optional<FitView> held_out = std::nullopt;
 };
-
-/// Of an estimate file alone.
-EstimateView MakeEstimateView(Estimate estimate);
 
 /// Beside another recording than the one that was fitted.
 EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other);

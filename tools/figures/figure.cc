@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 
 #include "tools/figures/reduce.h"
@@ -157,24 +158,12 @@ Tree FigureJson(Figure figure) {
 }
 
 std::string Picture::Base64(std::string_view bytes) {
-  static constexpr char kLetters[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const auto byte = [&](std::size_t k) {
-      return k < left ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0u;
-    };
-    // three bytes make four letters
-    const std::uint32_t group = byte(0) << 16 | byte(1) << 8 | byte(2);
-    text += kLetters[group >> 18 & 63];
-    text += kLetters[group >> 12 & 63];
-    // bytes that the last group lacks are written as =
-    text += left > 1 ? kLetters[group >> 6 & 63] : '=';
-    text += left > 2 ? kLetters[group & 63] : '=';
-  }
-  return text;
+  namespace iterators = boost::archive::iterators;
+  using Sixes = iterators::transform_width<std::string_view::const_iterator, 6, 8>;
+  using Letters = iterators::base64_from_binary<Sixes>;
+  const std::string text(Letters(bytes.begin()), Letters(bytes.end()));
+  // bytes that the last group of three lacks are written as =
+  return text + std::string((3 - bytes.size() % 3) % 3, '=');
 }
 
 std::string FigureCsv(const Figure& figure) {

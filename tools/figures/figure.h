@@ -81,8 +81,8 @@ struct Axis {
   double lower = 0;   // lower < upper; above 0 where logarithmic
   double upper = 1;
   Scale scale = Scale::linear;
-  std::vector<Tick> ticks;  // empty: round numbers
-  double finest = 0;        // ticks stand no closer: 1 on an axis that counts
+  std::vector<Tick> ticks{};  // empty: round numbers
+  double finest = 0;          // ticks stand no closer: 1 on an axis that counts
 
   template <class A>
   void Serialize(A* a) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "models/foundation/atomic_file.h"
+#include "tools/figures/axes.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
 #include "tools/figures/symbols.h"
@@ -18,33 +18,12 @@ constexpr int kColumns = 6;
 constexpr double kPlotRow = 200, kTallRow = 225;  // points
 constexpr double kWordsRow = 0;                   // as high as its words
 
-/// The page, and the row that is filled next.
-class Page {
- public:
-  explicit Page(Figure& figure) : figure_(figure) {
-    figure_.columns.assign(kColumns, 1);
-    figure_.rows.clear();
-    figure_.height = 0;  // what the rows need
-  }
-
-  /// Begins a row. height: points.
-  void Row(double height) { figure_.rows.push_back(height); }
-
-  template <typename Content>
-  void Add(const std::string& title, const Content& content, int column, int span) {
-    Panel panel{title, content};
-    panel.row = static_cast<int>(figure_.rows.size()) - 1;
-    panel.column = column;
-    panel.column_span = span;
-    figure_.panels.push_back(panel);
-  }
-
-  /// Frames the panel that was added last.
-  void Frame(Hue hue) { figure_.panels.back().frame = hue; }
-
- private:
-  Figure& figure_;
-};
+/// Adds a panel to the last row. span: of columns.
+Panel& AddSpan(Figure& page, const std::string& title, const Content& content, int column,
+               int span) {
+  const int row = static_cast<int>(page.rows.size()) - 1;
+  return page.panels.emplace_back(Panel{title, content, row, column, 1, span});
+}
 
 std::string Finding(const FitView& view) {
   std::string text = VerdictSentence(view);
@@ -88,39 +67,37 @@ std::optional<SeenOver> Strongest(const FitView& view) {
 
 /// A panel of residuals that names the tests which found something in it; the one that found the most
 /// is framed.
-void AddResiduals(Page& page, const FitView& view, SeenOver against, const char* title, int column,
-                  int span) {
+void AddResiduals(Figure& page, const FitView& view, SeenOver against, const char* title,
+                  int column, int span) {
+  Panel& panel = AddSpan(page, title, ResidualsOver(view, against), column, span);
   const auto deciding = Deciding(view);
   const auto found = deciding.find(against);
   // no test found anything in these residuals
-  if (found == deciding.end()) {
-    return page.Add(title, ResidualsOver(view, against), column, span);
-  }
+  if (found == deciding.end()) return;
   // the title names the tests that found something here
   std::string tests = fmt::format("{}", fmt::join(found->second, ", "));
   std::replace(tests.begin(), tests.end(), '_', ' ');
   // a frame where the strongest finding decided the verdict
   const bool decided = Strongest(view) == against && view.estimate.status != Status::ok;
-  page.Add(fmt::format("{}: {} {}", title, decided ? "decided by" : "shows", tests),
-           ResidualsOver(view, against), column, span);
-  if (decided) page.Frame(Hue::vermilion);
+  panel.title += fmt::format(": {} {}", decided ? "decided by" : "shows", tests);
+  if (decided) panel.frame = Hue::vermilion;
 }
 
-void AddEvidence(Page& page, const FitView& view) {
+void AddEvidence(Figure& page, const FitView& view) {
   // in time: whether residuals drift, and how long they stay alike
-  page.Row(kPlotRow);
+  page.rows.push_back(kPlotRow);
   AddResiduals(page, view, SeenOver::time, "Residuals over time, with their median", 0, 3);
-  page.Add("Correlation of residuals over lag; within the dashed lines if white",
-           ResidualMemory(view), 3, 3);
+  AddSpan(page, "Correlation of residuals over lag; within the dashed lines if white",
+          ResidualMemory(view), 3, 3);
   // over what the joint does: its place, its speed, its warmth
-  page.Row(kPlotRow);
+  page.rows.push_back(kPlotRow);
   const int span = view.warms() ? 2 : 3;
   AddResiduals(page, view, SeenOver::position, "Residuals over position", 0, span);
   AddResiduals(page, view, SeenOver::velocity, "Residuals over velocity", span, span);
   if (view.warms()) AddResiduals(page, view, SeenOver::energy, "Residuals over warmth", 4, 2);
   // over the motor's angle only where a test found something there
   if (Deciding(view).contains(SeenOver::motor_angle) && view.motor_angle.size() > 0) {
-    page.Row(kPlotRow);
+    page.rows.push_back(kPlotRow);
     AddResiduals(page, view, SeenOver::motor_angle, "Residuals over motor angle", 0, kColumns);
   }
 }
@@ -128,41 +105,38 @@ void AddEvidence(Page& page, const FitView& view) {
 }  // namespace
 
 Figure MakeFitPage(const FitView& view) {
-  Figure figure;
-  figure.name = "fit";
-  figure.title = view.source;
-  figure.subtitle = fmt::format("identified by {}", view.estimate.identifier);
-  figure.finding = Finding(view);
-
-  Page page(figure);
+  Figure page =
+      WithoutPanels({"fit", view.source, fmt::format("identified by {}", view.estimate.identifier),
+                     Finding(view)},
+                    kColumns);
   // first what came out: verdict and numbers
   const bool has_numbers = !view.estimate.parameters.empty();
-  page.Row(kWordsRow);
-  page.Add("Verdict", VerdictOf(view), 0, has_numbers ? 3 : kColumns);
+  page.rows.push_back(kWordsRow);
+  AddSpan(page, "Verdict", VerdictOf(view), 0, has_numbers ? 3 : kColumns);
   if (has_numbers)
-    page.Add(view.is_void() ? "Parameters (void)" : "Parameters", ParametersOf(view), 3, 3);
+    AddSpan(page, view.is_void() ? "Parameters (void)" : "Parameters", ParametersOf(view), 3, 3);
 
   // the level of friction over the whole recording
-  page.Row(kTallRow);
-  page.Add(view.has_fit ? "Level of friction over time" : "Torque in the direction of motion",
-           LevelOverTime(view), 0, kColumns);
+  page.rows.push_back(kTallRow);
+  AddSpan(page, view.has_fit ? "Level of friction over time" : "Torque in the direction of motion",
+          LevelOverTime(view), 0, kColumns);
 
   // begin and end of the recording close up, over the same torques
   const Window cold = ColdWindow(view), warm = WarmWindow(view);
-  const auto limits = TorqueLimits(view, cold, warm);
-  page.Row(kPlotRow);
-  page.Add(view.selection.segments.empty() ? "The begin" : "The first segments",
-           CloseUp(view, cold, limits), 0, 3);
-  page.Add(view.selection.segments.empty() ? "The end" : "The last segments",
-           CloseUp(view, warm, limits), 3, 3);
+  const Axis torque = TorqueAxis(view, cold, warm);
+  page.rows.push_back(kPlotRow);
+  AddSpan(page, view.selection.segments.empty() ? "The begin" : "The first segments",
+          CloseUp(view, cold, torque), 0, 3);
+  AddSpan(page, view.selection.segments.empty() ? "The end" : "The last segments",
+          CloseUp(view, warm, torque), 3, 3);
 
   // the law over velocity, and the warming beside it
-  page.Row(kTallRow);
-  page.Add("Friction over velocity", FrictionCurve(view), 0, view.warms() ? 3 : kColumns);
-  if (view.warms()) page.Add("Warm-up", WarmUpCurve(view), 3, 3);
+  page.rows.push_back(kTallRow);
+  AddSpan(page, "Friction over velocity", FrictionCurve(view), 0, view.warms() ? 3 : kColumns);
+  if (view.warms()) AddSpan(page, "Warm-up", WarmUpCurve(view), 3, 3);
   if (view.has_fit) AddEvidence(page, view);
 
-  return figure;
+  return page;
 }
 
 }  // namespace warmjoint::figures

@@ -1,8 +1,6 @@
 // The panels of a story about one recording; each may stand in a figure of its own.
 #pragma once
 
-#include <utility>
-
 #include "identification/lack_of_fit/table.h"
 #include "tools/figures/figure.h"
 #include "tools/figures/fit_view.h"
@@ -29,10 +27,10 @@ struct Window {
 Window ColdWindow(const FitView& view, int segments = 6);
 Window WarmWindow(const FitView& view, int segments = 6);
 
-/// Torque and fit as they were logged. Both windows get the limits of `all` over torque.
-Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, double>& limits);
-/// Limits that hold the torque of both windows at constant speed.
-std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, const Window& b);
+/// Torque and fit as they were logged.
+Plot CloseUp(const FitView& view, const Window& window, const Axis& torque);
+/// An axis that holds the torque of both windows at constant speed.
+Axis TorqueAxis(const FitView& view, const Window& a, const Window& b);
 
 /// Torque over velocity: samples, the fitted curve cold and warm with their 95 % bands where these
 /// are wider than a line. With maps, the mean at each speed over the places where the joint moved so.

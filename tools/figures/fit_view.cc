@@ -12,6 +12,7 @@
 #include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/low_pass.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 #include "tools/figures/friction_spread.h"
 #include "tools/figures/symbols.h"
@@ -129,12 +130,7 @@ FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
 bool IsOfAnyMotion(const FitView& view) { return Find(Role::inertia, view.estimate) != nullptr; }
 
 Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
-  Eigen::VectorXd kept(view.selection.count());
-  Eigen::Index n = 0;
-  for (Eigen::Index i = 0; i < all.size(); ++i) {
-    if (view.selection.keep[i]) kept[n++] = all[i];
-  }
-  return kept;
+  return Chosen(all, view.selection.keep);
 }
 
 Eigen::VectorXd Residuals(const FitView& view) { return KeptOf(view, view.torque - view.fitted); }
@@ -144,17 +140,7 @@ std::string FitLabel(const FitView& view) { return view.is_void() ? "fit (void)"
 Dash FitDash(const FitView& view) { return view.is_void() ? Dash::dashed : Dash::solid; }
 
 Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
-  Eigen::VectorXd result = all;
-  for (Eigen::Index i = 0; i < all.size(); ++i) {
-    if (!view.selection.keep[i]) result[i] = std::nan("");
-  }
-  return result;
-}
-
-JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps) {
-  Friction friction = *view.estimate.friction;
-  friction.maps = std::move(maps);
-  return JointFriction(friction);
+  return view.selection.keep.select(all.array(), std::nan(""));
 }
 
 JointPlace PlaceAt(const FitView& view, Eigen::Index i) {
@@ -193,6 +179,10 @@ std::string TimeLabel(const FitView& view) { return fmt::format("time ({})", Sca
 double TimeUnit(const FitView& view) { return ScaleOf(view).seconds; }
 
 std::string TimeUnitName(const FitView& view) { return ScaleOf(view).unit; }
+
+Axis TimeAxis(const FitView& view) {
+  return {TimeLabel(view), 0, view.time.tail(1)[0] / TimeUnit(view)};
+}
 
 std::string PositionLabel(const FitView& view) {
   return fmt::format("position ({})", UnitText(kPositionUnit.For(view.joint)));

@@ -5,7 +5,6 @@
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
 
-#include <optional>
 #include <string>
 
 #include "models/friction/along_motion.h"
@@ -73,9 +72,6 @@ Dash FitDash(const FitView& view);
 /// The entries with NaN at the samples that are not kept, so that lines break there. all: [N].
 Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all);
 
-/// The force of steady sliding with some of the estimate's maps, or none.
-JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps);
-
 /// Where the joint was at sample i of the recording, as SlidingForce reads it.
 JointPlace PlaceAt(const FitView& view, Eigen::Index i);
 
@@ -103,5 +99,7 @@ std::string TorqueLabel(const FitView& view, const std::string& what);
 double TimeUnit(const FitView& view);
 /// Its name: "s", "min" or "h".
 std::string TimeUnitName(const FitView& view);
+/// The axis over the time of the whole recording.
+Axis TimeAxis(const FitView& view);
 
 }  // namespace warmjoint::figures

@@ -16,29 +16,25 @@ constexpr Eigen::Index kColumns = 180, kRows = 120;
 
 /// The angle that the maps are drawn over, with its axis.
 struct Across {
-  MapQuantity quantity;
+  bool motor;  // its angle, or the joint's position
   Axis axis;
+
+  const Eigen::VectorXd& Of(const FitView& view) const {
+    return motor ? view.motor_angle : view.position;
+  }
 };
 
 std::optional<Across> AcrossOf(const FitView& view) {
-  // a map over the motor's angle goes first
-  for (const FrictionMap& map : view.estimate.friction->maps) {
-    if (FindAxis(map, MapQuantity::motor_position)) {
-      return Across{MapQuantity::motor_position, AngleAxis("motor angle (rad)")};
-    }
-  }
-  // otherwise one over the joint's position
-  for (const FrictionMap& map : view.estimate.friction->maps) {
-    if (!FindAxis(map, MapQuantity::position)) continue;
-    const auto [lower, upper] = RangeOf({view.position});
-    return Across{MapQuantity::position, {PositionLabel(view), lower, upper, Scale::linear, {}}};
-  }
-  return std::nullopt;
-}
-
-/// Velocity in the middle of a row of the map.
-double VelocityAt(Eigen::Index row, double fastest) {
-  return fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
+  const auto has = [&](MapQuantity quantity) {
+    return std::ranges::any_of(view.estimate.friction->maps, [&](const FrictionMap& map) {
+      return FindAxis(map, quantity) != nullptr;
+    });
+  };
+  // a map over the motor's angle goes first, otherwise one over the joint's position
+  if (has(MapQuantity::motor_position)) return Across{true, AngleAxis("motor angle (rad)")};
+  if (!has(MapQuantity::position)) return std::nullopt;
+  const auto [lower, upper] = RangeOf({view.position});
+  return Across{false, {PositionLabel(view), lower, upper}};
 }
 
 /// Whether the joint moved about so fast at a place, [kRows x kColumns]: at its kept samples, and between two of them that
@@ -47,8 +43,7 @@ using Passed = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 Passed PassedCells(const FitView& view, const Across& across, double fastest) {
   constexpr double kSpare = 0.1;  // of a speed: over so little no friction changes much
   Passed passed = Passed::Constant(kRows, kColumns, false);
-  const Eigen::VectorXd& angle =
-      across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
+  const Eigen::VectorXd& angle = across.Of(view);
   const double lower = across.axis.lower, width = across.axis.upper - lower;
   const auto column_of = [&](Eigen::Index i) {
     const auto column = static_cast<Eigen::Index>(kColumns * (angle[i] - lower) / width);
@@ -89,12 +84,11 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
   const JointFriction sliding(*view.estimate.friction);
   // the level of steady friction at the middle of each cell
   for (Eigen::Index row = 0; row < kRows; ++row) {
-    const double v = VelocityAt(row, fastest);
+    const double v = fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
     for (Eigen::Index column = 0; column < kColumns; ++column) {
       const double share = (static_cast<double>(column) + 0.5) / kColumns;
       const double angle = across.axis.lower + share * (across.axis.upper - across.axis.lower);
-      const bool over_motor = across.quantity == MapQuantity::motor_position;
-      const JointPlace place{over_motor ? middle : angle, energy, 0, over_motor ? angle : 0};
+      const JointPlace place{across.motor ? middle : angle, energy, 0, across.motor ? angle : 0};
       // empty where the joint never moved so
       map.values(row, column) =
           passed(row, column) ? Sign(v) * sliding.SlidingForce(v, place) : std::nan("");
@@ -107,21 +101,15 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
 Plot PanelOf(const FitView& view, const Across& across, HeatMap map, int direction,
              const std::pair<double, double>& colours) {
   map.limits = colours;
-  const Eigen::VectorXd& angle =
-      across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
   Plot plot;
   // one direction fills the panel
   plot.x = across.axis;
-  plot.y = {SpeedLabel(view),
-            direction > 0 ? 0 : map.y.first,
-            direction > 0 ? map.y.second : 0,
-            Scale::linear,
-            {}};
+  plot.y = {SpeedLabel(view), direction > 0 ? 0 : map.y.first, direction > 0 ? map.y.second : 0};
   // dots show what the map rests on
   plot.series.push_back({"", Hue::text, map});
-  plot.series.push_back(
-      {"samples", Hue::grey,
-       Scatter{KeptOf(view, angle), KeptOf(view, view.velocity), 0.7, Marker::circle, 0.6}});
+  plot.series.push_back({"samples", Hue::grey,
+                         Scatter{KeptOf(view, across.Of(view)), KeptOf(view, view.velocity), 0.7,
+                                 Marker::circle, 0.6}});
   return plot;
 }
 
@@ -153,18 +141,17 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
   }
 
   // title and origin, with what the empty places mean; cold beside warm
-  const bool motor = across->quantity == MapQuantity::motor_position;
   Figure figure = WithoutPanels(
       {"friction_map",
-       fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position"),
+       fmt::format("Friction over {} and velocity", across->motor ? "motor angle" : "position"),
        OriginOf(view) + "; empty where the joint did not move about so fast", "Friction"},
       maps.size());
   // in words: how far friction reaches over the map
-  const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
   for (const auto& [title, map] : maps) {
-    figure.finding += fmt::format(" {} {} to {} {},", &map == &maps[0].second ? "cold" : "warm",
-                                  SignificantText(range(map).first),
-                                  SignificantText(range(map).second), view.torque_unit);
+    const auto [lowest, highest] = RangeOf({map.values.reshaped()});
+    figure.finding +=
+        fmt::format(" {} {} to {} {},", &map == &maps[0].second ? "cold" : "warm",
+                    SignificantText(lowest), SignificantText(highest), view.torque_unit);
   }
   figure.finding.back() = '.';
   // a row for each direction, with colours that cold and warm share

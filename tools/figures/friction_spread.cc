@@ -1,10 +1,10 @@
 #include "tools/figures/friction_spread.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "identification/fit_parameters.h"
 #include "identification/uncertainty/tails.h"
+#include "tools/figures/axes.h"
 
 namespace warmjoint::figures {
 namespace {
@@ -43,22 +43,20 @@ FrictionSpread SpreadOf(const Estimate& estimate) {
   // rows of the friction's own parameters, each with a variance
   Friction friction = *estimate.friction;
   std::vector<Eigen::Index> places;
+  std::vector<double> scales;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     const std::string& name = names[static_cast<std::size_t>(i)];
     if (!NumberOf(friction, name) || !std::isfinite(matrix(i, i))) continue;
     places.push_back(i);
     spread.names.push_back(name);
+    // intervals reach as far as the covariance and what was found beside the noise
+    const EstimatedParameter* known = estimate.Find(name);
+    const bool tells = known && known->interval95 && matrix(i, i) > 0;
+    scales.push_back(tells ? 0.5 * ((*known->interval95)[1] - (*known->interval95)[0]) /
+                                 (kNormal95 * std::sqrt(matrix(i, i)))
+                           : 1);
   }
-  // intervals reach as far as the covariance and what was found beside the noise
-  Eigen::VectorXd scale(static_cast<Eigen::Index>(places.size()));
-  for (Eigen::Index i = 0; i < scale.size(); ++i) {
-    const Eigen::Index at = places[static_cast<std::size_t>(i)];
-    const EstimatedParameter* known = estimate.Find(spread.names[static_cast<std::size_t>(i)]);
-    const bool tells = known && known->interval95 && matrix(at, at) > 0;
-    scale[i] = tells ? 0.5 * ((*known->interval95)[1] - (*known->interval95)[0]) /
-                           (kNormal95 * std::sqrt(matrix(at, at)))
-                     : 1;
-  }
+  const Eigen::VectorXd scale = VectorOf(scales);
   spread.covariance = scale.asDiagonal() * matrix(places, places).eval() * scale.asDiagonal();
   return spread;
 }

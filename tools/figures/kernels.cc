@@ -2,8 +2,6 @@
 #include <fmt/core.h>
 #include <warmjoint/friction.h>
 
-#include <cmath>
-
 #include "identification/ridge/ridge.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/evaluate_map.h"
@@ -29,12 +27,8 @@ double TheFunction(double t) { return 0.3 * t * t - 0.5; }
 
 /// Kernels at each t: [N x K].
 MatrixXd KernelsAt(const GaussianAxis& axis, KernelKind kind, const VectorXd& t) {
-  MatrixXd phi(t.size(), static_cast<Index>(axis.size()));
-  std::vector<double> row(axis.size());
-  for (Index i = 0; i < t.size(); ++i) {
-    AxisKernels(axis, kind, t[i], row.data());
-    phi.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), phi.cols());
-  }
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> phi(t.size(), axis.size());
+  for (Index i = 0; i < t.size(); ++i) AxisKernels(axis, kind, t[i], &phi(i, 0));
   return phi;
 }
 
@@ -53,8 +47,8 @@ Plot KernelPanel(const GaussianAxis& axis, KernelKind kind, Hue hue, const Vecto
   for (Index k = 0; k < phi.cols(); ++k) {
     plot.series.push_back({"", hue, Line{t, phi.col(k), 1.4}});
   }
-  plot.x = {"t", -kView, kView, Scale::linear, {}};
-  plot.y = {"kernel", 0, 1.05, Scale::linear, {}};
+  plot.x = {"t", -kView, kView};
+  plot.y = {"kernel", 0, 1.05};
   return plot;
 }
 
@@ -78,22 +72,20 @@ Figure MakeKernels() {
                  {"data", Hue::grey, Scatter{seen, values, 2}},
                  {"plain kernels", Hue::orange, Line{t, plain, 2}},
                  {"normalised kernels", Hue::blue, Line{t, normalised, 2}}};
-  fits.x = {"t", -kView, kView, Scale::linear, {}};
-  fits.y = {"value", -0.7, 1.8, Scale::linear, {}};
+  fits.x = {"t", -kView, kView};
+  fits.y = {"value", -0.7, 1.8};
 
-  // what the picture is to teach
-  Figure figure;
-  figure.name = "kernels";
-  figure.title = "Normalised kernels keep their value beyond the data";
-  figure.subtitle = fmt::format(
-      "{} Gaussian kernels fitted to {} noisy values of 0.3 t² − 0.5 between −{} and {}", kCentres,
-      kSamples, kReach, kReach);
-  // what each of them says where there are no data
-  figure.finding = fmt::format(
-      "At t = {0}, beyond the data, the plain kernels say {1} and the normalised ones {2}; at the "
-      "edge of the data the function is {3}.",
-      kView, SignificantText(plain[kPoints - 1], 2), SignificantText(normalised[kPoints - 1], 2),
-      SignificantText(TheFunction(kReach), 2));
+  // what the picture is to teach, and what each of them says where there are no data
+  Figure figure{
+      "kernels", "Normalised kernels keep their value beyond the data",
+      fmt::format(
+          "{} Gaussian kernels fitted to {} noisy values of 0.3 t² − 0.5 between −{} and {}",
+          kCentres, kSamples, kReach, kReach),
+      fmt::format(
+          "At t = {0}, beyond the data, the plain kernels say {1} and the normalised ones {2}; at "
+          "the edge of the data the function is {3}.",
+          kView, SignificantText(plain[kPoints - 1], 2),
+          SignificantText(normalised[kPoints - 1], 2), SignificantText(TheFunction(kReach), 2))};
   // below the fits the kernels of both kinds
   figure.height = 620;
   figure.rows = {1.6, 1};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -52,29 +53,23 @@ std::string AssumptionOf(const std::string& name) {
 }
 
 /// Terms of a page with their meaning.
-const std::vector<std::pair<std::string, std::string>>& Terms() {
-  static const std::vector<std::pair<std::string, std::string>> terms{
-      {"friction",
-       "The torque that motion costs, against its direction. It falls as grease warms."},
-      {"viscous, coulomb",
-       "Friction that grows with speed (N·m for each rad/s), and that which does not (N·m)."},
-      {"thermal_gain, thermal_time_constant",
-       "By how much each watt of the joint's own heat changes friction, and how long that takes. E "
-       "is the change that "
-       "is reached; no thermometer is needed."},
-      {"kept samples",
-       "Samples at a constant speed: there the torque is friction, and gravity where it acts."},
-      {"residual", "Measured torque less fitted torque."},
-      {"95 % interval",
-       "A range that holds the true value in 95 of 100 such logs, if the model is right."},
-      {"Fit, RMSE, MAE",
-       "1 − norm of the residual over norm of the torque's variation, in per cent; root of the "
-       "mean "
-       "square error; mean absolute error."},
-      {"void", "A number of a fit that failed a test. It may look precise and be wrong."},
-  };
-  return terms;
-}
+constexpr auto kTerms = std::to_array<std::pair<const char*, const char*>>({
+    {"friction", "The torque that motion costs, against its direction. It falls as grease warms."},
+    {"viscous, coulomb",
+     "Friction that grows with speed (N·m for each rad/s), and that which does not (N·m)."},
+    {"thermal_gain, thermal_time_constant",
+     "By how much each watt of the joint's own heat changes friction, and how long that takes. E "
+     "is the change that is reached; no thermometer is needed."},
+    {"kept samples",
+     "Samples at a constant speed: there the torque is friction, and gravity where it acts."},
+    {"residual", "Measured torque less fitted torque."},
+    {"95 % interval",
+     "A range that holds the true value in 95 of 100 such logs, if the model is right."},
+    {"Fit, RMSE, MAE",
+     "1 − norm of the residual over norm of the torque's variation, in per cent; root of the "
+     "mean square error; mean absolute error."},
+    {"void", "A number of a fit that failed a test. It may look precise and be wrong."},
+});
 
 using Eigen::Index;
 using Row = std::vector<std::string>;
@@ -216,20 +211,15 @@ std::vector<Figure> FiguresOf(const FitView& view) {
   }
 
   // what the fit leaves, on samples that it has seen and on others
-  Figure residuals;
-  residuals.name = "residuals";
-  residuals.title = "What the fit leaves";
-  residuals.finding =
-      "Residuals over time, position and velocity, and their correlation over lag: a "
-      "complete model leaves none of them a pattern.";
-  // four panels, two to a row
-  residuals.height = 0;
-  residuals.rows = {200, 200};
-  residuals.columns = {1, 1};
-  residuals.panels = {{"Over time", ResidualsOver(view, SeenOver::time), 0, 0},
-                      {"Over velocity", ResidualsOver(view, SeenOver::velocity), 0, 1},
-                      {"Over position", ResidualsOver(view, SeenOver::position), 1, 0},
-                      {"Correlation over lag", ResidualMemory(view), 1, 1}};
+  Figure residuals = WithoutPanels(
+      {"residuals", "What the fit leaves", "",
+       "Residuals over time, position and velocity, and their correlation over lag: a "
+       "complete model leaves none of them a pattern."},
+      2);
+  AddPanel(residuals, "Over time", ResidualsOver(view, SeenOver::time), 200);
+  AddPanel(residuals, "Over velocity", ResidualsOver(view, SeenOver::velocity), 200);
+  AddPanel(residuals, "Over position", ResidualsOver(view, SeenOver::position), 200);
+  AddPanel(residuals, "Correlation over lag", ResidualMemory(view), 200);
   figures.push_back(residuals);
   if (auto predicted = MakePredicted(view)) figures.push_back(*std::move(predicted));
   return figures;
@@ -286,7 +276,7 @@ Tree LogPageData(const LogPage& page) {
           {"tests", TestsTable(view)},
           {"assumptions", AssumptionsTable(view.estimate)},
           {"attachable", Passed(view) && view.estimate.friction.has_value()},
-          {"terms", Terms()},
+          {"terms", kTerms},
           {"commands", page.commands},
           {"thinned", thinned},
           {"samples", std::move(samples)},

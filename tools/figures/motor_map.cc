@@ -34,7 +34,9 @@ std::vector<FrictionMap> MapsOverMotor(const Friction& friction, bool over) {
 /// The friction at every sample with these maps, NaN where the sample is not kept.
 Eigen::VectorXd ForceWith(const FitView& view, const std::vector<FrictionMap>& maps) {
   Eigen::VectorXd force = Eigen::VectorXd::Constant(view.time.size(), std::nan(""));
-  const JointFriction sliding = SlidingWith(view, maps);
+  Friction friction = *view.estimate.friction;
+  friction.maps = maps;
+  const JointFriction sliding(friction);
   for (Eigen::Index i = 0; i < force.size(); ++i) {
     if (view.selection.keep[i]) force[i] = sliding.SlidingForce(view.velocity[i], PlaceAt(view, i));
   }
@@ -81,22 +83,34 @@ Line MapLine(const FitView& view, const SpeedGroup& group, const std::vector<Fri
   return line;
 }
 
+/// One direction's torque over the motor's angle.
 struct AnglePanel {
   Plot plot;
-  Eigen::Index beyond = 0;  // samples that the axis leaves out
+  Eigen::Index beyond = 0;   // samples that the axis leaves out
+  double largest_swing = 0;  // of the medians, torque unit
 };
+
+/// Draws lines over all dots, and axes that hold most of what is shown.
+void Finish(const std::vector<Series>& lines, const std::string& label,
+            const std::vector<Eigen::VectorXd>& shown, AnglePanel& panel) {
+  Plot& plot = panel.plot;
+  plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+  plot.x = AngleAxis("motor angle (rad)");
+  plot.y = BulkAxis(label, shown);
+  // torques that the axis leaves out are counted
+  panel.beyond = CountBeyond(plot.y, shown);
+}
 
 AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& without) {
   const std::vector<FrictionMap> maps = MapsOverMotor(*view.estimate.friction, true);
   AnglePanel panel;
-  Plot& plot = panel.plot;
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
   for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
     if (group.samples.empty()) continue;
     // what the law and the other maps leave over is this map's to explain
     const Eigen::VectorXd left = (view.torque - without)(group.samples);
-    plot.series.push_back(
+    panel.plot.series.push_back(
         {"", group.hue,
          Scatter{view.motor_angle(group.samples), left, 0.8, Marker::circle, kFaint}});
     const Line line = MapLine(view, group, maps);
@@ -105,11 +119,7 @@ AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& 
     lines.push_back({"", group.hue, Scatter{medians.x, medians.y, 3, Marker::diamond}});
     shown.insert(shown.end(), {left, line.y});
   }
-  // lines over all dots
-  plot.series.insert(plot.series.end(), lines.begin(), lines.end());
-  plot.x = AngleAxis("motor angle (rad)");
-  plot.y = BulkAxis(TorqueLabel(view, "torque − law"), shown);
-  panel.beyond = CountBeyond(plot.y, shown);
+  Finish(lines, TorqueLabel(view, "torque − law"), shown, panel);
   return panel;
 }
 
@@ -152,7 +162,7 @@ Plot InTime(const FitView& view, const Window& window, const Eigen::VectorXd& wi
   plot.series.push_back({"measured", Hue::grey, Scatter{time, part(view.torque), 1.6}});
   plot.series.push_back({"fit without the map", Hue::orange, Line{time, part(without), 1.5}});
   plot.series.push_back({"with it", Hue::blue, Line{time, part(with), 2}});
-  plot.x = {"time (s)", time[0], time.tail(1)[0], Scale::linear, {}};
+  plot.x = {"time (s)", time[0], time.tail(1)[0]};
   plot.y = LinearAxis(TorqueLabel(view, "torque"), {part(view.torque), part(with), part(without)});
   return plot;
 }
@@ -179,14 +189,8 @@ double Swing(const Line& line) {
   return highest - lowest;
 }
 
-struct DirectionPanel {
-  Plot plot;
-  double largest_swing = 0;  // torque unit
-  Eigen::Index beyond = 0;   // samples that the axis leaves out
-};
-
-DirectionPanel PanelOf(const FitView& view, int direction, const std::string& label) {
-  DirectionPanel panel;
+AnglePanel PanelOf(const FitView& view, int direction, const std::string& label) {
+  AnglePanel panel;
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> medians;
   for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
@@ -204,12 +208,7 @@ DirectionPanel PanelOf(const FitView& view, int direction, const std::string& la
     shown.push_back(torque);
     panel.largest_swing = std::max(panel.largest_swing, Swing(median));
   }
-  // medians over all dots
-  panel.plot.series.insert(panel.plot.series.end(), medians.begin(), medians.end());
-  panel.plot.x = AngleAxis("motor angle (rad)");
-  panel.plot.y = BulkAxis(label, shown);
-  // torques that the axis leaves out are counted
-  panel.beyond = CountBeyond(panel.plot.y, shown);
+  Finish(medians, label, shown, panel);
   return panel;
 }
 
@@ -251,7 +250,7 @@ std::optional<Figure> MakeMotorFit(const FitView& view) {
 std::optional<Figure> MakeMotorAngle(const FitView& view) {
   if (view.motor_angle.size() == 0 || view.selection.segments.empty()) return std::nullopt;
   const std::string label = TorqueLabel(view, view.warms() ? "torque − sign(v) E" : "torque");
-  const DirectionPanel forwards = PanelOf(view, 1, label), backwards = PanelOf(view, -1, label);
+  const AnglePanel forwards = PanelOf(view, 1, label), backwards = PanelOf(view, -1, label);
 
   // how much the angle of the motor matters at one speed
   const std::string finding =

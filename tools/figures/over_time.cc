@@ -15,7 +15,6 @@ namespace {
 Line SegmentLine(const FitView& view, const Eigen::VectorXd& values) {
   std::vector<double> x, y;
   for (const Segment& segment : view.selection.segments) {
-    // the kept samples of each segment
     for (Eigen::Index i = segment.begin; i < segment.end; ++i) {
       if (!view.selection.keep[i]) continue;
       x.push_back(view.time[i] / TimeUnit(view));
@@ -110,7 +109,7 @@ Plot LevelOverTime(const FitView& view) {
     }
     shown.push_back(fitted);
   }
-  plot.x = {TimeLabel(view), 0, view.time.tail(1)[0] / TimeUnit(view), Scale::linear, {}};
+  plot.x = TimeAxis(view);
   plot.y = LinearAxis(TorqueLabel(view, "torque · sign(v)"), shown);
   return plot;
 }
@@ -129,7 +128,7 @@ Plot WarmUpCurve(const FitView& view) {
   AddBand(plot, "95 %", Hue::vermilion, time, view.energy, view.energy_std, highest - lowest);
   plot.series.push_back({view.is_void() ? "E (void)" : "E", Hue::vermilion,
                          Line{time, view.energy, 2.0, FitDash(view)}});
-  plot.x = {TimeLabel(view), 0, time.tail(1)[0], Scale::linear, {}};
+  plot.x = TimeAxis(view);
   // samples of reversals may leave the picture, E may not
   const Axis bulk = BulkAxis("", {observed}, kOutermost);
   plot.y = LinearAxis(TorqueLabel(view, "change of the level, E"),
@@ -152,7 +151,7 @@ Window WarmWindow(const FitView& view, int segments) {
   return Around(view, all[all.size() - count].begin, all.back().end);
 }
 
-std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, const Window& b) {
+Axis TorqueAxis(const FitView& view, const Window& a, const Window& b) {
   // accelerations may leave the picture: constant speeds are what is looked at
   const Eigen::VectorXd kept = KeptOrGap(view, view.torque);
   auto [lower, upper] = RangeOf({a.Of(kept), b.Of(kept)});
@@ -160,10 +159,10 @@ std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, con
     std::tie(lower, upper) = RangeOf({a.Of(view.torque), b.Of(view.torque)});
   const Axis axis = LinearAxis("", {Eigen::Vector2d(lower, upper)});
   const double spare = 0.08 * (upper - lower);
-  return {axis.lower - spare, axis.upper + spare};
+  return {TorqueLabel(view, "torque"), axis.lower - spare, axis.upper + spare};
 }
 
-Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, double>& limits) {
+Plot CloseUp(const FitView& view, const Window& window, const Axis& torque) {
   const Eigen::VectorXd time = window.Of(view.time) / TimeUnit(view);
   Plot plot;
   plot.series.push_back({"measured", Hue::grey, Line{time, window.Of(view.torque), 2.0}});
@@ -176,9 +175,9 @@ Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, 
     const Eigen::VectorXd fitted = window.Of(KeptOrGap(view, view.fitted));
     plot.series.push_back({FitLabel(view), Hue::vermilion, Line{time, fitted, 1.2, FitDash(view)}});
   }
-  // torque limits are shared with the other close-ups
-  plot.x = {TimeLabel(view), time[0], time.tail(1)[0], Scale::linear, {}};
-  plot.y = {TorqueLabel(view, "torque"), limits.first, limits.second, Scale::linear, {}};
+  // the torque's axis is shared with the other close-ups
+  plot.x = {TimeLabel(view), time[0], time.tail(1)[0]};
+  plot.y = torque;
   return plot;
 }
 

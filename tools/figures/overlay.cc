@@ -7,7 +7,6 @@
 #include "tools/figures/axes.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_panels.h"
-#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 namespace {
@@ -35,8 +34,7 @@ Dash DashAt(std::size_t place) { return kDashes[place / std::size(kHues) % std::
 Plot Curves(const Fits& fits) {
   Plot plot = FrictionCurve(*fits.front().second);
   // of the first plot only its measured samples stay
-  std::vector<Series> series = plot.series;
-  std::erase_if(series, [](const Series& one) {
+  std::erase_if(plot.series, [](const Series& one) {
     return !std::holds_alternative<Scatter>(one.shape) || one.label.empty();
   });
   // each estimate adds its cold curve
@@ -45,11 +43,10 @@ Plot Curves(const Fits& fits) {
     for (const Series& own : FrictionCurve(*fits[i].second).series) {
       const auto* line = std::get_if<Line>(&own.shape);
       if (!line || own.hue != Hue::blue) continue;
-      series.push_back({label, HueAt(i), Line{line->x, line->y, 2.0, DashAt(i)}});
+      plot.series.push_back({label, HueAt(i), Line{line->x, line->y, 2.0, DashAt(i)}});
       label.clear();
     }
   }
-  plot.series = series;
   return plot;
 }
 

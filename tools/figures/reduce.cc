@@ -21,7 +21,6 @@ int CellOf(double value, const CellSpan& span) {
 /// Adds first, lowest, highest and last of what is known in [begin, end), and the gap over which it jumps farthest, between
 /// its neighbours.
 void AddColumn(const Eigen::VectorXd& y, Index begin, Index end, std::vector<Index>& chosen) {
-  // ends, extremes and one gap are all that a column of the page shows
   Index first = -1, last = -1, low = -1, high = -1;
   Index gap = -1, before = -1, after = -1;
   double jump = -1;

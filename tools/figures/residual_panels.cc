@@ -75,7 +75,7 @@ Plot ResidualsOver(const FitView& view, SeenOver what) {
   plot.x = LinearAxis(across.label, {across.values});
   // as far up as down, with zero in the middle
   const double reach = ReachOf(residuals);
-  plot.y = {TorqueLabel(view, "residual"), -reach, reach, Scale::linear, {}};
+  plot.y = {TorqueLabel(view, "residual"), -reach, reach};
   return plot;
 }
 

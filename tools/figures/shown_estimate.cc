@@ -20,18 +20,6 @@ bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
          });
 }
 
-/// Friction at each of the speeds.
-std::vector<EstimatedParameter> AtSpeeds(const Estimate& estimate) {
-  std::vector<EstimatedParameter> rows;
-  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
-    std::string name = fmt::format("friction {} at {:.3g}",
-                                   one.speed < 0 ? "backwards" : "forwards", std::abs(one.speed));
-    if (!one.speed_unit.empty()) name += " " + one.speed_unit;
-    rows.push_back({std::move(name), one.value, one.unit, one.std, one.interval95});
-  }
-  return rows;
-}
-
 constexpr std::size_t kBriefly = 3;  // remarks
 
 /// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
@@ -67,17 +55,13 @@ std::size_t EndOfClause(std::string_view text) {
   return text.size();
 }
 
-void AddClauses(std::string_view text, std::vector<std::string>& sentences) {
+std::vector<std::string> Clauses(std::string_view text) {
+  std::vector<std::string> sentences;
   while (!text.empty()) {
     const std::size_t end = EndOfClause(text);
     if (end > 0) sentences.push_back(AsSentence(std::string(text.substr(0, end))));
     text.remove_prefix(std::min(end + 2, text.size()));
   }
-}
-
-std::vector<std::string> Clauses(std::string_view text) {
-  std::vector<std::string> sentences;
-  AddClauses(text, sentences);
   return sentences;
 }
 
@@ -95,8 +79,12 @@ std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate) {
   for (const EstimatedParameter& one : estimate.parameters) {
     if (!IsShared(estimate, one)) shown.push_back(one);
   }
-  const std::vector<EstimatedParameter> speeds = AtSpeeds(estimate);
-  shown.insert(shown.end(), speeds.begin(), speeds.end());
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    std::string name = fmt::format("friction {} at {:.3g}",
+                                   one.speed < 0 ? "backwards" : "forwards", std::abs(one.speed));
+    if (!one.speed_unit.empty()) name += " " + one.speed_unit;
+    shown.push_back({std::move(name), one.value, one.unit, one.std, one.interval95});
+  }
   return shown;
 }
 

@@ -107,8 +107,7 @@ std::vector<SpeedGroup> GroupBySpeed(const FitView& view, int direction) {
   std::vector<SpeedGroup> groups;
   // groups have the same colours in both directions
   for (const Speeds& speeds : ClustersOf(SpeedsOfSamples(view))) {
-    groups.push_back(
-        {speeds.front(), speeds.back(), kHues[groups.size()], LabelOf(speeds, unit), {}});
+    groups.push_back({speeds.back(), kHues[groups.size()], LabelOf(speeds, unit), {}});
   }
   // samples of this direction, in the group of their speed
   for (const Segment& segment : view.selection.segments) {

@@ -11,8 +11,7 @@ namespace warmjoint::figures {
 
 /// Kept samples of like speed.
 struct SpeedGroup {
-  double slowest = 0;  // rad/s or m/s, > 0
-  double fastest = 0;
+  double fastest = 0;  // rad/s or m/s, > 0
   Hue hue = Hue::blue;
   std::string label;                  // "0.3 rad/s", or "0.3 … 0.6 rad/s"
   std::vector<Eigen::Index> samples;  // of the recording, in order of time

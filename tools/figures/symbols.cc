@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "identification/identifiers/identifier_list.h"
 #include "models/friction/thermal.h"
@@ -28,40 +29,37 @@ std::string Superscript(int value) {
   return text;
 }
 
-/// mantissa 10^exponent, the mantissa with `decimals` digits.
-std::string WithPower(double mantissa, int decimals, int exponent) {
-  const std::string digits = fmt::format("{:.{}f}", mantissa, decimals);
-  if (digits == "1") return "10" + Superscript(exponent);
-  return WithTrueMinus(digits) + "·10" + Superscript(exponent);
-}
-
 /// The power of ten of a number that is rounded to so many decimals of its mantissa.
 int ExponentOf(double value, int decimals) {
   const std::string text = fmt::format("{:.{}e}", value, decimals);
   return std::stoi(text.substr(text.find('e') + 1));
 }
 
+/// mantissa 10^exponent, the mantissa with `decimals` digits.
 std::string PowerText(double value, int decimals) {
   const int exponent = ExponentOf(value, decimals);
-  return WithPower(value / std::pow(10, exponent), decimals, exponent);
+  const std::string digits = fmt::format("{:.{}f}", value / std::pow(10, exponent), decimals);
+  if (digits == "1") return "10" + Superscript(exponent);
+  return WithTrueMinus(digits) + "·10" + Superscript(exponent);
 }
 
-bool NeedsPower(double value) {
-  return value != 0 && (std::abs(value) < 0.99e-3 || std::abs(value) >= 0.99e5);
+/// The parameters of all laws, law by law, then those of warming.
+std::vector<ParameterInfo> AllParameters() {
+  std::vector<ParameterInfo> all;
+  for (const Law& law : Laws()) {
+    all.insert(all.end(), law.parameters.begin(), law.parameters.end());
+  }
+  all.insert(all.end(), Thermal::parameters.begin(), Thermal::parameters.end());
+  return all;
 }
 
 }  // namespace
 
-std::string NumberText(double value, int decimals) {
-  if (!std::isfinite(value)) return "–";
-  if (NeedsPower(value)) return PowerText(value, 0);
-  return WithTrueMinus(fmt::format("{:.{}f}", value, decimals));
-}
-
 std::string SignificantText(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   if (value == 0) return "0";
-  if (NeedsPower(value)) return PowerText(value, digits - 1);
+  const double size = std::abs(value);
+  if (size < 0.99e-3 || size >= 0.99e5) return PowerText(value, digits - 1);
   const int exponent = ExponentOf(value, digits - 1);
   return WithTrueMinus(fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent)));
 }
@@ -77,16 +75,10 @@ std::string UnitText(std::string_view unit) {
 }
 
 std::string SymbolOf(const std::string& parameter) {
-  std::string symbol = parameter;
   // the symbol as the formulas have it
-  for (const ParameterInfo& info : Thermal::parameters) {
-    if (info.name == parameter) symbol = info.symbol;
-  }
-  for (const Law& law : Laws()) {
-    for (const ParameterInfo& info : law.parameters) {
-      if (info.name == parameter) symbol = info.symbol;
-    }
-  }
+  const std::vector<ParameterInfo> all = AllParameters();
+  const auto known = std::ranges::find(all, parameter, &ParameterInfo::name);
+  const std::string symbol(known == all.end() ? parameter : known->symbol);
   // in print with Greek letters and indices
   static const std::map<std::string, std::string> kInPrint{
       {"tau", "τ"},
@@ -106,18 +98,9 @@ std::string SymbolOf(const std::string& parameter) {
 }
 
 std::size_t PlaceInLaws(const std::string& parameter) {
-  std::size_t place = 0;
-  for (const Law& law : Laws()) {
-    for (const ParameterInfo& info : law.parameters) {
-      if (info.name == parameter) return place;
-      ++place;
-    }
-  }
-  for (const ParameterInfo& info : Thermal::parameters) {
-    if (info.name == parameter) return place;
-    ++place;
-  }
-  return place;
+  const std::vector<ParameterInfo> all = AllParameters();
+  const auto known = std::ranges::find(all, parameter, &ParameterInfo::name);
+  return static_cast<std::size_t>(known - all.begin());
 }
 
 std::string NameWithSymbol(const std::string& parameter) {

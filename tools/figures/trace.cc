@@ -32,7 +32,6 @@ Plot CurveOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hu
 void AddInterval(Plot& plot, const EstimatedParameter& parameter, Hue hue) {
   if (!parameter.interval95) return;
   const auto [lower, upper] = *parameter.interval95;
-  // the interval as a band behind the trace, over all iterations
   const Eigen::Vector2d across(plot.x.lower, plot.x.upper);
   plot.series.insert(plot.series.begin(), Series{"final 95 % interval", hue,
                                                  Band{across, Eigen::Vector2d::Constant(lower),

@@ -21,5 +21,6 @@ def tree(path):
     try:
         table = pyarrow.parquet.read_table(path)
     except pyarrow.ArrowException as error:
-        raise Refusal(f"{path}: cannot be read as Parquet: {str(error).splitlines()[0]}") from None
+        words = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise Refusal(f"{path}: cannot be read as Parquet: {words}") from None
     return {name: column(path, table, name) for name in table.column_names}

@@ -4,7 +4,6 @@
 #include <warmjoint/friction_model.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -96,7 +95,7 @@ std::vector<double> Settled(const std::string& text, const Friction& friction,
 
 /// What an estimate's verdict says against its friction; empty where there is nothing.
 std::string WarningOf(const std::string& path) {
-  const nlohmann::json object = ReadJsonFile(path);
+  const Tree object = ReadJsonFile(path);
   if (!object.is_object() || !object.contains("status") || object["status"] == "ok") return "";
   const std::string status =
       object["status"].is_string() ? Excerpt(object["status"].get<std::string>()) : "of no status";

@@ -2,16 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/warming/initial_energy.h"
-#include "models/foundation/excerpt.h"
-#include "models/foundation/node.h"
-#include "models/foundation/serialize.h"
+#include "models/foundation/bad_input.h"
 
 namespace warmjoint {
 namespace {
@@ -82,8 +77,8 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
   // gravity over an angle needs one
   if (settings.gravity == FittedGravity::sincos && joint == JointKind::linear) {
     Refuse({"--gravity"},
-           "sincos needs an angle and the joint is linear, where gravity does not "
-           "depend on position; use paired");
+           "sincos needs an angle and the joint is linear, where gravity does not depend on "
+           "position; use paired");
   }
   given["gravity"] = NameOf(settings.gravity);
   return given;
@@ -186,8 +181,7 @@ std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
   estimate.friction->torque_unit = measurements.torque_unit;
   return fmt::format(
       "friction is in {}, of use to predict, but not to MuJoCo: --torque-constant K, in {}/A at "
-      "the "
-      "joint, makes torque of the current",
+      "the joint, makes torque of the current",
       measurements.torque_unit, unit);
 }
 

@@ -3,9 +3,6 @@
 
 #include <warmjoint/identify.h>
 
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 
 #include "identification/answer/identify.h"

@@ -1,7 +1,6 @@
 #include "tools/identify/predict_recording.h"
 
 #include <fmt/format.h>
-#include <warmjoint/estimate.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

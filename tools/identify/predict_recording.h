@@ -8,7 +8,6 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "identification/holdout/hold_out.h"
 #include "tools/identify/carried_heat.h"

@@ -84,8 +84,7 @@ std::vector<std::string> WordsOf(const RecordingSource& source) {
 
 std::optional<RecordingSource> RecordingOf(const Estimate& estimate, const std::string& file) {
   if (!estimate.recording) return std::nullopt;
-  if (std::ranges::any_of(estimate.recording->files,
-                          [](const std::string& one) { return IsStandardInput(one); })) {
+  if (std::ranges::any_of(estimate.recording->files, IsStandardInput)) {
     Refuse({file}, "its recording was read from standard input; give it with --recording");
   }
   return estimate.recording;

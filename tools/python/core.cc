@@ -50,24 +50,9 @@ struct Log {
 
 // Logs.
 
-Column ViewOf(const Eigen::VectorXd& column, nb::handle owner) {
-  return Column(column.data(), {static_cast<std::size_t>(column.size())}, owner);
-}
-
-/// A column of a log as an array that shares its memory; None where the log lacks it.
-nb::object ColumnOf(nb::handle self, const std::string& name) {
-  const Measurements& m = nb::cast<const Log&>(self).measurements();
-  const auto in_python = [&](const Eigen::VectorXd& column) {
-    return nb::cast(ViewOf(column, self));
-  };
-  if (name == "time") return in_python(m.time);
-  if (name == "position") return in_python(m.position);
-  if (name == "velocity") return in_python(m.velocity);
-  if (name == "torque") return in_python(m.torque);
-  const auto* column = name == "motor_position" ? &m.motor_position
-                       : name == "load"         ? &m.load
-                                                : &m.temperature;
-  return *column ? in_python(**column) : nb::object(nb::none());
+/// A column of a log as an array that shares its memory.
+nb::object ViewOf(const Eigen::VectorXd& column, nb::handle log) {
+  return nb::cast(Column(column.data(), {static_cast<std::size_t>(column.size())}, log));
 }
 
 /// Columns by their names in the header that a file would have. settings: of a RecordingSource.
@@ -152,8 +137,8 @@ nb::object ScoreInPython(nb::handle estimate, const Log& log, nb::handle truth) 
 /// {name: figure}, as tools/figures/figure.h describes them: what an estimate gives with its log, or without.
 nb::object FiguresInPython(nb::handle given, const std::optional<Log>& log) {
   const Estimate estimate = EstimateOf(given);
-  const figures::EstimateView view = log ? figures::ViewOwnRecording(estimate, log->prepared)
-                                         : figures::MakeEstimateView(estimate);
+  const figures::EstimateView view =
+      log ? figures::ViewOwnRecording(estimate, log->prepared) : figures::EstimateView{estimate};
   Tree all = Tree::object();
   for (const figures::EstimateFigure& one : figures::EstimateFigures()) {
     if (auto made = one.make(view)) all[one.name] = figures::FigureJson(*std::move(made));
@@ -195,14 +180,26 @@ std::string Property(const std::string& name, const std::string& type) {
 
 void AddLog(nb::module_& module) {
   nb::class_<Log> log(module, "Log");
-  for (const char* name : {"time", "position", "velocity", "torque"}) {
+  for (const auto& [name, member] :
+       {std::pair("time", &Measurements::time), std::pair("position", &Measurements::position),
+        std::pair("velocity", &Measurements::velocity),
+        std::pair("torque", &Measurements::torque)}) {
     log.def_prop_ro(
-        name, [name](nb::handle self) { return ColumnOf(self, name); },
+        name,
+        [column = member](nb::handle self) {
+          return ViewOf(nb::cast<const Log&>(self).measurements().*column, self);
+        },
         nb::sig(Property(name, kColumn).c_str()));
   }
-  for (const char* name : {"motor_position", "load", "temperature"}) {
+  for (const auto& [name, member] : {std::pair("motor_position", &Measurements::motor_position),
+                                     std::pair("load", &Measurements::load),
+                                     std::pair("temperature", &Measurements::temperature)}) {
     log.def_prop_ro(
-        name, [name](nb::handle self) { return ColumnOf(self, name); },
+        name,
+        [column = member](nb::handle self) {
+          const auto& given = nb::cast<const Log&>(self).measurements().*column;
+          return given ? ViewOf(*given, self) : nb::object(nb::none());
+        },
         nb::sig(Property(name, std::string(kColumn) + " | None").c_str()));
   }
   log.def_prop_ro("size", [](const Log& self) { return self.measurements().size(); })
@@ -263,8 +260,7 @@ void AddIdentification(nb::module_& module) {
       nb::sig("def log_page(estimate: dict[str, typing.Any], log: Log) -> dict[str, typing.Any]"));
   module.def("score", &ScoreInPython,
              nb::sig("def score(estimate: dict[str, typing.Any], log: Log, truth: dict[str, "
-                     "typing.Any]) -> dict[str, "
-                     "typing.Any]"));
+                     "typing.Any]) -> dict[str, typing.Any]"));
   module.def(
       "identifiers", [] { return ToPython(IdentifiersJson()); },
       nb::sig("def identifiers() -> list[dict[str, typing.Any]]"));

@@ -104,8 +104,7 @@ NB_MODULE(_engine, module) {
   module.def("simulate", &python::SimulateInPython, nb::arg("scenario"), nb::arg("set"),
              nb::arg("seed").none(), nb::arg("realization"),
              nb::sig("def simulate(scenario: str, set: list[tuple[str, str]], seed: int | None, "
-                     "realization: int) -> "
-                     "tuple[dict[str, typing.Any], dict[str, typing.Any]]"));
+                     "realization: int) -> tuple[dict[str, typing.Any], dict[str, typing.Any]]"));
   module.def(
       "run", &python::RunInPython,
       nb::sig("def run(suite: str, output: str, options: dict[str, object], functions: dict[str, "

@@ -14,20 +14,7 @@
 namespace warmjoint::python {
 
 /// Fits that were interrupted and have not noticed it yet: the interpreter must not end before they do.
-class Abandoned {
- public:
-  static void Add(std::thread thread) { Threads().push_back(std::move(thread)); }
-  static void Join() {
-    for (std::thread& thread : Threads()) thread.join();
-    Threads().clear();
-  }
-
- private:
-  static std::vector<std::thread>& Threads() {
-    static std::vector<std::thread> threads;
-    return threads;
-  }
-};
+inline std::vector<std::thread> abandoned_threads;
 
 /// Why a fit that nobody waits for ends.
 struct Interrupted {};
@@ -50,7 +37,7 @@ auto Interruptibly(Work work) {
       nanobind::gil_scoped_acquire held;
       if (PyErr_CheckSignals() == 0) continue;
       *abandoned = true;
-      Abandoned::Add(std::move(thread));
+      abandoned_threads.push_back(std::move(thread));
       throw nanobind::python_error();
     }
   }
@@ -62,7 +49,8 @@ auto Interruptibly(Work work) {
 inline void WaitAtExit() {
   nanobind::module_::import_("atexit").attr("register")(nanobind::cpp_function([] {
     nanobind::gil_scoped_release released;
-    Abandoned::Join();
+    for (std::thread& thread : abandoned_threads) thread.join();
+    abandoned_threads.clear();
   }));
 }
 

@@ -11,7 +11,7 @@ namespace warmjoint::scene {
 /// Libraries stay open for the life of the process: drivers leave threads and exit handlers behind.
 class SharedLibrary {
  public:
-  /// Opens the first of the named libraries that is there; see is_open().
+  /// Opens the first of the named libraries that is there.
   template <typename... Names>
   explicit SharedLibrary(Names... names) {
     for (const char* name : {names...}) {
@@ -21,15 +21,14 @@ class SharedLibrary {
     }
   }
 
-  bool is_open() const { return handle_ != nullptr; }
-
   /// Puts the library's symbols among those of the process, for loaders that look there.
   void Publish() const { dlopen(name_, RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD); }
 
-  /// The function of that name, or nullptr.
+  /// Looks a function up; false where the library is not open or lacks it.
   template <typename Function>
-  Function Find(const char* name) const {
-    return reinterpret_cast<Function>(dlsym(handle_, name));
+  bool Find(const char* name, Function& function) const {
+    function = handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
+    return function != nullptr;
   }
 
  private:
@@ -40,13 +39,9 @@ class SharedLibrary {
 /// A current OpenGL 3.3 (or later) compatibility context of this thread; gone with the object.
 class GlContext {
  public:
-  using Procedure = void (*)();
-
   virtual ~GlContext() = default;
   /// Where the context comes from: "osmesa", "egl surfaceless" or "egl device".
   virtual std::string Name() const = 0;
-  /// Address of a GL function, or nullptr.
-  virtual Procedure Find(const char* function) const = 0;
   /// Makes it the thread's current context again.
   virtual void MakeCurrent() = 0;
   /// Lets MuJoCo's GL loader find this context: it takes the first of EGL and OSMesa among the

@@ -23,19 +23,14 @@ struct Egl {
   PFNEGLQUERYDEVICESEXTPROC query_devices{};
 
   bool Load() {
-    if (!library.is_open()) return false;
     // functions that every EGL has
-    find = library.Find<decltype(find)>("eglGetProcAddress");
-    initialize = library.Find<decltype(initialize)>("eglInitialize");
-    bind_api = library.Find<decltype(bind_api)>("eglBindAPI");
-    choose_config = library.Find<decltype(choose_config)>("eglChooseConfig");
-    create_context = library.Find<decltype(create_context)>("eglCreateContext");
-    destroy_context = library.Find<decltype(destroy_context)>("eglDestroyContext");
-    make_current = library.Find<decltype(make_current)>("eglMakeCurrent");
-    if (!find || !initialize || !bind_api || !choose_config || !create_context ||
-        !destroy_context || !make_current) {
-      return false;
-    }
+    const bool all =
+        library.Find("eglGetProcAddress", find) && library.Find("eglInitialize", initialize) &&
+        library.Find("eglBindAPI", bind_api) && library.Find("eglChooseConfig", choose_config) &&
+        library.Find("eglCreateContext", create_context) &&
+        library.Find("eglDestroyContext", destroy_context) &&
+        library.Find("eglMakeCurrent", make_current);
+    if (!all) return false;
     // extensions of the client: absent on some machines
     platform_display =
         reinterpret_cast<decltype(platform_display)>(find("eglGetPlatformDisplayEXT"));
@@ -75,7 +70,6 @@ class EglContext : public GlContext {
 
   std::string Name() const override { return name_; }
   void Publish() const override { egl_.library.Publish(); }
-  Procedure Find(const char* function) const override { return egl_.find(function); }
   void MakeCurrent() override {
     egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
   }

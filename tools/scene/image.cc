@@ -18,7 +18,6 @@ Image Shrink(const Image& image, int factor) {
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
       for (int channel = 0; channel < 3; ++channel) {
-        // the mean of each colour over the square
         unsigned sum = area / 2;  // rounds to the nearest
         for (int row = y * factor; row < (y + 1) * factor; ++row) {
           for (int column = x * factor; column < (x + 1) * factor; ++column) {
@@ -33,7 +32,7 @@ Image Shrink(const Image& image, int factor) {
   return small;
 }
 
-std::string EncodePng(const Image& image, const std::string& description, double dpi) {
+std::string EncodePng(const Image& image) {
   std::string bytes;
   // errors of the library are thrown, its bytes are gathered in a text
   png_structp png = png_create_write_struct(
@@ -53,18 +52,9 @@ std::string EncodePng(const Image& image, const std::string& description, double
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
 
   // how large the picture is meant to be on paper
-  constexpr double kInchesPerMetre = 1 / 0.0254;
-  const auto per_metre = static_cast<png_uint_32>(std::lround(kInchesPerMetre * dpi));
+  constexpr double kInchesPerMetre = 1 / 0.0254, kDpi = 144;
+  const auto per_metre = static_cast<png_uint_32>(std::lround(kInchesPerMetre * kDpi));
   png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
-
-  // the alt text travels with the picture
-  std::string key = "Description";
-  std::string text = description;
-  png_text entry{};
-  entry.compression = PNG_ITXT_COMPRESSION_NONE;
-  entry.key = key.data();
-  entry.text = text.data();
-  if (!description.empty()) png_set_text(png, info, &entry, 1);
 
   // rows from above
   png_write_info(png, info);

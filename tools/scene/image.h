@@ -29,8 +29,7 @@ struct Image {
 /// The mean of each block of factor x factor pixels; width and height must be multiples of factor.
 Image Shrink(const Image& image, int factor);
 
-/// The bytes of a PNG file; `description` goes into its Description entry (the alt text), `dpi`,
-/// pixels an inch, into its size on paper. The same image and description give the same bytes.
-std::string EncodePng(const Image& image, const std::string& description, double dpi = 144);
+/// The bytes of a PNG file of 144 pixels an inch. The same image gives the same bytes.
+std::string EncodePng(const Image& image);
 
 }  // namespace warmjoint::scene

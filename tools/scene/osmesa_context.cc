@@ -13,15 +13,11 @@ struct OsMesa {
   decltype(&OSMesaCreateContextExt) create{};
   decltype(&OSMesaDestroyContext) destroy{};
   decltype(&OSMesaMakeCurrent) make_current{};
-  decltype(&OSMesaGetProcAddress) find{};
 
   bool Load() {
-    if (!library.is_open()) return false;
-    create = library.Find<decltype(create)>("OSMesaCreateContextExt");
-    destroy = library.Find<decltype(destroy)>("OSMesaDestroyContext");
-    make_current = library.Find<decltype(make_current)>("OSMesaMakeCurrent");
-    find = library.Find<decltype(find)>("OSMesaGetProcAddress");
-    return create && destroy && make_current && find;
+    return library.Find("OSMesaCreateContextExt", create) &&
+           library.Find("OSMesaDestroyContext", destroy) &&
+           library.Find("OSMesaMakeCurrent", make_current);
   }
 };
 
@@ -37,7 +33,6 @@ class OsMesaContext : public GlContext {
   bool is_valid() const { return context_ != nullptr; }
   std::string Name() const override { return "osmesa"; }
   void Publish() const override { mesa_.library.Publish(); }
-  Procedure Find(const char* function) const override { return mesa_.find(function); }
   void MakeCurrent() override {
     mesa_.make_current(context_, window_.data(), GL_UNSIGNED_BYTE, kSide, kSide);
   }

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <cerrno>
+#include <limits>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -122,9 +123,8 @@ RunDescription ReadDescription(const SQLite::Database& database, const fs::path&
   });
 }
 
-const std::vector<std::string>& RowTables() {
-  static const std::vector<std::string> tables{"realization", "result", "parameter", "trace"};
-  return tables;
+double NumberIn(const SQLite::Column& column) {
+  return column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
 }
 
 void RethrowStoreError(const fs::path& path, const SQLite::Exception& error) {
@@ -137,10 +137,9 @@ void RethrowStoreError(const fs::path& path, const SQLite::Exception& error) {
       FailOutput(path.string(), EIO);
     case SQLITE_READONLY:
       if (fs::exists(path.string() + "-journal")) {
-        Refuse(
-            place,
-            "a killed run left a batch that is to be undone, and you may not write there; let its "
-            "owner read it, or go on with `warmjoint run`");
+        Refuse(place,
+               "a killed run left a batch that is to be undone, and you may not write there; let "
+               "its owner read it, or go on with `warmjoint run`");
       }
       FailOutput(path.string(), EACCES);
     case SQLITE_PERM:

@@ -4,7 +4,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <filesystem>
-#include <vector>
 
 #include "tools/store/run_store.h"
 
@@ -24,7 +23,10 @@ SQLite::Database MakeDatabase(const std::filesystem::path& path, const RunDescri
 RunDescription ReadDescription(const SQLite::Database& database, const std::filesystem::path& path);
 
 /// The tables that hold rows of realizations.
-const std::vector<std::string>& RowTables();
+inline constexpr const char* kRowTables[]{"realization", "result", "parameter", "trace"};
+
+/// A stored number; NULL stands for NaN.
+double NumberIn(const SQLite::Column& column);
 
 /// Throws OutputFailed where the system has no room or refuses to write, and BadInput for what the
 /// file's content causes, with what SQLite says of it.

@@ -14,10 +14,6 @@ namespace {
 /// Shortest text that reads back bit for bit; empty for NaN.
 std::string Number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
-const std::vector<ParameterScore>& Family(const Score& score, bool discrete) {
-  return discrete ? score.discrete : score.continuous;
-}
-
 const ParameterScore* Find(const Result& result, const std::string& name) {
   if (!result.score) return nullptr;
   for (const auto* family : {&result.score->continuous, &result.score->discrete}) {
@@ -28,13 +24,10 @@ const ParameterScore* Find(const Result& result, const std::string& name) {
   return nullptr;
 }
 
-/// Adds the names that a result has of one family and the list lacks.
-void AddNames(const Result& result, bool discrete, std::vector<std::string>& names) {
-  if (!result.score) return;
-  for (const ParameterScore& score : Family(*result.score, discrete)) {
-    if (std::find(names.begin(), names.end(), score.name) == names.end()) {
-      names.push_back(score.name);
-    }
+/// Adds the names that the list lacks.
+void AddNames(const std::vector<ParameterScore>& scores, std::vector<std::string>& names) {
+  for (const ParameterScore& score : scores) {
+    if (std::ranges::find(names, score.name) == names.end()) names.push_back(score.name);
   }
 }
 
@@ -76,15 +69,16 @@ std::string CsvCell(const std::string& text) {
 }
 
 void CsvColumns::Add(const Result& result) {
-  AddNames(result, false, continuous_);
-  AddNames(result, true, discrete_);
+  if (!result.score) return;
+  AddNames(result.score->continuous, continuous_);
+  AddNames(result.score->discrete, discrete_);
 }
 
 std::vector<std::string> CsvColumns::Names() const {
   // constants of the law stand in both parametrisations, and once in the table
   std::vector<std::string> names = continuous_;
   for (const std::string& name : discrete_) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   return names;
 }

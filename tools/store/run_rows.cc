@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <limits>
 #include <sstream>
 
 #include "tools/store/database.h"
@@ -14,8 +13,8 @@ namespace {
 
 /// The columns of a result from its metrics on.
 constexpr const char* kColumns =
-    "n, parameters, effective_parameters, rmse, mae, fit, fpe, npe_continuous, npe_discrete,"
-    " bound_npe_continuous, bound_npe_discrete";
+    "n, parameters, effective_parameters, rmse, mae, fit, fpe, npe_continuous, npe_discrete, "
+    "bound_npe_continuous, bound_npe_discrete";
 
 /// Binds values to the places from `first` on. SQLite stores NaN as NULL.
 template <typename... Values>
@@ -78,22 +77,17 @@ void InsertResult(Inserts& inserts, const Result& result) {
   inserts.trace.exec();
 }
 
-/// A stored number; NULL stands for NaN.
-double Number(const SQLite::Column& column) {
-  return column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
-}
-
 std::optional<Metrics> ReadMetrics(SQLite::Statement& row) {
   // n is there where a fit has figures
   if (row.getColumn(6).isNull()) return std::nullopt;
   Metrics metrics;
   metrics.n = row.getColumn(6);
   metrics.parameters = row.getColumn(7);
-  metrics.effective_parameters = Number(row.getColumn(8));
-  metrics.rmse = Number(row.getColumn(9));
-  metrics.mae = Number(row.getColumn(10));
-  metrics.fit = Number(row.getColumn(11));
-  metrics.fpe = Number(row.getColumn(12));
+  metrics.effective_parameters = NumberIn(row.getColumn(8));
+  metrics.rmse = NumberIn(row.getColumn(9));
+  metrics.mae = NumberIn(row.getColumn(10));
+  metrics.fit = NumberIn(row.getColumn(11));
+  metrics.fpe = NumberIn(row.getColumn(12));
   return metrics;
 }
 
@@ -105,19 +99,19 @@ void ReadScore(SQLite::Statement& row, SQLite::Statement& parameters, Result& re
     if (!result.score) result.score.emplace();
     ParameterScore score;
     score.name = parameters.getColumn(1).getString();
-    score.truth = Number(parameters.getColumn(2));
-    score.estimate = Number(parameters.getColumn(3));
+    score.truth = NumberIn(parameters.getColumn(2));
+    score.estimate = NumberIn(parameters.getColumn(3));
     score.estimated = parameters.getColumn(4).getInt() != 0;
     if (!parameters.getColumn(5).isNull()) score.covered = parameters.getColumn(5).getInt() != 0;
-    score.bound = Number(parameters.getColumn(6));
+    score.bound = NumberIn(parameters.getColumn(6));
     const bool discrete = parameters.getColumn(0).getInt() != 0;
     (discrete ? result.score->discrete : result.score->continuous).push_back(std::move(score));
   }
   if (!result.score) return;
-  result.score->npe_continuous = Number(row.getColumn(13));
-  result.score->npe_discrete = Number(row.getColumn(14));
-  result.score->bound_npe_continuous = Number(row.getColumn(15));
-  result.score->bound_npe_discrete = Number(row.getColumn(16));
+  result.score->npe_continuous = NumberIn(row.getColumn(13));
+  result.score->npe_discrete = NumberIn(row.getColumn(14));
+  result.score->bound_npe_continuous = NumberIn(row.getColumn(15));
+  result.score->bound_npe_discrete = NumberIn(row.getColumn(16));
 }
 
 }  // namespace
@@ -166,10 +160,9 @@ std::vector<StatusCount> RunStore::CountStatuses() const {
 void RunStore::ForEachResult(const std::function<void(Result)>& work) const {
   Guarded(results_file(), [&] {
     SQLite::Statement row(
-        database_,
-        fmt::format("SELECT variant, realization, identifier, status, message, seconds, {} FROM "
-                    "result ORDER BY variant, realization, identifier",
-                    kColumns));
+        database_, fmt::format("SELECT variant, realization, identifier, status, message, seconds, "
+                               "{} FROM result ORDER BY variant, realization, identifier",
+                               kColumns));
     SQLite::Statement parameters(
         database_,
         "SELECT discrete, name, truth, estimate, estimated, covered, bound FROM parameter WHERE "
@@ -181,7 +174,7 @@ void RunStore::ForEachResult(const std::function<void(Result)>& work) const {
       result.identifier = row.getColumn(2).getInt();
       result.status = row.getColumn(3).getString();
       result.message = row.getColumn(4).getString();
-      result.seconds = Number(row.getColumn(5));
+      result.seconds = NumberIn(row.getColumn(5));
       result.metrics = ReadMetrics(row);
       ReadScore(row, parameters, result);
       work(std::move(result));

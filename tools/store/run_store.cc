@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
-#include "scenarios/suite.h"
 #include "scenarios/yaml.h"
 #include "tools/store/database.h"
 #include "tools/terminal/say.h"
@@ -91,9 +89,8 @@ void MakeRunDirectory(const fs::path& directory) {
 void RefuseMisplaced(const SQLite::Database& database, const Suite& suite, const fs::path& file) {
   SQLite::Statement row(
       database,
-      "SELECT variant, realization, identifier FROM result WHERE NOT (variant >= 0 "
-      "AND variant < ? AND realization >= 0 AND realization < ? AND identifier >= "
-      "0 AND identifier < ?) LIMIT 1");
+      "SELECT variant, realization, identifier FROM result WHERE NOT (variant >= 0 AND variant < ? "
+      "AND realization >= 0 AND realization < ? AND identifier >= 0 AND identifier < ?) LIMIT 1");
   row.bind(1, suite.variants());
   row.bind(2, suite.realizations);
   row.bind(3, static_cast<int>(suite.identifiers.size()));
@@ -111,8 +108,7 @@ void RefuseOverlap(const SQLite::Database& database, const fs::path& shard) {
                          "(variant, realization) LIMIT 1");
   if (!both.executeStep()) return;
   Refuse({shard.string()},
-         "holds realization {}, which another shard holds as well; merge each "
-         "shard once",
+         "holds realization {}, which another shard holds as well; merge each shard once",
          both.getColumn(0).getInt());
 }
 
@@ -212,8 +208,8 @@ void RunStore::Gather(const std::vector<fs::path>& shards) {
       // the rows of a shard are in as a whole or not at all
       SQLite::Transaction transaction(database_);
       RefuseOverlap(database_, shard);
-      for (const std::string& table : RowTables()) {
-        database_.exec("INSERT INTO main." + table + " SELECT * FROM shard." + table);
+      for (const char* table : kRowTables) {
+        database_.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM shard.{0}", table));
       }
       transaction.commit();
       database_.exec("DETACH shard");

@@ -18,7 +18,6 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
-#include "sim/plant/plant.h"
 #include "tools/suite/run_realization.h"
 #include "tools/terminal/progress_line.h"
 
@@ -48,14 +47,16 @@ std::vector<RunUnit> UnitsOf(const Suite& suite, const Shard& shard) {
   return units;
 }
 
-/// Finished realizations on their way from the workers to the one writer: workers put, the writer takes. A worker that dies hands its exception over.
+/// Finished realizations on their way from the workers to the one writer: workers put, the writer takes. A worker that dies
+/// hands its exception over.
 class FinishedQueue {
  public:
   explicit FinishedQueue(int workers) : workers_(workers) {}
 
-  void Put(Realization realization) {
+  void Put(RealizationResult done) {
     const std::lock_guard lock(mutex_);
-    finished_.push_back(std::move(realization));
+    following_.Add(done.realization.unit, done.following);
+    finished_.push_back(std::move(done.realization));
   }
 
   /// A worker has ended; error: what ended it, or nullptr.
@@ -80,10 +81,14 @@ class FinishedQueue {
     return workers_ == 0 && finished_.empty();
   }
 
+  /// Of all that was put. For when it is done.
+  const FollowingTally& following() const { return following_; }
+
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Realization> finished_;
+  FollowingTally following_;
   std::exception_ptr error_;
   int workers_;
 };
@@ -106,15 +111,8 @@ struct Work {
   std::atomic<size_t> next{0};
   std::atomic<bool> stop{false};
   FinishedQueue queue;
-  std::mutex counting{};
-  FollowingTally following{};
 
   bool Open() const { return !stop && !Interrupted(); }
-
-  void Count(RunUnit unit, const Following& joint) {
-    const std::lock_guard lock(counting);
-    following.Add(unit, joint);
-  }
 };
 
 void RunUnits(Work& work) {
@@ -122,7 +120,6 @@ void RunUnits(Work& work) {
   try {
     // plants are made once for each variant and thread
     std::vector<Bench> benches(static_cast<size_t>(work.suite.variants()));
-    const RecordingKeeper keeper(work.recordings);
     // the next unit that no thread has taken
     while (work.Open()) {
       const size_t i = work.next++;
@@ -131,9 +128,7 @@ void RunUnits(Work& work) {
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
       // simulated and identified; the results wait for the thread that stores
-      RealizationResult done = RunRealization(bench, work.identifiers, unit, keeper);
-      work.Count(unit, done.following);
-      work.queue.Put(std::move(done.realization));
+      work.queue.Put(RunRealization(bench, work.identifiers, unit, work.recordings));
     }
   } catch (...) {
     // an error in one thread ends the work of all
@@ -201,7 +196,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   std::vector<RunUnit> units = UnitsOf(suite, options.shard);
   const auto total = static_cast<int>(units.size());
   const std::set<RunUnit> stored = store.Finished();
-  std::erase_if(units, [&](const RunUnit& unit) { return stored.count(unit) > 0; });
+  std::erase_if(units, [&](const RunUnit& unit) { return stored.contains(unit); });
   const int already = total - static_cast<int>(units.size());
 
   // no more threads than units
@@ -221,7 +216,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   std::vector<std::jthread> threads;
   for (int i = 0; i < workers; ++i) threads.emplace_back(RunUnits, std::ref(work));
   const int finished = already + Store(work, store, tell);
-  return {finished, total, Interrupted() && finished < total, work.following};
+  return {finished, total, Interrupted() && finished < total, work.queue.following()};
 }
 
 void FollowingTally::Add(RunUnit unit, const Following& following) {

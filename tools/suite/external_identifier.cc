@@ -1,7 +1,6 @@
 #include "tools/suite/external_identifier.h"
 
 #include <fmt/format.h>
-#include <warmjoint/estimate.h>
 
 #include <algorithm>
 #include <array>
@@ -63,12 +62,6 @@ struct ExternalOptions {
 
 bool Mentions(const std::string& command, const std::string& text) {
   return command.find(text) != std::string::npos;
-}
-
-/// Whether `folder` is, or holds, `path`.
-bool IsAround(const fs::path& folder, const fs::path& path) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
 }
 
 /// The files that a command names.
@@ -133,8 +126,7 @@ std::string RemedyFor(const Command& command, const CommandEnd& end) {
   constexpr int not_executable = 126;  // as shells have it
   if (end.status != not_executable || command.task.confinement == Confinement::none) return "";
   return "; the sandbox kept it from a program: name the interpreter by its full path, or its "
-         "folder "
-         "in the option reads";
+         "folder in the option reads";
 }
 
 /// Throws for a command that ended in another way than with an answer.
@@ -171,7 +163,7 @@ void RequireAnswer(const Command& command, const CommandEnd& end) {
 /// The estimate that the command wrote. Members that only our own identifiers have may be left out.
 Estimate ReadAnswer(const std::string& text, const std::string& label) {
   try {
-    Tree answer = ParseJson<Tree>(text, "estimate.json");
+    Tree answer = ParseJson(text, "estimate.json");
     if (!answer.is_object()) throw NoAnswer("bad_answer", "the estimate is not a JSON object");
     // members that our own identifiers have and an answer may leave out
     answer.emplace("identifier", label);
@@ -198,6 +190,18 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
   const DiscreteThermal pair = Discretise({gain->value, time_constant->value}, step);
   estimate.parameters.push_back({std::string(kDiscreteGainName), pair.gain, unit, {}, {}});
   estimate.parameters.push_back({std::string(kPoleName), pair.pole, "1", {}, {}});
+}
+
+/// Figures of an estimate's friction, started as it says, along a log; none where it has no friction or the selection
+/// keeps no sample.
+std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const LogSamples& measurements,
+                                       const Selection& selection, const ThermalStart& start) {
+  if (!estimate.friction || selection.count() == 0) return std::nullopt;
+  const Eigen::VectorXd force =
+      PredictFriction(*estimate.friction, measurements, start, BristleStart::torque).force;
+  const auto parameters = static_cast<int>(estimate.parameters.size());
+  return ComputeMetrics(Kept(measurements.torque, selection), Kept(force, selection), parameters,
+                        parameters);
 }
 
 /// The estimate in an answer, with what our own identifiers tell, too, and judged as they are.
@@ -315,29 +319,19 @@ void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
   if (std::ranges::none_of(identifiers, is_command)) return;
   // that there is no sandbox is a warning, which --quiet keeps
   const std::string words = DescribeSandbox(confinement);
-  if (confinement == Confinement::none) return Say(stderr, "{}\n", words);
+  if (confinement == Confinement::none) return fmt::print(stderr, "{}\n", words);
   SayNotice("{}\n", words);
   for (const SuiteIdentifier& identifier : identifiers) {
     for (const fs::path& secret : secrets) {
       if (!is_command(identifier) || SandboxHides(secret, ReadableBy(identifier))) continue;
-      Say(stderr, "warning: {} can read {}, which lies in a folder that it may read; move it\n",
-          identifier.label, secret.string());
+      fmt::print(stderr,
+                 "warning: {} can read {}, which lies in a folder that it may read; move it\n",
+                 identifier.label, secret.string());
     }
   }
 }
 
-std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const LogSamples& measurements,
-                                       const Selection& selection, const ThermalStart& start) {
-  if (!estimate.friction || selection.count() == 0) return std::nullopt;
-  const Eigen::VectorXd force =
-      PredictFriction(*estimate.friction, measurements, start, BristleStart::torque).force;
-  const auto parameters = static_cast<int>(estimate.parameters.size());
-  return ComputeMetrics(Kept(measurements.torque, selection), Kept(force, selection), parameters,
-                        parameters);
-}
-
-PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,
-                                   const LackOfFitSettings& judging) {
+PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function) {
   return [=](const PreparedLog& log, StartKey) {
     std::string answer;
     try {
@@ -345,7 +339,7 @@ PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunctio
     } catch (const std::exception& failure) {
       throw NoAnswer("crashed", Excerpt(failure.what(), kLongestComplaint));
     }
-    return JudgeAnswer(answer, label, log, judging);
+    return JudgeAnswer(answer, label, log, {});
   };
 }
 

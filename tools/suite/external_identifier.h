@@ -2,12 +2,9 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
-#include <warmjoint/friction_model.h>
-#include <warmjoint/recording.h>
 #include <warmjoint/suite.h>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,14 +35,8 @@ std::vector<std::filesystem::path> ReadableBy(const SuiteIdentifier& identifier)
 void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
                        const std::vector<std::filesystem::path>& secrets, Confinement confinement);
 
-/// Figures of an estimate's friction, started as it says, along a log; none where it has no friction or the selection
-/// keeps no sample.
-std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const LogSamples& measurements,
-                                       const Selection& selection, const ThermalStart& start);
-
 /// A function of the caller's in place of a command: the same judging of the same answer.
-PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function,
-                                   const LackOfFitSettings& judging = {});
+PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunction& function);
 
 /// Runs the command for each log in a fresh directory that holds the measurements alone, in a sandbox, under limits
 /// (run_command.h): {recording} stands for recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to
@@ -54,8 +45,7 @@ PreparedIdentifier PrepareFunction(const std::string& label, const AnswerFunctio
 /// something else throws NoAnswer: crashed, timeout, bad_answer. The answer is judged like those of our own identifiers
 /// (check_estimate.h). Throws BadInput from `place` for wrong options, and where the kernel has no sandbox.
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
-                                   const LackOfFitSettings& judging = {},
-                                   Confinement confinement = Confinement::sandbox);
+                                   const LackOfFitSettings& judging, Confinement confinement);
 
 /// A command that was checked: settings.identifier is name=command, settings.options are its own, as time_limit.
 struct CheckedCommand {

@@ -1,18 +1,14 @@
 #include "tools/suite/run_command.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <random>
-#include <string_view>
-#include <system_error>
+#include <sstream>
 
 #include "models/foundation/bad_input.h"
 #include "tools/suite/supervisor.h"
@@ -27,24 +23,14 @@ namespace {
 }
 
 /// A verdict in memory that a forked process shares.
-class SharedVerdict {
- public:
-  SharedVerdict()
-      : memory_(mmap(nullptr, sizeof(Verdict), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                     -1, 0)) {
-    if (memory_ == MAP_FAILED) Fail("no memory for a command");
-    // where the supervisor itself is killed, this stands
-    new (memory_) Verdict{.status = SIGKILL};
-  }
-  ~SharedVerdict() { munmap(memory_, sizeof(Verdict)); }
-  SharedVerdict(const SharedVerdict&) = delete;
-  SharedVerdict& operator=(const SharedVerdict&) = delete;
-
-  Verdict* get() const { return static_cast<Verdict*>(memory_); }
-
- private:
-  void* memory_;
-};
+std::shared_ptr<Verdict> SharedVerdict() {
+  void* const memory =
+      mmap(nullptr, sizeof(Verdict), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) Fail("no memory for a command");
+  // where the supervisor itself is killed, this stands
+  return {new (memory) Verdict{.status = SIGKILL},
+          [](Verdict* verdict) { munmap(verdict, sizeof(Verdict)); }};
+}
 
 /// Whether a command of others gets this variable of ours: where programs and libraries are found
 /// and how text is written, nothing that tells of this program or its files.
@@ -76,11 +62,9 @@ std::string DrawDirectory() {
   return fs::temp_directory_path() / fmt::format("warmjoint_{:08x}{:08x}", random(), random());
 }
 
-std::string LastLine(const std::string& text) {
-  const size_t end = text.find_last_not_of(" \n\r");
-  if (end == std::string::npos) return "";
-  const size_t begin = text.find_last_of('\n', end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin + 1) + 1);
+std::string LastLine(std::string text) {
+  text.erase(text.find_last_not_of(" \n\r") + 1);
+  return text.substr(text.find_last_of('\n') + 1);
 }
 
 }  // namespace
@@ -88,13 +72,11 @@ std::string LastLine(const std::string& text) {
 std::string FindProgram(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* path = std::getenv("PATH");
-  std::string_view rest = path ? path : "/usr/bin:/bin";
+  std::istringstream folders(path ? path : "/usr/bin:/bin");
   // the first folder of the path that has it
-  while (!rest.empty()) {
-    const std::size_t colon = rest.find(':');
-    const fs::path file = fs::path(rest.substr(0, colon)) / name;
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path file = fs::path(folder) / name;
     if (access(file.c_str(), X_OK) == 0) return file;
-    rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
   }
   return name;
 }
@@ -109,7 +91,7 @@ CommandEnd RunCommand(const CommandTask& task) {
   const std::vector<char*> argv = ExecWords(words), envp = ExecWords(environment),
                            remove = ExecWords(removal);
   const MemoryFile output("command"), answer("command");
-  const SharedVerdict verdict;
+  const std::shared_ptr<Verdict> verdict = SharedVerdict();
   const Sandbox sandbox =
       task.confinement == Confinement::sandbox ? Sandbox(task.readable) : Sandbox();
   const Supervision supervision{.task = task,
@@ -128,7 +110,7 @@ CommandEnd RunCommand(const CommandTask& task) {
   if (supervisor == 0) Supervise(supervision, parent);
   if (supervisor < 0) Fail("no process for a command");
   while (waitpid(supervisor, nullptr, 0) < 0 && errno == EINTR) continue;
-  const Verdict& told = *verdict.get();
+  const Verdict& told = *verdict;
   if (told.error != 0) FailOutput(directory, told.error);
 
   // an end by a signal as a shell counts it; the directory's name is drawn anew each time, results are not

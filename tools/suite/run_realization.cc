@@ -1,9 +1,6 @@
 #include "tools/suite/run_realization.h"
 
 #include <fmt/format.h>
-#include <warmjoint/prepared_log.h>
-#include <warmjoint/score.h>
-#include <warmjoint/simulation.h>
 
 #include <chrono>
 #include <cmath>
@@ -16,9 +13,6 @@
 #include "models/foundation/robust_noise.h"
 #include "models/foundation/sha256.h"
 #include "models/friction/thermal.h"
-#include "models/recording/read_recording.h"
-#include "sim/plant/plant.h"
-#include "tools/suite/prepare_identifiers.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
@@ -51,18 +45,12 @@ Values AllParameters(const TraceEntry& entry, double step) {
 
 /// NPE over the parameters of `truth`; one that is missing counts as 0, one whose truth is 0 not.
 double Npe(const std::vector<ParameterScore>& truth, const Values& values) {
-  std::vector<double> estimated, true_values;
-  for (const ParameterScore& score : truth) {
-    // an error relative to a truth of 0 has no size
-    if (score.truth == 0) continue;
-    // what is not estimated counts as 0
+  std::vector<ParameterScore> scores = truth;
+  for (ParameterScore& score : scores) {
     const auto found = values.find(score.name);
-    estimated.push_back(found == values.end() ? 0.0 : found->second);
-    true_values.push_back(score.truth);
+    score.estimate = found == values.end() ? 0.0 : found->second;
   }
-  const auto size = static_cast<Eigen::Index>(estimated.size());
-  return NormalisedParameterError(Eigen::Map<const Eigen::VectorXd>(estimated.data(), size),
-                                  Eigen::Map<const Eigen::VectorXd>(true_values.data(), size));
+  return ParameterError(scores);
 }
 
 class Stopwatch {
@@ -75,21 +63,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Name of the first parameter that is no number, or nullptr.
-const std::string* NotFinite(const Estimate& estimate) {
-  for (const EstimatedParameter& parameter : estimate.parameters) {
-    if (!std::isfinite(parameter.value)) return &parameter.name;
-  }
-  return nullptr;
-}
-
 void Fill(Result& result, const Estimate& estimate, const Simulation& recording,
           const LogView& view) {
   result.status = StatusName(estimate.status);
   result.message = estimate.FullMessage();
   // infinite or unknown numbers are no answer
-  if (const std::string* name = NotFinite(estimate)) {
-    throw NoAnswer("bad_answer", *name + " is not a finite number");
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    if (std::isfinite(parameter.value)) continue;
+    throw NoAnswer("bad_answer", parameter.name + " is not a finite number");
   }
 
   // no numbers, nothing to score
@@ -123,12 +104,14 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Simulation& recor
   return result;
 }
 
-/// The same failure for every identifier: there was nothing to identify.
-std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
-  Result result;
-  result.status = "not_simulated";
-  result.message = message;
-  return std::vector<Result>(identifiers, result);
+/// Writes variant-V/realization-R.h5 and beside it realization-R.truth.json.
+void KeepRecording(const Simulation& recording, RunUnit unit,
+                   const std::filesystem::path& recordings) {
+  const std::filesystem::path folder = recordings / fmt::format("variant-{}", unit.variant);
+  std::filesystem::create_directories(folder);
+  const std::string stem = folder / fmt::format("realization-{}", unit.realization);
+  WriteRecording(recording.measurements, stem + ".h5");
+  WriteTruth(recording.truth, stem + ".truth.json");
 }
 
 }  // namespace
@@ -165,31 +148,25 @@ TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& sco
   return table;
 }
 
-void RecordingKeeper::Keep(const Simulation& recording, RunUnit unit) const {
-  if (folder_.empty()) return;
-  const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
-  std::filesystem::create_directories(folder);
-  const std::string stem = folder / fmt::format("realization-{}", unit.realization);
-  WriteRecording(recording.measurements, stem + ".h5");
-  WriteTruth(recording.truth, stem + ".truth.json");
-}
-
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
 RealizationResult RunRealization(const Bench& bench,
                                  const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
-                                 const RecordingKeeper& keeper) {
+                                 const std::filesystem::path& recordings) {
   const auto realized = static_cast<std::uint64_t>(unit.realization);
   RealizationResult done;
   Realization& realization = done.realization;
   realization.unit = unit;
   const Stopwatch watch;
   std::optional<Simulation> recording;
-  // a log that cannot be simulated is nobody's to identify
+  // a log that cannot be simulated is nobody's to identify: the same failure for every identifier
   try {
     recording = bench.plant->Run(realized);
   } catch (const std::exception& error) {
-    realization.results = AllFailed(identifiers.size(), error.what());
+    Result failed;
+    failed.status = "not_simulated";
+    failed.message = error.what();
+    realization.results.assign(identifiers.size(), failed);
   }
   realization.simulation_seconds = watch.Seconds();
 
@@ -202,7 +179,7 @@ RealizationResult RunRealization(const Bench& bench,
       realization.results.push_back(RunIdentifier(identify, *recording, log, start));
     }
     // the truth is on disk only once the answers are in
-    keeper.Keep(*recording, unit);
+    if (!recordings.empty()) KeepRecording(*recording, unit, recordings);
   }
 
   // where each result belongs in the run

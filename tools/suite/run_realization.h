@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "models/foundation/random_stream.h"
@@ -29,31 +28,19 @@ struct Bench {
 /// Throws BadInput where the plant cannot do the scenario.
 Bench MakeBench(const Scenario& scenario);
 
-/// Keeps recordings in a folder, or nowhere.
-class RecordingKeeper {
- public:
-  /// folder: made when it is needed; empty: nothing is kept.
-  explicit RecordingKeeper(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-  /// Writes variant-V/realization-R.h5 and beside it realization-R.truth.json.
-  void Keep(const Simulation& recording, RunUnit unit) const;
-
- private:
-  std::filesystem::path folder_;
-};
-
 /// A unit that was simulated and identified.
 struct RealizationResult {
   Realization realization;
   Following following;  // of the simulated joint
 };
 
-/// Simulates a unit on its variant's bench, keeps the recording where wanted, and scores every
-/// identifier on it. Never throws for what happens in a plant or an identifier: it becomes the
-/// status and message of the results concerned.
+/// Simulates a unit on its variant's bench, and scores every identifier on it. Never throws for what
+/// happens in a plant or an identifier: it becomes the status and message of the results concerned.
+/// recordings: a folder, made when it is needed, that gets variant-V/realization-R.h5 and beside it
+/// realization-R.truth.json; empty: nothing is kept.
 RealizationResult RunRealization(const Bench& bench,
                                  const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
-                                 const RecordingKeeper& keeper);
+                                 const std::filesystem::path& recordings);
 
 /// Each iteration's fit, its NPE in both parametrisations, Eq. (26), and its parameters. Where a
 /// trace has one thermal pair alone, the other follows by Eq. (22). `score` holds the truth.

@@ -102,13 +102,16 @@ std::string DescribeSandbox(Confinement confinement) {
       version, gap);
 }
 
+bool IsAround(const fs::path& folder, const fs::path& path) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
 bool SandboxHides(const fs::path& path, const std::vector<fs::path>& readable) {
   const fs::path real = fs::weakly_canonical(fs::absolute(path));
   std::vector<fs::path> open(std::begin(kSystem), std::end(kSystem));
   for (const fs::path& one : readable) open.push_back(fs::weakly_canonical(one));
-  return std::none_of(open.begin(), open.end(), [&](const fs::path& root) {
-    return std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
-  });
+  return std::ranges::none_of(open, [&](const fs::path& root) { return IsAround(root, real); });
 }
 
 Sandbox::Sandbox(const std::vector<fs::path>& readable) {

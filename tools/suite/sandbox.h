@@ -16,6 +16,9 @@ int LandlockVersion();
 /// One sentence on what commands reach, and on what this kernel's version cannot keep from them.
 std::string DescribeSandbox(Confinement confinement);
 
+/// Whether `folder` is, or holds, `path`.
+bool IsAround(const std::filesystem::path& folder, const std::filesystem::path& path);
+
 /// Whether the sandbox keeps a file or folder out of sight: all but what an operating system brings and what is named
 /// as readable.
 bool SandboxHides(const std::filesystem::path& path,

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
-#include <utility>
 
 namespace warmjoint {
 namespace {
@@ -33,8 +32,6 @@ void ReportInterrupt(int signal) {
 }
 
 }  // namespace
-
-ProgressLine::ProgressLine() = default;
 
 ProgressLine::~ProgressLine() { Clear(); }
 

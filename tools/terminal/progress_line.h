@@ -18,7 +18,7 @@ namespace warmjoint {
 /// a file a line every ten seconds, so that a log shows that the job lives. One thread at a time.
 class ProgressLine {
  public:
-  ProgressLine();
+  ProgressLine() = default;
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

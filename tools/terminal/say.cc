@@ -1,6 +1,5 @@
 #include "tools/terminal/say.h"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 

@@ -31,12 +31,6 @@ void BeQuiet();
 
 bool IsQuiet();
 
-/// Prints a formatted text. Throws std::system_error where it cannot be written.
-template <typename... Args>
-void Say(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::print(stream, format, std::forward<Args>(args)...);
-}
-
 /// What is good to know and asks for nothing: on stderr, unless --quiet.
 template <typename... Args>
 void SayNotice(fmt::format_string<Args...> format, Args&&... args) {

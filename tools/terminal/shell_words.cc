@@ -24,8 +24,6 @@ bool IsPlain(const std::string& word) {
   return !word.empty() && is_plain && !is_several;
 }
 
-bool IsBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
-
 /// The word as a shell reads it back: in quotes where it needs them.
 std::string ShellQuoted(const std::string& word) {
   return IsPlain(word) ? word : "'" + Replaced(word, "'", R"('\'')") + "'";
@@ -48,7 +46,7 @@ std::vector<std::string> SplitCommand(const std::string& command, const Place& p
   for (size_t i = 0; i < command.size(); ++i) {
     const char c = command[i];
     // a blank outside of quotes ends a word
-    if (!quote && IsBlank(c)) {
+    if (!quote && kBlanks.find(c) != std::string_view::npos) {
       within = false;
       continue;
     }

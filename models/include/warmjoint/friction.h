@@ -62,21 +62,22 @@ enum class LawPart {
   bristle,     // stiffness of the law's own
 };
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// What is known of a parameter before any data: every law and the thermal state carry a table of
 /// these, from which checks, regressors, documentation and plots are made.
 struct ParameterInfo {
   std::string_view name;    // as in files and on the command line
   std::string_view symbol;  // as in the paper
   JointUnit unit;
-  double lower;  // smallest allowed value
-  double upper;  // largest allowed value
-  double default_value;
+  double lower = 0;          // smallest allowed value
+  double upper = kInfinity;  // largest allowed value
+  double default_value = 0;
   std::string_view meaning;  // one short phrase
   Given given = Given::always;
   LawPart part = LawPart::other;
 };
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Lower bound of what must be positive, in SI.
 inline constexpr double kSmallestPositive = 1e-9;
 

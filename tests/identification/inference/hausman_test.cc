@@ -27,7 +27,7 @@ TEST(Disagreement, IsADifferenceThatNoiseDoesNotMake) {
   const auto found = FindDisagreement(TwoRows(0, 0, 4), TwoRows(1, -5.3, 3), kMany);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->parameter, 1);
-  EXPECT_DOUBLE_EQ(found->difference, -5.3);
+  EXPECT_DOUBLE_EQ(found->differences[found->parameter], -5.3);
   EXPECT_DOUBLE_EQ(found->deviations, 5.3);
   // which a variance that is known from a few samples alone may make
   EXPECT_FALSE(FindDisagreement(TwoRows(0, 0, 4), TwoRows(1, -5.3, 3), 10));
@@ -110,9 +110,7 @@ Fit LevelFit() {
   return fit;
 }
 
-Disagreement MovedBy(double difference) {
-  return {0, difference, 9, Eigen::VectorXd::Constant(1, difference)};
-}
+Disagreement MovedBy(double difference) { return {0, 9, Eigen::VectorXd::Constant(1, difference)}; }
 
 TEST(AddStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
   Fit fit = LevelFit();

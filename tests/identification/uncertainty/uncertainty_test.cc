@@ -65,8 +65,8 @@ Eigen::Vector2d CoverageUneven(double pole) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     const Eigen::VectorXd y = deviation * Coloured(n, pole, seed).array();
     const Eigen::VectorXd x = cofactor * (A.transpose() * y);
-    const Uncertainty known =
-        EstimateCovariance(A, cofactor, y - A * x, warmjoint::AllOf(n), 20 * A.col(1));
+    const Uncertainty known = EstimateCovariance([&] { return A; }, cofactor, y - A * x,
+                                                 warmjoint::AllOf(n), 20 * A.col(1));
     EXPECT_GT(known.uneven, 0);
     const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
     for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
@@ -90,7 +90,8 @@ TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {
     residual[i] = random.Normal();
   }
   const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
-  const Uncertainty known = EstimateCovariance(A, cofactor, residual, warmjoint::AllOf(400));
+  const Uncertainty known =
+      EstimateCovariance([&] { return A; }, cofactor, residual, warmjoint::AllOf(400));
   EXPECT_EQ(known.noise.order(), 0);
   EXPECT_EQ(known.degrees_of_freedom, 398);
   EXPECT_EQ(known.covariance, residual.squaredNorm() / 398 * cofactor);
@@ -130,7 +131,7 @@ Eigen::Array2d CoverageOfSegments(int count, double in_common) {
     }
     const Eigen::Vector2d x = cofactor * A.transpose() * noise;
     const Eigen::VectorXd residual = noise - A * x;
-    Uncertainty known = EstimateCovariance(A, cofactor, residual, selection);
+    Uncertainty known = EstimateCovariance([&] { return A; }, cofactor, residual, selection);
     CountSegments(A, cofactor, residual, selection, known);
     for (int j = 0; j < 2; ++j) {
       const double reach =

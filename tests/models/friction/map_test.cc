@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "models/foundation/random_stream.h"
+#include "models/foundation/serialize.h"
 #include "models/friction/evaluate_map.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/prepared_map.h"
@@ -83,7 +84,7 @@ TEST(FrictionMap, ReadsBackWhatItWrites) {
 
 TEST(FrictionMap, RefusesWhatDoesNotFit) {
   const auto refusal = [](const std::function<void(nlohmann::json&)>& spoil) -> std::string {
-    nlohmann::json maps = MapsToTree({SmallMap()});
+    nlohmann::json maps = WriteValue(std::vector{SmallMap()});
     spoil(maps[0]);
     return test::RefusalOf([&] { MapsFrom({Tree(maps), "friction.json"}); });
   };

@@ -63,39 +63,39 @@ VectorXd Wrapped(const VectorXd& position, double lowest) {
   return wrapped;
 }
 
-TEST(UnwrapTurns, FollowsSeveralTurnsInBothDirections) {
+TEST(UndoJumps, FollowsSeveralTurnsInBothDirections) {
   const VectorXd time = VectorXd::LinSpaced(2000, 0, 20);
   const VectorXd position = 10 * (0.5 * time.array()).sin();
   for (const double lowest : {0.0, -kTurn / 2}) {
     VectorXd log = Wrapped(position, lowest);
-    EXPECT_GE(UnwrapTurns(time, {}, log), 4);
+    EXPECT_GE(UndoJumps(time, {}, 0, log), 4);
     // up to whole turns at the start, and their rounding
     EXPECT_LT(((log - position).array() - (log[0] - position[0])).abs().maxCoeff(), 1e-12);
   }
 }
 
-TEST(UnwrapTurns, LeavesOtherPositionsAlone) {
+TEST(UndoJumps, LeavesOtherPositionsAlone) {
   const VectorXd time = VectorXd::LinSpaced(100, 0, 99);
   VectorXd position = 3 * (0.1 * time.array()).sin();
   const VectorXd before = position;
-  EXPECT_EQ(UnwrapTurns(time, {}, position), 0) << "never half a turn between samples";
+  EXPECT_EQ(UndoJumps(time, {}, 0, position), 0) << "never half a turn between samples";
   EXPECT_EQ(position, before);
 
   position = VectorXd::LinSpaced(100, 0, 400);
-  EXPECT_EQ(UnwrapTurns(time, {}, position), 0) << "more than one turn in all";
+  EXPECT_EQ(UndoJumps(time, {}, 0, position), 0) << "more than one turn in all";
 }
 
-TEST(UnwrapTurns, BelievesTheVelocity) {
+TEST(UndoJumps, BelievesTheVelocity) {
   // 4 rad each second, there and back: a step of more than half a turn that is no jump
   const VectorXd time = VectorXd::LinSpaced(5, 0, 4);
   VectorXd position(5), velocity(5);
   position << 0, 4, 0, 4, 0;
   velocity << 4, 0, 0, 0, -4;
   const VectorXd before = position;
-  EXPECT_EQ(UnwrapTurns(time, velocity, position), 2) << "a velocity of 0 asks for small steps";
+  EXPECT_EQ(UndoJumps(time, velocity, 0, position), 2) << "a velocity of 0 asks for small steps";
   velocity << 4, 4, -12, 20, -28;
   position = before;
-  EXPECT_EQ(UnwrapTurns(time, velocity, position), 0);
+  EXPECT_EQ(UndoJumps(time, velocity, 0, position), 0);
   EXPECT_EQ(position, before);
 }
 
@@ -116,22 +116,22 @@ struct WithGap {
   }
 };
 
-TEST(UnwrapTurns, TakesNoGapInWhichTheJointMovedForAJump) {
+TEST(UndoJumps, TakesNoGapInWhichTheJointMovedForAJump) {
   WithGap log(17.5, 25);  // from 2.5 rad to -2
   const VectorXd before = log.position;
   ASSERT_LT((before.tail(before.size() - 1) - before.head(before.size() - 1)).minCoeff(),
             -kTurn / 2);
-  EXPECT_EQ(UnwrapTurns(log.time, log.velocity, log.position), 0);
-  EXPECT_EQ(UnwrapTurns(log.time, {}, log.position), 0);
+  EXPECT_EQ(UndoJumps(log.time, log.velocity, 0, log.position), 0);
+  EXPECT_EQ(UndoJumps(log.time, {}, 0, log.position), 0);
   EXPECT_EQ(log.position, before);
 }
 
-TEST(UnwrapTurns, GoesOnAtTheNearestPlaceBehindAGapOfASensorThatWraps) {
+TEST(UndoJumps, GoesOnAtTheNearestPlaceBehindAGapOfASensorThatWraps) {
   // 1 rad/s on and on; a gap of 4.5 s in which it turns by 4.5 rad: as well by 4.5 - 2 pi = -1.8 rad
   VectorXd time(155), velocity = VectorXd::Ones(155);
   for (Eigen::Index i = 0; i < 155; ++i) time[i] = 0.1 * static_cast<double>(i < 100 ? i : i + 44);
   VectorXd log = Wrapped(time, 0);
-  EXPECT_GE(UnwrapTurns(time, velocity, log), 2);
+  EXPECT_GE(UndoJumps(time, velocity, 0, log), 2);
   EXPECT_NEAR(log[100] - log[99], 4.5 - kTurn, 1e-12);
   for (Eigen::Index i = 1; i < 155; ++i) {
     if (i == 100) continue;

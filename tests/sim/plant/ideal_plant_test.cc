@@ -54,7 +54,7 @@ TEST(IdealPlant, LosesByTheSpeedWhereHoldsEndBetweenSamples) {
 TEST(IdealPlant, StaysBetweenTheLimitsItTravels) {
   Scenario scenario = Table1();
   scenario.motion.hold = 0;
-  scenario.motion.travel = {-0.5, 2.0};
+  scenario.motion.travel.limits = {-0.5, 2.0};
   scenario.sampling.rate = 20;
   const Measurements log = Simulate(scenario).measurements;
   // 1440 turns of limits added up round at 1e-12
@@ -111,7 +111,7 @@ TEST(IdealPlant, DrawsATruthForEachRealization) {
 TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
   Scenario scenario = Table1();
   scenario.motion.hold = 0;
-  scenario.motion.travel_between_joint_limits = true;
+  scenario.motion.travel.joint_limits = true;
   test::ExpectNamed(test::RefusalOf([&] { MakePlant(scenario); }),
                     {scenario.name + ": ", "ideal", "limits"});
 }
@@ -169,8 +169,8 @@ TEST(IdealPlant, LogsTheGoldenRecordingOfEveryLawThatSlidesSteadily) {
     const nlohmann::json plan = test::ReadGolden(name);
     Scenario scenario = test::Table1();
     scenario.friction = golden.friction;
-    scenario.motion.speed_draws.reset();
-    scenario.motion.speed_list = plan.at("speeds").get<std::vector<double>>();
+    scenario.motion.speeds.draws.reset();
+    scenario.motion.speeds.list = plan.at("speeds").get<std::vector<double>>();
     scenario.motion.hold = plan.at("hold");
     scenario.noise.torque = 0;
     scenario.sampling.rate = 1 / golden.trajectory.step;

@@ -106,8 +106,8 @@ Scenario LightElbow(double coulomb) {
     <inertial pos="0 0 -0.2" mass="1" diaginertia="0.01 0.01 0.01"/></body></worldbody></mujoco>)");
   scenario.joint = "elbow";
   scenario.friction = {"coulomb", {{"coulomb", coulomb}}, std::nullopt};
-  scenario.motion.speed_list = {0.2, 0.5, 1};
-  scenario.motion.travel_between_joint_limits = true;
+  scenario.motion.speeds.list = {0.2, 0.5, 1};
+  scenario.motion.travel.joint_limits = true;
   scenario.timestep = 0.001;
   scenario.duration = 100;
   return scenario;
@@ -116,7 +116,7 @@ Scenario LightElbow(double coulomb) {
 TEST(MujocoPlant, NoticesAJointThatDoesNotFollowAndNamesTheDriveThatCuresIt) {
   Scenario slow_drive = Table1();
   slow_drive.controller.bandwidth = 5;
-  slow_drive.motion.speed_draws = Distribution{Distribution::Kind::fixed, 0.1};
+  slow_drive.motion.speeds.draws = Distribution{Distribution::Kind::fixed, 0.1};
   Scenario elbow = LightElbow(4), stiff_elbow = LightElbow(8);
   elbow.controller.bandwidth = stiff_elbow.controller.bandwidth = 20;
   for (Scenario scenario : {slow_drive, elbow, stiff_elbow}) {
@@ -173,7 +173,7 @@ TEST(MujocoPlant, RefusesWhatCannotBeByScenarioAndKey) {
       {[](Scenario& s) { s.friction.parameters["viscous"] = 5000; },
        {"table1-mujoco", "hinge_friction", "armature of"}},
       {[](Scenario& s) {
-         s.motion.speed_draws = Distribution{Distribution::Kind::fixed, 1};
+         s.motion.speeds.draws = Distribution{Distribution::Kind::fixed, 1};
          s.motion.hold = s.duration = 2000;
        },
        {"table1-mujoco", "'hinge'", "limits"}},

@@ -134,7 +134,7 @@ TEST(ReplayUnit, GivesTheAnswerThatTheRunHad) {
   const Replayed replayed = ReplayUnit(suite, unit, suite.identifiers[0]);
   const auto identifiers = PrepareIdentifiers({suite.identifiers[0]}, {"little.yaml"});
   const RealizationResult run =
-      RunRealization(MakeBench(VariantScenario(suite, 1)), identifiers, unit, RecordingKeeper{""});
+      RunRealization(MakeBench(VariantScenario(suite, 1)), identifiers, unit, "");
   const Result& result = run.realization.results.at(0);
   ASSERT_EQ(result.status, "ok");
   EXPECT_EQ(replayed.estimate.metrics->rmse, result.metrics->rmse);

@@ -55,7 +55,7 @@ TEST(EstimateFigures, AreTidyAndNamedAsTheirFiles) {
 
 TEST(EstimateFigures, ShowWhatTheEstimateAloneTellsWithoutItsRecording) {
   EstimateView view = ExampleView();
-  view = MakeEstimateView(view.estimate);
+  view = EstimateView{view.estimate};
   for (const EstimateFigure& one : EstimateFigures()) {
     EXPECT_EQ(one.make(view).has_value(), one.name == "trace") << one.name;
   }

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 Figure FigureOf(const Shape& shape, double lower, double upper) {
   Plot plot;
-  plot.x = plot.y = {"x", lower, upper, Scale::linear, {}};
+  plot.x = plot.y = {"x", lower, upper};
   plot.series = {{"name", Hue::sky, shape}};
   Figure figure;
   figure.panels = {{"panel", plot}};
@@ -89,8 +89,8 @@ TEST(FigureJson, DrawsACloudWithASampleOfEachCell) {
 
 TEST(FigureCsv, HoldsEveryNumberWithAllItsDigits) {
   Plot plot;
-  plot.x = {"time (s)", 0, 10, Scale::linear, {}};
-  plot.y = {"torque (N·m)", -2, 2, Scale::linear, {}};
+  plot.x = {"time (s)", 0, 10};
+  plot.y = {"torque (N·m)", -2, 2};
   const Eigen::Vector2d x(0, 1), y(1.0 / 3, std::nan(""));
   plot.series = {{"a, b", Hue::blue, Line{x, y}},
                  {"", Hue::blue, Band{x, y, 2 * y}},

@@ -44,7 +44,6 @@ Plot BarsOf(const std::vector<const RunRow*>& rows, Eigen::VectorXd RunRow::*val
   std::vector<std::string> names;
   std::vector<Eigen::VectorXd> shown;
   for (const RunRow* row : rows) {
-    // the median as a bar, the quartiles as a line through its end
     const QuartileCurve middle =
         QuartilesOf(Eigen::VectorXd::Zero(1), At(*row, row->*values, rung));
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, static_cast<double>(names.size()));

@@ -1,5 +1,4 @@
-#include "tools/figures/run/error_by_iteration.h"
-
+// NPE and RMSE by iteration, as in the paper's Fig. 6.
 #include <fmt/core.h>
 
 #include <Eigen/Cholesky>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "models/foundation/random_stream.h"
+#include "tools/board/statistics.h"
 #include "tools/figures/axes.h"
 #include "tools/figures/run/run_figures.h"
 #include "tools/figures/symbols.h"
@@ -15,9 +15,17 @@
 namespace warmjoint::figures {
 namespace {
 
-using Curve = QuartileCurve IdentifierCurves::*;
+using Traces = Eigen::MatrixXd ParameterTrace::*;
+using Finals = Eigen::VectorXd RunRow::*;
 
-bool Iterates(const QuartileCurve& curve) { return curve.x.size() > 1; }
+bool Iterates(const RunRow& row) { return row.trace.iteration.size() > 1; }
+
+/// An error of a row by iteration, of one without a trace the final values at a single iteration, 0; empty without an answer.
+QuartileCurve CurveOf(const RunRow& row, Traces traces, Finals finals) {
+  if (row.trace.iteration.size() > 0) return QuartilesOf(row.trace.iteration, row.trace.*traces);
+  if (!row.npe.array().isFinite().any()) return {};
+  return QuartilesOf(Eigen::VectorXd::Zero(1), row.*finals);
+}
 
 /// The values at the places that the axis shows.
 Eigen::VectorXd Shown(const Axis& axis, const Eigen::VectorXd& x, const Eigen::VectorXd& values) {
@@ -25,10 +33,10 @@ Eigen::VectorXd Shown(const Axis& axis, const Eigen::VectorXd& x, const Eigen::V
 }
 
 /// The axis over the iterations of all identifiers.
-Axis AxisOf(const ErrorByIteration& data) {
+Axis AxisOf(const RunView& run) {
   std::vector<Eigen::VectorXd> iterations;
-  for (const IdentifierCurves& curves : data.identifiers) {
-    if (Iterates(curves.npe)) iterations.push_back(curves.npe.x);
+  for (const RunRow& row : run.rows) {
+    if (Iterates(row)) iterations.push_back(row.trace.iteration);
   }
   const auto [first, last] = RangeOf(iterations);
   if (!std::isfinite(last)) return {"iteration", 0, 1, Scale::linear, {{0, "–"}}};
@@ -36,28 +44,28 @@ Axis AxisOf(const ErrorByIteration& data) {
 }
 
 /// Bands below all lines; identifiers that do not iterate as levels.
-Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::string& label) {
+Plot Draw(const RunView& run, Traces traces, Finals finals, double factor,
+          const std::string& label) {
   Plot plot;
-  plot.x = AxisOf(data);
+  plot.x = AxisOf(run);
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
-  for (std::size_t i = 0; i < data.identifiers.size(); ++i) {
-    const IdentifierCurves& curves = data.identifiers[i];
-    const QuartileCurve& c = curves.*curve;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const RunRow& row = run.rows[i];
+    const QuartileCurve c = CurveOf(row, traces, finals);
     if (c.x.size() == 0) continue;
     QuartileCurve wide = c;
-    if (!Iterates(c)) {
+    if (!Iterates(row)) {
       // over the whole axis
       wide.x = Eigen::Vector2d(plot.x.lower, plot.x.upper);
       wide.q25 = Eigen::Vector2d::Constant(c.q25[0]);
       wide.median = Eigen::Vector2d::Constant(c.median[0]);
       wide.q75 = Eigen::Vector2d::Constant(c.q75[0]);
     }
-    const Hue hue = IdentifierHue(curves.identifier);
+    const Hue hue = IdentifierHue(row.identifier);
     // quartiles as bands, medians as lines over all of them
     plot.series.push_back({"", hue, Band{wide.x, factor * wide.q25, factor * wide.q75}});
-    lines.push_back(
-        {curves.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(data.identifiers, i)}});
+    lines.push_back({row.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(run.rows, i)}});
     // the axis has to reach every quartile
     for (const Eigen::VectorXd& values : {wide.q25, wide.median, wide.q75}) {
       shown.push_back(Shown(plot.x, wide.x, factor * values));
@@ -76,28 +84,29 @@ void AddLevel(Plot& plot, const std::string& label, double value) {
   if (plot.y.scale == Scale::logarithmic) plot.y.lower = std::min(plot.y.lower, value / room);
 }
 
-std::string Finding(const ErrorByIteration& data) {
+/// cramer_rao: median NPE at the bound, 0.012 is 1.2 %; nothing where it is not known.
+std::string Finding(const RunView& run, std::optional<double> cramer_rao) {
   std::string text = "Median NPE after the last iteration: ";
   // where each identifier ends
-  for (const IdentifierCurves& curves : data.identifiers) {
-    if (curves.npe.median.size() == 0) continue;
-    const double last = curves.npe.median[curves.npe.median.size() - 1];
-    text += fmt::format("{} {} %, ", curves.label, SignificantText(100 * last));
+  for (const RunRow& row : run.rows) {
+    const Eigen::VectorXd median = CurveOf(row, &ParameterTrace::npe, &RunRow::npe).median;
+    if (median.size() == 0) continue;
+    text += fmt::format("{} {} %, ", row.label, SignificantText(100 * median[median.size() - 1]));
   }
   // beside what no unbiased identifier can undercut
-  if (data.cramer_rao) {
-    return text + fmt::format("median at the Cramér-Rao bound {} %.",
-                              SignificantText(100 * *data.cramer_rao));
+  if (cramer_rao) {
+    return text +
+           fmt::format("median at the Cramér-Rao bound {} %.", SignificantText(100 * *cramer_rao));
   }
   text.resize(text.size() - 2);
   return text + ".";
 }
 
 /// "table1: 50 realizations; lines are medians, bands reach from quartile to quartile".
-std::string Subtitle(const ErrorByIteration& data) {
+std::string Subtitle(const RunView& run) {
   return fmt::format(
-      "{}: {} realization{}; lines are medians, bands reach from quartile to quartile", data.suite,
-      data.realizations, data.realizations == 1 ? "" : "s");
+      "{}: {} realization{}; lines are medians, bands reach from quartile to quartile", run.suite,
+      run.realizations, run.realizations == 1 ? "" : "s");
 }
 
 /// Median of |x| of a normal x with covariance C [d x d], by 20001 draws that are always the same: known
@@ -118,57 +127,29 @@ double MedianNormOf(const Eigen::MatrixXd& covariance) {
   return norms[kDraws / 2];
 }
 
-/// The final values as curves of one iteration, 0.
-QuartileCurve Level(const Eigen::VectorXd& values) {
-  return QuartilesOf(Eigen::VectorXd::Zero(1), values);
-}
-
-IdentifierCurves CurvesOf(const RunRow& row) {
-  IdentifierCurves curves{row.label, row.identifier, {}, {}};
-  if (row.trace.iteration.size() > 0) {
-    curves.npe = QuartilesOf(row.trace.iteration, row.trace.npe);
-    curves.rmse = QuartilesOf(row.trace.iteration, row.trace.rmse);
-  } else if (row.npe.array().isFinite().any()) {
-    curves.npe = Level(row.npe);
-    curves.rmse = Level(row.rmse);
-  }
-  return curves;
-}
-
 }  // namespace
 
-Figure MakeErrorByIteration(const ErrorByIteration& data) {
+std::optional<Figure> ErrorTraces(const RunView& run) {
+  // of all identifiers, one at least has to iterate
+  if (std::ranges::none_of(run.rows, &Iterates)) return std::nullopt;
+  // a median to compare medians with; variants have a bound each
+  std::optional<double> cramer_rao;
+  if (run.bound_covariance.size() > 0 && run.rungs.values.size() < 2) {
+    cramer_rao = MedianNormOf(run.bound_covariance) / 100;
+  }
+
   // errors of the parameters beside their bound
-  Plot npe = Draw(data, &IdentifierCurves::npe, 100, "NPE, continuous (%)");
-  if (data.cramer_rao) AddLevel(npe, "median at the Cramér-Rao bound", 100 * *data.cramer_rao);
+  Plot npe = Draw(run, &ParameterTrace::npe, &RunRow::npe, 100, "NPE, continuous (%)");
+  if (cramer_rao) AddLevel(npe, "median at the Cramér-Rao bound", 100 * *cramer_rao);
   // errors of the fit beside the noise of the torque
   Plot rmse =
-      Draw(data, &IdentifierCurves::rmse, 1, fmt::format("RMSE ({})", UnitText(data.torque_unit)));
-  if (data.noise) AddLevel(rmse, "noise", *data.noise);
+      Draw(run, &ParameterTrace::rmse, &RunRow::rmse, 1, fmt::format("RMSE ({})", run.torque_unit));
+  if (std::isfinite(run.noise) && run.noise > 0) AddLevel(rmse, "noise", run.noise);
 
   return RowOfPlots(
-      {"error_by_iteration", "Parameter error and fit by iteration", Subtitle(data), Finding(data)},
+      {"error_by_iteration", "Parameter error and fit by iteration", Subtitle(run),
+       Finding(run, cramer_rao)},
       430, {{"Normalised parameter error", npe}, {"Root mean square error of the fit", rmse}});
-}
-
-std::optional<Figure> ErrorTraces(const RunView& run) {
-  ErrorByIteration data;
-  data.suite = run.suite;
-  data.realizations = run.realizations;
-  data.torque_unit = run.torque_unit;
-  bool any = false;
-  // traces of all identifiers, of which one at least has to iterate
-  for (const RunRow& row : run.rows) {
-    data.identifiers.push_back(CurvesOf(row));
-    any = any || row.trace.iteration.size() > 1;
-  }
-  if (!any) return std::nullopt;
-  // a median to compare medians with; variants have a bound each
-  if (run.bound_covariance.size() > 0 && run.rungs.values.size() < 2) {
-    data.cramer_rao = MedianNormOf(run.bound_covariance) / 100;
-  }
-  if (std::isfinite(run.noise) && run.noise > 0) data.noise = run.noise;
-  return MakeErrorByIteration(data);
 }
 
 }  // namespace warmjoint::figures

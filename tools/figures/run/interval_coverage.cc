@@ -21,36 +21,29 @@ std::pair<double, double> ShareInterval(int hits, int tries) {
   return {100 * std::max(0.0, centre - reach), 100 * std::min(1.0, centre + reach)};
 }
 
-/// One identifier's shares beside the others'.
-struct Drawer {
-  Plot& plot;
-  double lowest = 90;  // per cent
-
-  /// columns: of the parameters that the axis names.
-  void Add(const RunRow& row, const std::vector<std::size_t>& columns, double offset,
-           Marker marker) {
-    Scatter scatter;
-    scatter.size = 4;
-    scatter.marker = marker;
-    std::vector<double> x, y;
-    // a dot at the share of intervals that hold the truth, with the 95 % interval of that share
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const ParameterColumn& column = row.parameters[columns[i]];
-      if (column.intervals == 0) continue;
-      const double at = static_cast<double>(i) + offset;
-      const auto [lower, upper] = ShareInterval(column.covered, column.intervals);
-      plot.series.push_back({"", IdentifierHue(row.identifier),
-                             Line{Eigen::Vector2d(at, at), Eigen::Vector2d(lower, upper), 1.5}});
-      x.push_back(at);
-      y.push_back(100.0 * column.covered / column.intervals);
-      lowest = std::min(lowest, lower);
-    }
-    // the dots of an identifier are one series, which the legend names
-    scatter.x = VectorOf(x);
-    scatter.y = VectorOf(y);
-    plot.series.push_back({row.label, IdentifierHue(row.identifier), scatter});
+/// Adds one identifier's shares beside the others'. names: of the parameters along the axis. Returns the lowest
+/// end of an interval of a share, per cent.
+double AddShares(Plot& plot, const RunRow& row, const std::vector<std::string>& names,
+                 double offset, Marker marker) {
+  std::vector<double> x, y;
+  double lowest = 100;
+  // a dot at the share of intervals that hold the truth, with the 95 % interval of that share
+  for (const ParameterColumn& column : row.parameters) {
+    if (column.intervals == 0) continue;
+    const auto place = std::ranges::find(names, column.name) - names.begin();
+    const double at = static_cast<double>(place) + offset;
+    const auto [lower, upper] = ShareInterval(column.covered, column.intervals);
+    plot.series.push_back({"", IdentifierHue(row.identifier),
+                           Line{Eigen::Vector2d(at, at), Eigen::Vector2d(lower, upper), 1.5}});
+    x.push_back(at);
+    y.push_back(100.0 * column.covered / column.intervals);
+    lowest = std::min(lowest, lower);
   }
-};
+  // the dots of an identifier are one series, which the legend names
+  plot.series.push_back(
+      {row.label, IdentifierHue(row.identifier), Scatter{VectorOf(x), VectorOf(y), 4, marker}});
+  return lowest;
+}
 
 bool GivesIntervals(const RunRow& row) {
   return std::any_of(row.parameters.begin(), row.parameters.end(),
@@ -58,13 +51,15 @@ bool GivesIntervals(const RunRow& row) {
 }
 
 /// The parameters that any row gives an interval of.
-std::vector<std::size_t> ColumnsOf(const std::vector<RunRow>& rows) {
-  std::vector<std::size_t> columns;
-  for (std::size_t i = 0; i < rows.front().parameters.size(); ++i) {
-    const auto gives = [i](const RunRow& row) { return row.parameters[i].intervals > 0; };
-    if (std::any_of(rows.begin(), rows.end(), gives)) columns.push_back(i);
+std::vector<std::string> NamesOf(const std::vector<RunRow>& rows) {
+  std::vector<std::string> names;
+  for (const RunRow& row : rows) {
+    for (const ParameterColumn& column : row.parameters) {
+      const bool is_new = std::ranges::find(names, column.name) == names.end();
+      if (column.intervals > 0 && is_new) names.push_back(column.name);
+    }
   }
-  return columns;
+  return names;
 }
 
 std::string Finding(const std::vector<RunRow>& rows) {
@@ -97,26 +92,23 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
   if (rows.empty()) return std::nullopt;
 
   Plot plot;
-  Drawer drawer{plot};
+  double lowest = 90;  // per cent
   // identifiers stand side by side at each parameter
-  const std::vector<std::size_t> columns = ColumnsOf(rows);
+  const std::vector<std::string> names = NamesOf(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double middle = (static_cast<double>(rows.size()) - 1) / 2;
-    drawer.Add(rows[i], columns, 0.16 * (static_cast<double>(i) - middle), MarkerOf(rows, i));
+    const double offset = 0.16 * (static_cast<double>(i) - middle);
+    lowest = std::min(lowest, AddShares(plot, rows[i], names, offset, MarkerOf(rows, i)));
   }
   // the line that good intervals lie on
   plot.series.push_back({"95 %", Hue::text, LevelLine{95}});
-  std::vector<std::string> names;
-  for (std::size_t i : columns) names.push_back(SymbolOf(rows.front().parameters[i].name));
+  std::vector<std::string> symbols;
+  for (const std::string& name : names) symbols.push_back(SymbolOf(name));
   // the axis begins below the lowest interval, and ends so far above 100 that marks there stand whole, but before a number
   // that no share can have
-  plot.x = CategoryAxis("parameter", names);
-  const double lower = std::max(-2.0, drawer.lowest - 4);
-  plot.y = {"intervals that hold the truth (%)",
-            lower,
-            100 + std::min(1.9, 0.07 * (100 - lower)),
-            Scale::linear,
-            {}};
+  plot.x = CategoryAxis("parameter", symbols);
+  const double lower = std::max(-2.0, lowest - 4);
+  plot.y = {"intervals that hold the truth (%)", lower, 100 + std::min(1.9, 0.07 * (100 - lower))};
 
   // the question that the picture answers is its title
   return SinglePlot(

@@ -1,7 +1,6 @@
 // Parameter error of each identifier as box plots.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "models/foundation/robust_noise.h"
@@ -16,9 +15,7 @@ namespace {
 
 /// Whiskers from the 5 % to the 95 % quantile.
 Box BoxOf(double x, const Eigen::VectorXd& values) {
-  // finite errors in their order
   const std::vector<double> sorted = SortedFinite(values);
-  // quartiles as the box, the middle 90 % between the whiskers
   Box box{x,
           Quantile(sorted, 0.05),
           Quantile(sorted, 0.25),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ class RowBuilder {
   void Count(const Result& result);
   void Draw(const Result& result);
 
-  RunRow Row(const RunStore& store, const Suite& suite, const SuiteIdentifier& identifier) const;
+  /// identifier: its position in the suite's list.
+  RunRow Row(const RunStore& store, int identifier) const;
 
  private:
   using Numbers = std::vector<double>;
@@ -42,20 +44,20 @@ class RowBuilder {
     Numbers estimate, truth, bound;
   };
 
-  std::vector<RunUnit> units_;  // the first ones, for traces
-  int runs_ = 0;
-  int identifier_ = 0;
-  std::map<std::string, int> failures_;
+  /// Those of that name, in the order in which names come up.
+  ParameterNumbers& NumbersOf(const std::string& name);
+
+  RunRow counted_;  // runs and failures alone
   std::vector<int> variant_, realization_;
   Numbers npe_, rmse_, fit_, fpe_, mae_;
-  std::vector<ParameterNumbers> parameters_;  // of the first score on
+  std::vector<ParameterNumbers> parameters_;  // of all truths
 };
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Realizations whose trace is drawn, one thin line each, and summed up by iteration: of more the
 /// first ones, since a trace has hundreds of numbers for each.
-constexpr std::size_t kMostTraces = 2000;
+constexpr Eigen::Index kMostTraces = 2000;
 
 // of the answers that a page lists, which it holds without becoming slow to open: some 200 bytes each
 constexpr std::int64_t kMostListed = 2000;
@@ -78,41 +80,23 @@ int PrimeDistance(std::int64_t all, std::int64_t most) {
   return static_cast<int>(distance > 1 ? distance : 1);
 }
 
-/// Builds a listing from results as they come.
-class ListingBuilder {
- public:
-  /// answers: how many the run has when it is finished.
-  explicit ListingBuilder(std::int64_t answers) {
-    listing_.every = PrimeDistance(answers, kMostListed);
-  }
-
-  void Add(const Result& result) {
-    const bool in_turn = result.realization % listing_.every == 0;
-    if (!in_turn && (result.status == "ok" || ++failures_ > kMostFailures)) return;
-    listing_.answers.push_back({{result.variant, result.realization},
-                                result.identifier,
-                                result.status,
-                                result.score ? result.score->npe_continuous : kUnknown,
-                                result.metrics ? result.metrics->rmse : kUnknown,
-                                result.metrics ? result.metrics->fit : kUnknown});
-  }
-  Listing Finish() && { return std::move(listing_); }
-
- private:
-  Listing listing_;
-  int failures_ = 0;  // listed out of turn
-};
-
-Eigen::VectorXi Places(const std::vector<int>& numbers) {
-  return Eigen::Map<const Eigen::VectorXi>(numbers.data(), static_cast<Index>(numbers.size()));
+/// Lists a result where its turn is, or where it is one of the first failures out of turn, which are counted.
+void List(const Result& result, Listing& listing, int& failures) {
+  const bool in_turn = result.realization % listing.every == 0;
+  if (!in_turn && (result.status == "ok" || ++failures > kMostFailures)) return;
+  listing.answers.push_back({{result.variant, result.realization},
+                             result.identifier,
+                             result.status,
+                             result.score ? result.score->npe_continuous : kUnknown,
+                             result.metrics ? result.metrics->rmse : kUnknown,
+                             result.metrics ? result.metrics->fit : kUnknown});
 }
 
 std::string UnitOf(const std::string& name, const Scenario& scenario) {
-  for (const ParameterInfo& info : FindLaw(scenario.friction.law)->parameters) {
-    if (info.name == name) return UnitText(info.unit.For(scenario.joint_kind));
-  }
-  for (const ParameterInfo& info : Thermal::parameters) {
-    if (info.name == name) return UnitText(info.unit.For(scenario.joint_kind));
+  const std::span<const ParameterInfo> law = FindLaw(scenario.friction.law)->parameters;
+  for (const auto& table : {law, std::span<const ParameterInfo>(Thermal::parameters)}) {
+    const auto info = std::ranges::find(table, name, &ParameterInfo::name);
+    if (info != table.end()) return UnitText(info->unit.For(scenario.joint_kind));
   }
   return "";
 }
@@ -139,18 +123,21 @@ void Fill(ParameterTrace& trace, Index row, const TraceTable& table) {
   }
 }
 
-ParameterTrace ReadTrace(const RunStore& store, const std::vector<RunUnit>& units, int identifier) {
+/// The traces of the first realizations of a row.
+ParameterTrace ReadTrace(const RunStore& store, const RunRow& row, int identifier) {
   std::vector<TraceTable> tables;
   const TraceTable* longest = nullptr;
   // the longest trace says how many iterations there are
-  for (const RunUnit& unit : units) tables.push_back(store.ReadTrace(unit, identifier));
+  for (Index i = 0; i < std::min(row.variant.size(), kMostTraces); ++i) {
+    tables.push_back(store.ReadTrace({row.variant[i], row.realization[i]}, identifier));
+  }
   for (const TraceTable& table : tables) {
     if (table.rows() > (longest ? longest->rows() : 0)) longest = &table;
   }
   ParameterTrace trace;
   if (!longest) return trace;
 
-  const auto rows = static_cast<Index>(tables.size());
+  const auto count = static_cast<Index>(tables.size());
   const auto iterations = static_cast<Index>(longest->rows());
   trace.iteration.resize(iterations);
   // the first column holds the number of the iteration
@@ -162,34 +149,38 @@ ParameterTrace ReadTrace(const RunStore& store, const std::vector<RunUnit>& unit
     const bool parameter = name != "iteration" && name != "rmse" && !name.starts_with("npe_");
     if (parameter) trace.names.push_back(name);
   }
-  const Eigen::MatrixXd unknown = Eigen::MatrixXd::Constant(rows, iterations, kUnknown);
+  const Eigen::MatrixXd unknown = Eigen::MatrixXd::Constant(count, iterations, kUnknown);
   trace.npe = trace.rmse = unknown;
   trace.parameters.assign(trace.names.size(), unknown);
   // a realization without a trace stays unknown
-  for (Index row = 0; row < rows; ++row) {
-    const TraceTable& table = tables[static_cast<std::size_t>(row)];
-    if (table.rows() > 0) Fill(trace, row, table);
+  for (Index i = 0; i < count; ++i) {
+    const TraceTable& table = tables[static_cast<std::size_t>(i)];
+    if (table.rows() > 0) Fill(trace, i, table);
   }
   return trace;
 }
 
 void RowBuilder::Count(const Result& result) {
-  ++runs_;
-  identifier_ = result.identifier;
-  if (result.status != "ok") ++failures_[result.status];
+  ++counted_.runs;
+  if (result.status != "ok") ++counted_.failures[result.status];
   if (!result.score) return;
   // how many intervals of each parameter there are, and how many hold the truth
-  parameters_.resize(result.score->continuous.size());
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const ParameterScore& from = result.score->continuous[i];
-    parameters_[i].name = from.name;
-    parameters_[i].intervals += from.covered.has_value();
-    parameters_[i].covered += from.covered.value_or(false);
+  for (const ParameterScore& from : result.score->continuous) {
+    ParameterNumbers& one = NumbersOf(from.name);
+    one.intervals += from.covered.has_value();
+    one.covered += from.covered.value_or(false);
   }
 }
 
+RowBuilder::ParameterNumbers& RowBuilder::NumbersOf(const std::string& name) {
+  const auto found = std::ranges::find(parameters_, name, &ParameterNumbers::name);
+  if (found != parameters_.end()) return *found;
+  ParameterNumbers& added = parameters_.emplace_back();
+  added.name = name;
+  return added;
+}
+
 void RowBuilder::Draw(const Result& result) {
-  if (units_.size() < kMostTraces) units_.push_back({result.variant, result.realization});
   variant_.push_back(result.variant);
   realization_.push_back(result.realization);
   npe_.push_back(result.score ? result.score->npe_continuous : kUnknown);
@@ -201,30 +192,29 @@ void RowBuilder::Draw(const Result& result) {
   fit_.push_back(metric(&Metrics::fit));
   fpe_.push_back(metric(&Metrics::fpe));
   mae_.push_back(metric(&Metrics::mae));
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    ParameterNumbers& one = parameters_[i];
-    // those drawn before the first score have none
+  // unknown where there is no score, or the truth has no such parameter
+  for (ParameterNumbers& one : parameters_) {
     for (Numbers* numbers : {&one.truth, &one.bound, &one.estimate}) {
       numbers->resize(npe_.size(), kUnknown);
     }
-    if (!result.score) continue;
-    const ParameterScore& from = result.score->continuous.at(i);
+  }
+  if (!result.score) return;
+  for (const ParameterScore& from : result.score->continuous) {
+    ParameterNumbers& one = NumbersOf(from.name);
     one.truth.back() = from.truth;
     one.bound.back() = from.bound;
     if (from.estimated) one.estimate.back() = from.estimate;
   }
 }
 
-RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
-                       const SuiteIdentifier& identifier) const {
-  RunRow row;
-  row.label = identifier.label;
-  row.identifier = identifier.name;
-  row.runs = runs_;
-  row.failures = failures_;
+RunRow RowBuilder::Row(const RunStore& store, int identifier) const {
+  const Suite& suite = store.suite();
+  RunRow row = counted_;
+  row.label = suite.identifiers[static_cast<std::size_t>(identifier)].label;
+  row.identifier = suite.identifiers[static_cast<std::size_t>(identifier)].name;
   // numbers of the realizations that are drawn, in one order
-  row.variant = Places(variant_);
-  row.realization = Places(realization_);
+  row.variant = VectorOf(variant_);
+  row.realization = VectorOf(realization_);
   row.npe = VectorOf(npe_);
   row.rmse = VectorOf(rmse_);
   row.fit = VectorOf(fit_);
@@ -237,7 +227,7 @@ RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
                               one.covered});
   }
   // traces of as many realizations as a picture bears
-  row.trace = ReadTrace(store, units_, identifier_);
+  row.trace = ReadTrace(store, row, identifier);
   return row;
 }
 
@@ -311,18 +301,19 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   const std::int64_t units = std::int64_t{suite.realizations} * suite.variants();
   // pictures of large runs draw a part of the realizations
   view.drawn_every = PrimeDistance(units, most_drawn);
-  ListingBuilder listing(units * static_cast<std::int64_t>(suite.identifiers.size()));
+  view.listing.every =
+      PrimeDistance(units * static_cast<std::int64_t>(suite.identifiers.size()), kMostListed);
   std::vector<RowBuilder> rows(suite.identifiers.size());
+  int failures = 0;  // listed out of turn
   // one pass over all that is stored
   store.ForEachResult([&](const Result& result) {
     RowBuilder& row = rows[static_cast<std::size_t>(result.identifier)];
     row.Count(result);
-    listing.Add(result);
+    List(result, view.listing, failures);
     if (result.realization % view.drawn_every == 0) row.Draw(result);
   });
   // a run without a finished realization has nothing to show
   view.board = ReadBoard(store);
-  view.listing = std::move(listing).Finish();
   if (view.board.finished == 0) {
     Refuse({store.directory().string()},
            "no realization is finished yet; run the suite again to go on");
@@ -338,7 +329,7 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   view.noise = NoiseOf(suite);
   // a row for each identifier
   for (std::size_t i = 0; i < suite.identifiers.size(); ++i) {
-    view.rows.push_back(rows[i].Row(store, suite, suite.identifiers[i]));
+    view.rows.push_back(rows[i].Row(store, static_cast<int>(i)));
   }
   // the first row that knows all bounds says how errors at the bound go together
   for (const RunRow& row : view.rows) {

@@ -7,7 +7,6 @@
 
 #include "tools/figures/figure.h"
 #include "tools/figures/run/run_view.h"
-#include "tools/figures/symbols.h"
 
 namespace warmjoint::figures {
 

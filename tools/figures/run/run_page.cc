@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/serialize.h"
 #include "scenarios/suite.h"
 #include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
@@ -25,8 +27,7 @@ namespace {
 std::string PlantOf(const Scenario& scenario) {
   if (scenario.plant == PlantKind::ideal) {
     return "Each realization is a joint that follows the equations of friction and warming "
-           "exactly, "
-           "without a robot around it.";
+           "exactly, without a robot around it.";
   }
   return fmt::format(
       "Each realization is the joint {} of the robot {} in MuJoCo, driven by a controller and "
@@ -56,10 +57,9 @@ std::string MotionOf(const Scenario& scenario) {
   if (motion.moves) words = "It moves from place to place, as in pick and place";
   if (!motion.phases.empty()) words = "It works in phases of motion and rest";
   // its speeds, and how long it holds each
-  if (!motion.speed_list.empty()) {
-    std::vector<std::string> speeds;
-    for (const double speed : motion.speed_list) speeds.push_back(fmt::format("{:g}", speed));
-    words += fmt::format(" of {} {}", fmt::join(speeds, ", "), turns ? "rad/s" : "m/s");
+  if (!motion.speeds.list.empty()) {
+    words +=
+        fmt::format(" of {:g} {}", fmt::join(motion.speeds.list, ", "), turns ? "rad/s" : "m/s");
   }
   if (motion.hold > 0) words += fmt::format(", each held for {:g} s", motion.hold);
   return words + ".";
@@ -78,7 +78,8 @@ std::string NoiseOf(const Scenario& scenario) {
     words = fmt::format("The torque has noise of {:g} {}.", scenario.noise.torque,
                         UnitText(kTorqueUnit.For(scenario.joint_kind)));
   }
-  if (scenario.disturbances != Disturbances{}) {
+  // what is at its default is not written
+  if (!WriteFields(scenario.disturbances).empty()) {
     words += fmt::format("{}Disturbances that no identifier is told of stand in suite.yaml below.",
                          words.empty() ? "" : " ");
   }
@@ -121,32 +122,29 @@ std::string WhatItIs(const SuiteIdentifier& identifier) {
 }
 
 /// Terms of a run's page with their meaning.
-const std::vector<std::pair<std::string, std::string>>& RunTerms() {
-  static const std::vector<std::pair<std::string, std::string>> terms{
-      {"realization",
-       "One simulated log: its noise, and where the suite says so its truth and motion, are drawn "
-       "anew."},
-      {"identifier", "A method that finds the friction's parameters in a log."},
-      {"NPE",
-       "Normalised parameter error: the length of the vector of relative errors of all parameters, "
-       "against the known truth. 1 % is one part in a hundred. The discrete NPE is that of the two "
-       "parameters of the sampled warming, as in the paper."},
-      {"Cramér-Rao bound",
-       "The error that no unbiased method can undercut on such logs, by their noise and length. An "
-       "rms NPE of 1.0 times the bound cannot be bettered."},
-      {"NPE above best",
-       "How much larger an identifier's NPE is than the best one's on the same realization, median "
-       "with a 95 % interval; where it holds 0 the two are tied."},
-      {"RMSE, MAE", "Root mean square error and mean absolute error of the fitted torque."},
-      {"Fit", "1 − norm of the residual over norm of the torque's variation, in per cent."},
-      {"FPE", "Final prediction error: the mean square error, raised for each parameter fitted."},
-      {"interval holds the truth",
-       "Share of 95 % intervals that contain the true value; 95 % is right."},
-      {"failure",
-       "A realization for which the identifier gave no numbers, or called its numbers void."},
-  };
-  return terms;
-}
+constexpr auto kRunTerms = std::to_array<std::pair<const char*, const char*>>({
+    {"realization",
+     "One simulated log: its noise, and where the suite says so its truth and motion, are drawn "
+     "anew."},
+    {"identifier", "A method that finds the friction's parameters in a log."},
+    {"NPE",
+     "Normalised parameter error: the length of the vector of relative errors of all parameters, "
+     "against the known truth. 1 % is one part in a hundred. The discrete NPE is that of the two "
+     "parameters of the sampled warming, as in the paper."},
+    {"Cramér-Rao bound",
+     "The error that no unbiased method can undercut on such logs, by their noise and length. An "
+     "rms NPE of 1.0 times the bound cannot be bettered."},
+    {"NPE above best",
+     "How much larger an identifier's NPE is than the best one's on the same realization, median "
+     "with a 95 % interval; where it holds 0 the two are tied."},
+    {"RMSE, MAE", "Root mean square error and mean absolute error of the fitted torque."},
+    {"Fit", "1 − norm of the residual over norm of the torque's variation, in per cent."},
+    {"FPE", "Final prediction error: the mean square error, raised for each parameter fitted."},
+    {"interval holds the truth",
+     "Share of 95 % intervals that contain the true value; 95 % is right."},
+    {"failure",
+     "A realization for which the identifier gave no numbers, or called its numbers void."},
+});
 
 // the run's directory, as the page calls it
 constexpr const char* kRun = "RUN";
@@ -215,7 +213,6 @@ std::vector<Extreme> ExtremesOf(const RunRow& row) {
   std::vector<Extreme> extremes;
   // no realization is shown twice
   const auto take = [&](const char* rank, std::size_t at) {
-    if (at >= answered.size()) return;
     const bool taken = std::any_of(extremes.begin(), extremes.end(), [&](const Extreme& one) {
       return one.unit == answered[at].unit;
     });
@@ -235,8 +232,7 @@ Figure ExtremesFigure(const std::string& label, const std::vector<ReplayedExtrem
        fmt::format("{}, by the NPE of its parameters; simulated once more", label),
        "Left: measured torque in the direction of motion with the fit. Right: the last segments as "
        "they were logged. Where even the worst fit follows its torque, the errors of the "
-       "parameters "
-       "are what noise leaves."},
+       "parameters are what noise leaves."},
       2);
   // a row for each: its whole recording, and its end close up
   for (const ReplayedExtreme& one : replayed) {
@@ -245,8 +241,8 @@ Figure ExtremesFigure(const std::string& label, const std::vector<ReplayedExtrem
         figure,
         fmt::format("The {}: {}, NPE {}", one.extreme.rank, one.name, PercentText(one.extreme.npe)),
         LevelOverTime(one.view), kRow);
-    AddPanel(figure, "Its last segments",
-             CloseUp(one.view, warm, TorqueLimits(one.view, warm, warm)), kRow);
+    AddPanel(figure, "Its last segments", CloseUp(one.view, warm, TorqueAxis(one.view, warm, warm)),
+             kRow);
   }
   return figure;
 }
@@ -271,7 +267,7 @@ Tree RunPageData(const RunPage& page) {
            TableTree("Every answer; a click on a heading sorts", RealizationTable(page))},
           {"figures", std::move(pictures)},
           {"notes", Notes(board)},
-          {"terms", RunTerms()},
+          {"terms", kRunTerms},
           {"run", kRun},
           {"finished", board.finished},
           {"all", board.realizations},

@@ -91,7 +91,7 @@ Plot FrictionPanel(const SimulationView& view) {
   plot.series = {{"friction", Hue::grey, Scatter{time, kept(friction), 1}},
                  {"its mean at each speed", Hue::text, SegmentMeans(fit, friction)},
                  {"the mean if it had stayed cold", Hue::blue, SegmentMeans(fit, cold)}};
-  plot.x = {TimeLabel(fit), 0, fit.time.tail(1)[0] / TimeUnit(fit), Scale::linear, {}};
+  plot.x = TimeAxis(fit);
   plot.y =
       BulkAxis(TorqueLabel(fit, "friction · sign(v)"), {kept(friction), SegmentMeans(fit, cold).y});
   return plot;
@@ -102,11 +102,10 @@ Plot HeatStrip(const SimulationView& view) {
   constexpr Index kCells = 240;
   const FitView& fit = view.fit;
   HeatMap map{Eigen::MatrixXd(1, kCells),
-              {0, fit.time.tail(1)[0] / TimeUnit(fit)},
+              {0, TimeAxis(fit).upper},
               {0, 1},
               {0, LargestEnergy(view)},
-              TorqueLabel(fit, WarmestEnergy(fit) < 0 ? "−E" : "E"),
-              {}};
+              TorqueLabel(fit, WarmestEnergy(fit) < 0 ? "−E" : "E")};
   for (const scene::Rgb& colour : kColdToHot) {
     map.colours.push_back(
         fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue));
@@ -189,20 +188,17 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, scene::GlContext
   // the robot at the begin and at its warmest
   const Index warmest = WarmestSample(view.fit);
   const auto images = RenderWarmRobot(view, context, {0, warmest}, 880, 640);
-  const auto picture = [](const scene::Image& image) {
-    return Picture{scene::EncodePng(image, "")};
-  };
+  const auto picture = [](const scene::Image& image) { return Picture{scene::EncodePng(image)}; };
 
-  Figure figure;
-  figure.name = "warm_robot";
-  figure.title = RobotTitle(view);
-  figure.subtitle = fmt::format("{}; the joint's link has the colour of {}", view.scenario.name,
-                                WarmestEnergy(view.fit) < 0 ? "−E" : "E");
   // how much its own heat changes the friction, and when
-  figure.finding = fmt::format(
-      "The joint's own heat changes its friction by {} {} at most, after {} {}.",
-      SignificantText(view.fit.energy[warmest]), view.fit.torque_unit,
-      SignificantText(view.fit.time[warmest] / TimeUnit(view.fit), 2), TimeUnitName(view.fit));
+  Figure figure{
+      "warm_robot", RobotTitle(view),
+      fmt::format("{}; the joint's link has the colour of {}", view.scenario.name,
+                  WarmestEnergy(view.fit) < 0 ? "−E" : "E"),
+      fmt::format("The joint's own heat changes its friction by {} {} at most, after {} {}.",
+                  SignificantText(view.fit.energy[warmest]), view.fit.torque_unit,
+                  SignificantText(view.fit.time[warmest] / TimeUnit(view.fit), 2),
+                  TimeUnitName(view.fit))};
   figure.height = 0;
   figure.rows = {340, 60, 260};
   figure.columns = {1, 1};

@@ -39,8 +39,6 @@ else:
         sys.path.insert(0, FOLDER)
     import layout
 
-TooSmall = layout.TooSmall
-
 HUES = ("text", "grey", "blue", "vermilion", "green", "purple", "orange", "sky", "caution")
 
 
@@ -120,14 +118,11 @@ def _box(ax, shape, colour, scale):
            flierprops={"marker": "o", "markersize": 3.6 * scale, "markerfacecolor": colour, "markeredgewidth": 0})
 
 
-def _colours(shape):
-    return LinearSegmentedColormap.from_list("own", shape["colours"]) if shape["colours"] else "viridis"
-
-
 def _heat_map(ax, shape, colour, scale):
     values = np.ma.masked_invalid(np.array(shape["values"], dtype=float))
     x, y = (np.linspace(*shape[side], count + 1) for side, count in (("x", values.shape[1]), ("y", values.shape[0])))
-    ax.pcolormesh(x, y, values, cmap=_colours(shape), vmin=shape["limits"][0], vmax=shape["limits"][1], rasterized=True)
+    colours = LinearSegmentedColormap.from_list("own", shape["colours"]) if shape["colours"] else "viridis"
+    ax.pcolormesh(x, y, values, cmap=colours, vmin=shape["limits"][0], vmax=shape["limits"][1], rasterized=True)
 
 
 def _level(ax, shape, colour, scale):
@@ -196,7 +191,7 @@ def set_ticks(ax, plot, width, height):
 
 
 def _name_upright(ax, plot, look, height, **place):
-    lines = layout.upright_name(plot["y"], height)
+    lines = layout.wrap(plot["y"]["label"], layout.TEXT, width=height)
     ax.set_ylabel(layout.math_text("\n".join(lines)), fontsize=layout.TEXT * look["scale"], color=look["text"], linespacing=layout.LINE, **place)
 
 

@@ -152,11 +152,6 @@ def category_lines(axis, width):
     return ["\n".join(wrap(label, TICK, width=room)).replace("- ", "-") for label in labels]
 
 
-def upright_name(axis, height):
-    """The lines of an upright axis' name."""
-    return wrap(axis["label"], TEXT, width=height)
-
-
 def heat_map_of(plot):
     return next((s["shape"] for s in plot["series"] if s["shape"]["kind"] == "heat_map"), None)
 
@@ -205,7 +200,7 @@ def below_of(plot, width):
 def sides_of(plot, width, height):
     """Room for numbers and names left and right of a plot of that height and about that width."""
     def upright(axis):
-        return max([0, *(width_of(text, TICK) for _, text in ticks_of(axis, wanted_y(height)))]), LINE * TEXT * len(upright_name(axis, height))
+        return max([0, *(width_of(text, TICK) for _, text in ticks_of(axis, wanted_y(height)))]), LINE * TEXT * len(wrap(axis["label"], TEXT, width=height))
 
     left = MARK + 3 + sum(upright(plot["y"])) + PAD + 2
     across = [] if plot["x"]["ticks"] else ticks_of(plot["x"], wanted_x(plot["x"], width))

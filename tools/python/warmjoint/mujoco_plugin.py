@@ -6,10 +6,12 @@ build/plugins of a source tree, or in the folder that WARMJOINT_PLUGINS names.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import json
 import os
 import pathlib
+from collections.abc import Iterator
 from typing import Any
 
 import mujoco
@@ -64,26 +66,22 @@ def _call(function: str, *arguments: Any) -> Any:
     return answer
 
 
-class _Files:
+@contextlib.contextmanager
+def _files(assets: dict[str, bytes]) -> Iterator[ctypes.c_void_p | None]:
     """Meshes and textures in memory, as MuJoCo's compiler takes them: a mjVFS, which is one pointer."""
-
-    def __init__(self, assets: dict[str, bytes]):
-        self._assets = assets
-        self._vfs = ctypes.c_void_p()
-
-    def __enter__(self) -> ctypes.c_void_p | None:
-        if not self._assets:
-            return None
-        self.address = ctypes.c_void_p(ctypes.addressof(self._vfs))
-        _library.mj_defaultVFS(self.address)
-        for name, content in self._assets.items():
-            data = content.encode() if isinstance(content, str) else bytes(content)
-            _library.mj_addBufferVFS(self.address, name.encode(), data, len(data))
-        return self.address
-
-    def __exit__(self, *_: object) -> None:
-        if self._assets:
-            _library.mj_deleteVFS(self.address)
+    if not assets:
+        yield None
+        return
+    vfs = ctypes.c_void_p()
+    address = ctypes.c_void_p(ctypes.addressof(vfs))
+    _library.mj_defaultVFS(address)
+    for name, content in assets.items():
+        data = content.encode() if isinstance(content, str) else bytes(content)
+        _library.mj_addBufferVFS(address, name.encode(), data, len(data))
+    try:
+        yield address
+    finally:
+        _library.mj_deleteVFS(address)
 
 
 def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
@@ -91,7 +89,7 @@ def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
 
     Raises BadInput with the text of the command line.
     """
-    with _Files(dict(spec.assets)) as files:
+    with _files(dict(spec.assets)) as files:
         return _call("warmjoint_attach", spec._address, files, json.dumps(request).encode())
 
 

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/tools/figures/look.h"
 #include "tests/tools/figures/run/run_example.h"
 #include "tests/tools/scratch_directory.h"
@@ -84,6 +87,52 @@ TEST(Ladder, ShowsRootMeanSquaresAtTheRungsWithTheBoundWhichIsOne) {
   EXPECT_THAT(figure.finding, HasSubstr("from the first rung of torque noise to the last"));
 }
 
+/// Traces whose medians fall evenly and whose quartiles lie 20 % about them: of three realizations.
+RunRow FallingRow(const std::string& label, const std::string& identifier, int iterations,
+                  const Eigen::Vector2d& npe, const Eigen::Vector2d& rmse) {
+  const Eigen::Vector3d spread(0.6, 1, 1.4);
+  RunRow row;
+  row.label = label;
+  row.identifier = identifier;
+  row.trace.iteration = Eigen::VectorXd::LinSpaced(iterations, 1, iterations);
+  row.trace.npe = spread * Eigen::RowVectorXd::LinSpaced(iterations, npe[0], npe[1]);
+  row.trace.rmse = spread * Eigen::RowVectorXd::LinSpaced(iterations, rmse[0], rmse[1]);
+  return row;
+}
+
+TEST(ErrorTraces, DrawMediansAndBandsOfQuartilesInTheIdentifiersColours) {
+  RunView run;
+  run.noise = 0.5;
+  // the median of |x| of a normal x is 0.6745 standard deviations, and known to 1 % by draws
+  run.bound_covariance = Eigen::MatrixXd::Constant(1, 1, std::pow(1.2 / 0.6745, 2));
+  run.rows = {FallingRow("nominal-ls", "nominal-ls", 1, {1.2, 1.2}, {0.9, 0.9}),
+              FallingRow("energy-als 50", "energy-als", 50, {1, 0.2}, {0.8, 0.55}),
+              FallingRow("energy-als 500", "energy-als", 500, {1, 0.01}, {0.8, 0.5})};
+  const Shown drawn = Look(*ErrorTraces(run));
+  ASSERT_EQ(drawn.plots.size(), 2u);
+  const ShownPlot& npe = PlotNamed(drawn, "Normalised parameter error");
+  const ShownSeries& em = SeriesNamed(npe, "energy-als 500");
+  EXPECT_EQ(em.hue, IdentifierHue("energy-als"));
+  EXPECT_EQ(em.x, std::pair(1.0, 500.0));
+  EXPECT_NEAR(em.y.first, 1, 1e-12) << "per cent";
+  EXPECT_NEAR(em.y.second, 100, 1e-12);
+  EXPECT_NEAR(SeriesNamed(npe, "median at the Cramér-Rao bound").y.first, 1.2, 0.04);
+  EXPECT_EQ(SeriesNamed(npe, "nominal-ls").x, std::pair(1.0, 500.0)) << "a level";
+
+  const ShownPlot& rmse = PlotNamed(drawn, "Root mean square error of the fit");
+  EXPECT_EQ(SeriesNamed(rmse, "noise").y, std::pair(0.5, 0.5));
+  EXPECT_NEAR(SeriesNamed(rmse, "energy-als 50").y.first, 0.55, 1e-12);
+  EXPECT_NEAR(SeriesNamed(rmse, "energy-als 50").y.second, 0.8, 1e-12);
+
+  // the band of energy-als 500 stands alone at its end: median 1 %, quartiles 0.8 and 1.2 %
+  const auto band = std::ranges::find_if(npe.series, [](const ShownSeries& series) {
+    return series.label.empty() && std::abs(series.y.first - 0.8) < 1e-9;
+  });
+  ASSERT_NE(band, npe.series.end());
+  EXPECT_NEAR(band->y.second, 120, 1e-9);
+  EXPECT_EQ(band->hue, Hue::vermilion);
+}
+
 TEST(ParameterTraces, ShowWhereMostRealizationsRunAndTheTruth) {
   RunView run = ExampleRun();
   const Figure figure = *ParameterTraces(run);
@@ -143,7 +192,8 @@ TEST(ParameterPairs, HoldTheirEllipsesAndThatOfTheBound) {
 
 constexpr int kRealizations = 50;
 
-/// Realization i, whose NPE is i; every second interval holds the truth, every tenth answer fails.
+/// Realization i, whose NPE is i; every second interval holds the truth, every tenth answer fails. The truth of the 45th
+/// has another law, whose first parameter the others lack.
 Realization Numbered(int i) {
   Result result;
   result.realization = i;
@@ -151,7 +201,9 @@ Realization Numbered(int i) {
   const ParameterScore one{"coulomb", 15, 15.0 + i, true, i % 2 == 0, 0.5};
   result.metrics = Metrics{100, 1, 1, 0.5, 0.4, 95, 0.25};
   const auto npe = static_cast<double>(i);
-  result.score = Score{{one}, {one}, npe, npe, 0.05, 0.05};
+  std::vector<ParameterScore> all{one};
+  if (i == 45) all = {{"static", 20, 21, true, true, 0.5}, one};
+  result.score = Score{all, all, npe, npe, 0.05, 0.05};
   return {{0, i}, 0.1, {result}};
 }
 
@@ -185,6 +237,12 @@ TEST(ReadRunView, DrawsAllOfAShortRunAndOneInSeveralOfALongOneAndCountsAll) {
   EXPECT_EQ(row.failures.at("not_converged"), 5);
   EXPECT_EQ(row.parameters[0].intervals, kRealizations);
   EXPECT_EQ(row.parameters[0].covered, kRealizations / 2);
+  // a parameter of one law stands for itself
+  const ParameterColumn& of_other = row.parameters.at(1);
+  EXPECT_EQ(of_other.name, "static");
+  EXPECT_EQ(of_other.intervals, 1);
+  EXPECT_EQ(of_other.estimate[9], 21);
+  EXPECT_TRUE(of_other.estimate.head(9).array().isNaN().all());
 }
 
 }  // namespace
