@@ -38,9 +38,10 @@ void CheckCounts(const Node& duration, const Scenario& scenario) {
 /// What acts must be known to the plant, and act on something.
 void CheckDisturbances(const Node& node, const Scenario& scenario) {
   // what is at its default is not written
-  const Tree given = WriteFields(scenario.disturbances);
+  const Tree given =
+      scenario.plant == PlantKind::ideal ? Tree::object() : WriteFields(scenario.disturbances);
   for (const char* ideal_only : {"gravity", "ambient_drift", "load_change", "second_heat"}) {
-    if (scenario.plant == PlantKind::ideal || !given.contains(ideal_only)) continue;
+    if (!given.contains(ideal_only)) continue;
     Refuse(node.place(), "{}.{} is known to the ideal plant alone; take it out, or use it",
            node.key(), ideal_only);
   }

@@ -75,8 +75,8 @@ class BlockDescent {
                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                const Eigen::VectorXd& gravity);
 
-  /// Iteration 0: E = H0 W, then Fn by (24), from no shorter a time constant than is tried. H0 acts first, because a start from plain least
-  /// squares would throw it away.
+  /// Iteration 0: E = H0 W, then Fn by (24), from no shorter a time constant than is tried. H0 acts
+  /// first, because a start from plain least squares would throw it away.
   DescentState Start(Thermal start) const;
 
   /// One iteration from `state`: E by (23), H by output error, E = H W, Fn by (24).

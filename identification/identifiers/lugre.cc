@@ -41,8 +41,9 @@ namespace {
 /// A fit with what is known of it.
 struct LugreAnswer {
   LugreFit fit;
-  Uncertainty
-      known;  // of the parameters that are not constant; those that may be are the last, damping and inertia
+  /// Of the parameters that are not constant. Those that may be are the last, damping and inertia, so that the others
+  /// have their places here.
+  Uncertainty known;
 };
 
 /// Standard deviation of the residual of the kept samples and of the others, N.m or N.

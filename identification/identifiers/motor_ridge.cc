@@ -8,6 +8,7 @@
 #include "identification/seen_samples.h"
 
 namespace warmjoint {
+
 Identifier MotorRidge() {
   static constexpr const char* name = "motor-ridge";
   return {name,

@@ -7,6 +7,7 @@
 #include "identification/seen_samples.h"
 
 namespace warmjoint {
+
 Identifier PositionRidge() {
   static constexpr const char* name = "position-ridge";
   return {name, "a nominal law and a map over position by ridge regression, without warming",

@@ -20,9 +20,9 @@ using Eigen::VectorXd;
 // what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit; why: with 0.013 and 0.03
 // no verdict changes in 50 logs of tests/studies/sensitivity/energy-ml.yaml, and one interval is wider with 0.03
 constexpr double kDistinct = 0.02;
-constexpr double kApart =
-    1e-9;  // of a derivative of norm 1 beside the others; why: far above what rounding leaves of one that
-           // is a mix of them, 1e-13, and far below what a log tells apart
+// of a derivative of norm 1 beside the others; why: far above what rounding leaves of one that is a mix of them, 1e-13,
+// and far below what a log tells apart
+constexpr double kApart = 1e-9;
 constexpr double kNoNorm = 1e-300;          // of a column of zeros
 constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
 constexpr double kFewestFree = 8;           // parts, or samples, beyond the columns of a fit
@@ -103,8 +103,16 @@ GrowingFit::GrowingFit(WeighedFit fit, const VectorXd& residual, const Selection
 }
 
 void GrowingFit::LearnNoise(const std::vector<Features>& all) {
-  MatrixXd columns = fit_.columns;
-  for (const Features& one : all) columns = ConcatColumns(columns, fit_.Normed(one.columns));
+  // the fit's columns and all features
+  Index count = fit_.columns.cols();
+  for (const Features& one : all) count += one.columns.cols();
+  MatrixXd columns(size(), count);
+  columns.leftCols(fit_.columns.cols()) = fit_.columns;
+  count = fit_.columns.cols();
+  for (const Features& one : all) {
+    columns.middleCols(count, one.columns.cols()) = fit_.Normed(one.columns);
+    count += one.columns.cols();
+  }
 
   // what remains beside them all together is noise
   const MatrixXd basis = Orthonormal(std::move(columns), kDistinct).basis;

@@ -71,8 +71,9 @@ size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
 /// A map with twice as many kernels, as far as there are any.
 Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option) {
   const size_t kernels = 2 * KernelsOver(advice, quantity);
-  if (kernels > kMostKernels)
+  if (kernels > kMostKernels) {
     return {"no map of this program is finer: the joint ripples in another way"};
+  }
 
   return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
 }

@@ -28,9 +28,8 @@ constexpr double kChance = 23;
 MapPoints Grid(const FrictionMap& map, int direction) {
   // speeds of the map in this direction; one where it has none
   std::vector<double> speeds;
-  for (const MapAxis& axis : map.axes) {
-    if (axis.quantity != MapQuantity::velocity) continue;
-    for (const double centre : axis.kernels.centres) {
+  if (const MapAxis* axis = FindAxis(map, MapQuantity::velocity)) {
+    for (const double centre : axis->kernels.centres) {
       if ((centre > 0) == (direction == 1)) speeds.push_back(centre);
     }
   }

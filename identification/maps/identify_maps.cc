@@ -80,8 +80,8 @@ void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, 
 MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
   // columns of the law, and beside them those of gravity and inertia
   const Law& law = *task.law;
-  Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
-  if (task.rigid.count() > 0) columns = ConcatColumns(columns, task.rigid.columns);
+  const Eigen::MatrixXd columns =
+      ConcatColumns(LawColumns(law, input.measurements.velocity), task.rigid.columns);
   MapProblem problem{{},
                      Kept(PointsOf(input.measurements, task.energy), input.selection),
                      Kept(columns, input.selection),

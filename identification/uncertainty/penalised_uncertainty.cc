@@ -24,8 +24,7 @@ constexpr double kFloor = 1e-9;
 struct PulledWeights {
   const Eigen::VectorXd& found;  // [q]
   const Eigen::MatrixXd& left;   // [q x q] L, what the prior leaves of w
-  const Eigen::MatrixXd&
-      bias;  // [q x q] B: w^T B w is what the pull takes from the fitted values, squared
+  const Eigen::MatrixXd& bias;   // [q x q] B: w^T B w is what the pull takes from the fit, squared
   const Eigen::MatrixXd& noise;  // [q x q] V, covariance of w_found by noise
 };
 

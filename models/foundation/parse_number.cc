@@ -35,9 +35,9 @@ std::optional<double> ParseNumber(std::string_view text) {
   if (error == std::errc()) return number;
   if (error != std::errc::result_out_of_range) return std::nullopt;
 
-  // from_chars tells overflow from underflow by nothing, strtod by its value
+  // from_chars tells overflow from underflow by nothing, strtod by its value: what is too small for a double counts as
+  // what strtod makes of it, what is too large is refused
   const double value = std::strtod(std::string(text).c_str(), nullptr);
-  // too small for a double counts as what strtod makes of it, too large is refused
   if (std::abs(value) > 1) return std::nullopt;
   return value;
 }

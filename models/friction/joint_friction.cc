@@ -177,7 +177,8 @@ void JointFriction::SetTimestep(double h) {
 }
 
 double JointFriction::HoldingLevel() const {
-  return std::max(OwnLevelAtRest(1), OwnLevelAtRest(-1)) + terms_->LargestAtRest();
+  const double* p = values_.data();
+  return std::max(law_.holding_level(1, p), law_.holding_level(-1, p)) + terms_->LargestAtRest();
 }
 
 double JointFriction::SlidingForce(double v, const JointPlace& place) const {

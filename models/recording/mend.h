@@ -20,15 +20,14 @@ struct MendedClock {
 /// are told from ticks.
 MendedClock MendClock(const Eigen::VectorXd& position, bool is_time_of_day, Eigen::VectorXd& time);
 
-/// Undoes the jumps in a position whose sensor starts again after `range`, rad or m; returns their number.
-/// range 0: after a whole turn of a rotary joint, so that it goes on where the
-/// sensor starts its turn again. It is taken as wrapped when it stays within one turn and jumps by
+/// Undoes the jumps in a position whose sensor starts again after `range`, rad or m, and returns their number. A range
+/// that is given counts however far the positions reach: each jump of more than half of it is one. range 0: after a
+/// whole turn of a rotary joint. It is then taken as wrapped when it stays within one turn and jumps by
 /// more than half a turn; where a velocity is recorded, a jump is undone only when that brings the
 /// step nearer to v h. A jump at a gap of the log (LongestStep) is none by itself, since in it the joint may have
-/// moved anywhere; where the sensor wraps elsewhere, the nearest place is taken. Without a velocity the joint must move less than half a turn between
-/// samples. time: [N] s; velocity: [N] rad/s or [0] where not recorded; position: [N] rad, changed
-/// in place.
-/// A range that is given counts however far the positions reach: each jump of more than half of it is one.
+/// moved anywhere; where the sensor wraps elsewhere, the nearest place is taken. Without a velocity the joint must
+/// move less than half a range between samples. time: [N] s; velocity: [N] rad/s or m/s, or [0] where not recorded;
+/// position: [N] rad or m, changed in place.
 int UndoJumps(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
               Eigen::VectorXd& position);
 

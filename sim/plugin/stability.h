@@ -15,7 +15,10 @@
 namespace warmjoint {
 
 /// Stiffness A and damping B of the bristles, in units of M/h^2 and M/h.
-using BristleShape = Bristle;
+struct BristleShape {
+  double stiffness = 0;
+  double damping = 0;
+};
 
 /// The largest eigenvalue of the inverse inertia matrix scaled by the joints' inertias, over the poses
 /// of arms with six and seven axes.

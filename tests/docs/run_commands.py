@@ -45,7 +45,7 @@ def environment(build):
 
 def bring(names, target):
     """Lays shared files into the copy; False where one is absent."""
-    shared = os.environ.get("WARMJOINT_SHARED") or os.environ.get("WARMJOINT_SHARED_DEFAULT", "/nowhere")
+    shared = os.environ.get("WARMJOINT_SHARED") or os.environ.get("WARMJOINT_SHARED_DEFAULT") or "/nowhere"
     sources = [pathlib.Path(shared) / name for name in names.split()]
     if not all(source.is_file() for source in sources):
         return False

@@ -81,11 +81,11 @@ std::string InItsRoom(const std::string& header) {
   return header;
 }
 
-/// Headers in the #include lines of a file.
-std::vector<std::string> IncludesOf(const fs::path& path) {
+/// Headers in the #include lines of a file that begin with one of these brackets: a class of a regular expression.
+std::vector<std::string> IncludesOf(const fs::path& path, const std::string& brackets = "[<\"]") {
   std::vector<std::string> headers;
   std::ifstream stream(path);
-  const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  const std::regex include(R"(^\s*#\s*include\s*)" + brackets + R"(([^>"]+)[>"])");
   for (std::string line; std::getline(stream, line);) {
     std::smatch match;
     if (std::regex_search(line, match, include)) headers.push_back(match[1]);
@@ -139,6 +139,8 @@ TEST(IncludeRules, PublicHeadersIncludeEachOtherTheStandardLibraryEigenAndTheEng
     const fs::path folder = warmjoint::test::SourceFolder() / room / "include/warmjoint";
     for (const auto& entry : fs::directory_iterator(folder)) {
       ++headers;
+      EXPECT_TRUE(IncludesOf(entry.path(), "[\"]").empty())
+          << entry.path() << " includes by quotes";
       for (const std::string& header : IncludesOf(entry.path())) {
         EXPECT_TRUE(std::regex_match(header, allowed)) << entry.path() << " includes " << header;
       }

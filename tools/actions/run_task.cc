@@ -16,8 +16,6 @@
 #include "tools/store/database.h"
 #include "tools/suite/external_identifier.h"
 
-namespace fs = std::filesystem;
-
 namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {

@@ -97,19 +97,27 @@ void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
   if (!clauses.empty()) SayNotice("{}: left out: {}\n", source, fmt::join(clauses, "; "));
 }
 
+/// Throws BadInput for what is there and no folder.
+void RefuseFile(const fs::path& folder) {
+  std::error_code absent;
+  if (!fs::exists(folder, absent) || fs::is_directory(folder, absent)) return;
+  Refuse({folder.string()}, "cannot be made (it is a file); give a directory");
+}
+
 /// Throws BadInput where it cannot be made.
 void MakeFolder(const fs::path& folder) {
+  RefuseFile(folder);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!error && fs::is_directory(folder)) return;
-  Refuse({folder.string()}, "cannot be made ({}); give a directory",
-         error ? error.message() : "it is a file");
+  if (!error) return;
+  Refuse({folder.string()}, "cannot be made ({}); give a directory", error.message());
 }
 
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
   // refused before anything is read
   const PictureSetting setting = SettingOf(arguments.pictures);
+  for (const fs::path& folder : folders) RefuseFile(folder);
   const Backend backend;
   Activity activity("preparing to draw");
   std::vector<Wanted> wanted;

@@ -44,12 +44,15 @@ std::string PowerText(double value, int decimals) {
 }
 
 /// The parameters of all laws, law by law, then those of warming.
-std::vector<ParameterInfo> AllParameters() {
-  std::vector<ParameterInfo> all;
-  for (const Law& law : Laws()) {
-    all.insert(all.end(), law.parameters.begin(), law.parameters.end());
-  }
-  all.insert(all.end(), Thermal::parameters.begin(), Thermal::parameters.end());
+const std::vector<ParameterInfo>& AllParameters() {
+  static const std::vector<ParameterInfo> all = [] {
+    std::vector<ParameterInfo> listed;
+    for (const Law& law : Laws()) {
+      listed.insert(listed.end(), law.parameters.begin(), law.parameters.end());
+    }
+    listed.insert(listed.end(), Thermal::parameters.begin(), Thermal::parameters.end());
+    return listed;
+  }();
   return all;
 }
 
@@ -76,7 +79,7 @@ std::string UnitText(std::string_view unit) {
 
 std::string SymbolOf(const std::string& parameter) {
   // the symbol as the formulas have it
-  const std::vector<ParameterInfo> all = AllParameters();
+  const std::vector<ParameterInfo>& all = AllParameters();
   const auto known = std::ranges::find(all, parameter, &ParameterInfo::name);
   const std::string symbol(known == all.end() ? parameter : known->symbol);
   // in print with Greek letters and indices
@@ -98,7 +101,7 @@ std::string SymbolOf(const std::string& parameter) {
 }
 
 std::size_t PlaceInLaws(const std::string& parameter) {
-  const std::vector<ParameterInfo> all = AllParameters();
+  const std::vector<ParameterInfo>& all = AllParameters();
   const auto known = std::ranges::find(all, parameter, &ParameterInfo::name);
   return static_cast<std::size_t>(known - all.begin());
 }

@@ -27,7 +27,6 @@
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
-
 namespace fs = std::filesystem;
 namespace {
 

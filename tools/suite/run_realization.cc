@@ -43,9 +43,9 @@ Values AllParameters(const TraceEntry& entry, double step) {
   return values;
 }
 
-/// NPE over the parameters of `truth`; one that is missing counts as 0, one whose truth is 0 not.
-double Npe(const std::vector<ParameterScore>& truth, const Values& values) {
-  std::vector<ParameterScore> scores = truth;
+/// NPE of values over the parameters of `scores`, whose estimates are written over; one that is missing counts as 0, one
+/// whose truth is 0 not.
+double Npe(std::vector<ParameterScore>& scores, const Values& values) {
   for (ParameterScore& score : scores) {
     const auto found = values.find(score.name);
     score.estimate = found == values.end() ? 0.0 : found->second;
@@ -134,10 +134,11 @@ TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& sco
   table.columns = {"iteration", "rmse", "npe_continuous", "npe_discrete"};
   for (const auto& [name, value] : trace.front().parameters) table.columns.push_back(name);
   // a row for each iteration, with its errors against the truth
+  std::vector<ParameterScore> continuous = score.continuous, discrete = score.discrete;
   for (const TraceEntry& entry : trace) {
     const Values values = AllParameters(entry, step);
     std::vector<double> row{static_cast<double>(entry.iteration), entry.rmse,
-                            Npe(score.continuous, values), Npe(score.discrete, values)};
+                            Npe(continuous, values), Npe(discrete, values)};
     // the parameters that this iteration has
     for (size_t i = row.size(); i < table.columns.size(); ++i) {
       const auto found = values.find(table.columns[i]);

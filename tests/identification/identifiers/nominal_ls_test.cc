@@ -72,6 +72,16 @@ TEST(NominalLs, CallsUnusableDataBad) {
   EXPECT_EQ(FitLaw(Steps({0.0}), "coulomb").status, Status::bad_data);
 }
 
+TEST(NominalLs, GivesNoFrictionWhereTheLawForbidsTheValue) {
+  Measurements falling = Steps({0.2, -0.5, 1.0, -1.0});
+  falling.torque -= 3 * falling.velocity;
+  const Estimate estimate = FitLaw(falling, "viscous_coulomb");
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_THAT(estimate.message,
+              HasSubstr("viscous is -1 N.m.s/rad, below its bound 0, with its whole 95 %"));
+  EXPECT_FALSE(estimate.friction);
+}
+
 TEST(NominalLs, CarriesTheUnitOfALoggedCurrent) {
   Measurements current = Steps({0.2, -0.5, 1.0});
   current.torque_unit = "A";

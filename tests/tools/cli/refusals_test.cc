@@ -106,7 +106,9 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"plot", "nothing", "-o", "d"}, "nothing"},
       {{"plot", "kernels", "--size", "5x5", "-o", "d"}, "'5x5' is no size"},
       {{"plot", "kernels", "--figure", "9", "-o", "d"},
-       "figure 9 of the paper (motor_fit) needs an estimate with a map over the motor's angle"},
+       "figure 9 of the paper (motor_fit) needs an estimate with a map over the motor's angle; "
+       "this "
+       "source gives: kernels"},
       // robots
       {{"attach", "pendulm", "--joint", "hinge=f.json", "-o", "d.xml"}, "'pendulum'"},
       {{"attach", "pendulum", "--joint", "hinge", "-o", "d.xml"}, "NAME=FILE"},

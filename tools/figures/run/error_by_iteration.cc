@@ -52,15 +52,15 @@ Plot Draw(const RunView& run, Traces traces, Finals finals, double factor,
   std::vector<Series> lines;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const RunRow& row = run.rows[i];
-    const QuartileCurve c = CurveOf(row, traces, finals);
-    if (c.x.size() == 0) continue;
-    QuartileCurve wide = c;
+    QuartileCurve wide = CurveOf(row, traces, finals);
+    if (wide.x.size() == 0) continue;
     if (!Iterates(row)) {
       // over the whole axis
       wide.x = Eigen::Vector2d(plot.x.lower, plot.x.upper);
-      wide.q25 = Eigen::Vector2d::Constant(c.q25[0]);
-      wide.median = Eigen::Vector2d::Constant(c.median[0]);
-      wide.q75 = Eigen::Vector2d::Constant(c.q75[0]);
+      for (Eigen::VectorXd* level : {&wide.q25, &wide.median, &wide.q75}) {
+        const double value = (*level)[0];
+        *level = Eigen::Vector2d::Constant(value);
+      }
     }
     const Hue hue = IdentifierHue(row.identifier);
     // quartiles as bands, medians as lines over all of them
@@ -89,9 +89,10 @@ std::string Finding(const RunView& run, std::optional<double> cramer_rao) {
   std::string text = "Median NPE after the last iteration: ";
   // where each identifier ends
   for (const RunRow& row : run.rows) {
-    const Eigen::VectorXd median = CurveOf(row, &ParameterTrace::npe, &RunRow::npe).median;
-    if (median.size() == 0) continue;
-    text += fmt::format("{} {} %, ", row.label, SignificantText(100 * median[median.size() - 1]));
+    const Eigen::MatrixXd& traces = row.trace.npe;
+    const double last = MedianOfKnown(traces.cols() > 0 ? traces.rightCols<1>() : row.npe);
+    if (std::isnan(last)) continue;
+    text += fmt::format("{} {} %, ", row.label, SignificantText(100 * last));
   }
   // beside what no unbiased identifier can undercut
   if (cramer_rao) {

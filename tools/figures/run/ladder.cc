@@ -16,7 +16,8 @@ namespace {
 Eigen::VectorXd ErrorsOf(const RunRow& row, const Rungs& rungs) {
   Eigen::VectorXd errors(rungs.values.size());
   for (Eigen::Index rung = 0; rung < errors.size(); ++rung) {
-    errors[rung] = 100 * RootMeanSquareOf(SortedFinite(At(row, row.npe, rung)));
+    const Eigen::VectorXd npe = At(row, row.npe, rung);
+    errors[rung] = 100 * RootMeanSquareOf({npe.begin(), npe.end()});
   }
   return errors;
 }

@@ -87,7 +87,7 @@ Plot BoxesOf(const RunView& run, const Rung& rung) {
       plot.series.push_back({"", IdentifierHue(row.identifier), BoxOf(place, 100 * npe)});
       shown.push_back(100 * npe);
       places.push_back(place);
-      means.push_back(100 * RootMeanSquareOf(SortedFinite(npe)));
+      means.push_back(100 * RootMeanSquareOf({npe.begin(), npe.end()}));
     }
     labels.push_back(rung ? row.label : LabelOf(row));
   }

@@ -315,7 +315,7 @@ def draw(figure: Any, style: Any = "screen", ax: Any = None, width: float = 0, h
     """A matplotlib Figure of a figure (a dictionary, as JSON has it). width, height: mm, 0 for those of style and figure.
 
     ax: axes that a figure of one plot is drawn into, in place of a figure of its own.
-    Raises TooSmall where a plot has no room, ValueError for an axis without extent or several plots for one `ax`.
+    Raises layout.TooSmall where a plot has no room, ValueError for an axis without extent or several plots for one `ax`.
     """
     look = style_of(style)
     with matplotlib.rc_context(_rc(look)):
