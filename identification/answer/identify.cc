@@ -102,8 +102,8 @@ Cause OfTheLog(Source source, std::string sentence) {
 
 /// Rows of what was done to the log. Of fits at constant speed: where more than 0.1 % of a slope's attenuation by noise of the
 /// velocity is left, intervals of viscous and of the levels reach as far as that moves them; of a warming, how far the gain may be off
-/// where reversals happen between two samples, unless that is below half a per cent. Of all: positions that the log
-/// lacks, and torque that was left out as absurd. input: what the identifier saw; by_noise: of the fit.
+/// where reversals happen between two samples, unless that is below half a per cent. Of all: units that may be others, positions
+/// that the log lacks, and torque that was left out as absurd. input: what the identifier saw; by_noise: of the fit.
 std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fit,
                                      const Inference& by_noise) {
   std::vector<Cause> causes;
@@ -120,6 +120,9 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
     if (log.velocity_noise()) {
       AddVelocity(*log.velocity_noise(), log.raw().measurements.joint, fit, causes);
     }
+  }
+  for (const std::string& doubt : input.measurements.doubts) {
+    causes.push_back(OfTheLog(Source::recording, doubt));
   }
   if (input.measurements.position_integrated) {
     causes.push_back(OfTheLog(Source::recording, kNoPositions));

@@ -68,6 +68,7 @@ void Append(const LogView& next, double step, LogView& stack) {
   for (const Index one : more.put_in) all.put_in.push_back(one + n);
   all.source += " + " + more.source;
   std::ranges::move(Named(more.source, more.notes), std::back_inserter(all.notes));
+  std::ranges::move(Named(more.source, more.doubts), std::back_inserter(all.doubts));
   // the columns; one that may be absent is gone where either lacks it
   Append<Eigen::VectorXd>(more.time.array() - more.time[0] + all.time[n - 1] + step, all.time);
   Append(more.position, all.position);
@@ -93,7 +94,9 @@ void Append(const LogView& next, double step, LogView& stack) {
 template <typename View>
 LogView StackOf(const std::vector<PreparedLog>& recordings, const View& view) {
   LogView stack = std::invoke(view, recordings.front());
-  stack.measurements.notes = Named(stack.measurements.source, std::move(stack.measurements.notes));
+  LogSamples& first = stack.measurements;
+  first.notes = Named(first.source, std::move(first.notes));
+  first.doubts = Named(first.source, std::move(first.doubts));
   for (size_t i = 1; i < recordings.size(); ++i) {
     const double step = MedianStep(recordings[i - 1].raw().measurements.time);
     Append(std::invoke(view, recordings[i]), step, stack);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "models/foundation/excerpt.h"
 #include "models/recording/measurements.h"
@@ -39,6 +40,12 @@ void CheckValues(const RawColumns& raw) {
   }
 }
 
+/// Notes that a unit may be another one.
+void Doubt(std::string sentence, Measurements& measurements) {
+  measurements.notes.push_back(sentence);
+  measurements.doubts.push_back(std::move(sentence));
+}
+
 void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurements) {
   const Eigen::VectorXd& time = measurements.time;
   // stamps increase from sample to sample
@@ -67,8 +74,8 @@ void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurement
            step);
   }
   if (is_assumed && step > kSlow) {
-    measurements.notes.push_back(
-        fmt::format("samples are {:.4g} s apart; if time is in ms give --unit time=ms", step));
+    Doubt(fmt::format("samples are {:.4g} s apart; if time is in ms give --unit time=ms", step),
+          measurements);
   }
 }
 
@@ -79,10 +86,11 @@ void NoteSpeed(Measurements& measurements) {
   const double travelled = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
   const double speed = travelled / (time[n - 1] - time[0]);
   if (speed <= kFast) return;
-  measurements.notes.push_back(fmt::format(
-      "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "
-      "position=deg,velocity=deg/s",
-      speed * 30 / std::numbers::pi));
+  Doubt(fmt::format(
+            "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "
+            "position=deg,velocity=deg/s",
+            speed * 30 / std::numbers::pi),
+        measurements);
 }
 
 void CheckTorque(const RawColumns& raw, const Measurements& measurements) {

@@ -143,6 +143,11 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
     content.columns.push_back(
         {column, "", Eigen::VectorXd::Map(values.data(), std::ssize(values))});
   }
+  return MakeRecording(std::move(content), settings, name);
+}
+
+Measurements MakeRecording(FileContent content, const ReadSettings& settings,
+                           const std::string& name) {
   Measurements made = AssembleContent(std::move(content), name, settings);
   TakeTorqueConstant(settings.torque_constant, made);
   return made;

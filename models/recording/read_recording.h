@@ -43,6 +43,10 @@ std::string RecordingToHdf5(const Measurements& measurements);
 /// where the layout's columns are not there. One thread at a time. For ReadApart.
 FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout);
 
+/// Makes a recording of columns with units beside their names: what a file of them would give. name: of the recording in messages.
+Measurements MakeRecording(FileContent content, const ReadSettings& settings,
+                           const std::string& name);
+
 /// A format that a library reads.
 struct FileFormat {
   const char* name = "";  // in messages

@@ -52,6 +52,8 @@ struct Measurements {
   std::optional<Eigen::VectorXd> temperature;     // [N] degC
   /// Whether the positions are the integral of the velocity from 0, in a log that has none.
   bool position_integrated = false;
+  /// Where a unit may be another one than it was taken for: one sentence each, which notes hold, too. Warnings of an estimate.
+  std::vector<std::string> doubts{};
 
   Eigen::Index size() const { return time.size(); }
 };
