@@ -45,6 +45,28 @@ Eigen::MatrixXd ForceSlopes(const ClosedLoop& loop, const Eigen::VectorXd& param
   return slopes;
 }
 
+/// The same along a stretch, of levels that are not those of the loop. at: where it begins and ends
+WARMJOINT_FOR_EACH_PROCESSOR
+Eigen::MatrixXd SlopesOfStretch(const ClosedLoop& loop, const LoopStretch& stretch,
+                                const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                const Eigen::VectorXd& jumps, LoopEnd& at) {
+  Eigen::MatrixXd slopes(stretch.last - stretch.first, at.slopes.size());
+  const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
+    const double direction = loop.direction()[n];
+    auto row = slopes.row(n - stretch.first);
+    for (Eigen::Index i = 0; i < row.size(); ++i) {
+      row[i] = direction * (i < stretch.d ? g[i] + S[i] : S[i]);
+    }
+  };
+  Sensitivities<Eigen::Dynamic> S(at.slopes.begin(), at.slopes.end());
+  WithHolds(loop.intervals(), thermal, [&](const auto& hold) {
+    RunAlong<Eigen::Dynamic>(loop, stretch, parameters.data(), thermal.gain, jumps.data(), hold,
+                             at.energy, S, write);
+  });
+  at.slopes = Eigen::Map<const Eigen::VectorXd>(S.data(), at.slopes.size());
+  return slopes;
+}
+
 }  // namespace
 
 ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
@@ -56,15 +78,15 @@ ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& veloc
   levels_ = Signed(columns);
 }
 
-/// Columns times the direction of motion, a sample after the other. [N x d]
-ClosedLoop::Rows ClosedLoop::Signed(const Eigen::MatrixXd& columns) const {
+/// Columns times the direction of motion, a sample after the other, from the first on. [m x d]
+ClosedLoop::Rows ClosedLoop::Signed(const Eigen::MatrixXd& columns, Eigen::Index first) const {
   Rows rows(columns.rows(), columns.cols());
   for (Eigen::Index i = 0; i < rows.cols(); ++i) {
     // a column after the other, as they lie
     const double* column = columns.col(i).data();
     double* to = rows.data() + i;
     for (Eigen::Index n = 0; n < rows.rows(); ++n, to += rows.cols())
-      *to = direction_[n] * column[n];
+      *to = direction_[first + n] * column[n];
   }
   return rows;
 }
@@ -117,6 +139,16 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
   // from log(tau) to tau
   jacobian.col(levels_.cols() + 1) /= thermal.time_constant;
   return jacobian;
+}
+
+Eigen::MatrixXd ClosedLoop::SlopesAlong(const LoopColumns& columns,
+                                        const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                        const Eigen::VectorXd& jumps, LoopEnd& at) const {
+  const Rows levels = Signed(columns.law, columns.first);
+  const Rows of_loss = columns.loss.size() > 0 ? Signed(columns.loss, columns.first) : Rows();
+  const LoopStretch stretch{columns.first, columns.first + levels.rows(), levels.data(),
+                            of_loss.size() > 0 ? of_loss.data() : levels.data(), levels.cols()};
+  return SlopesOfStretch(*this, stretch, parameters, thermal, jumps, at);
 }
 
 LoopEnd ClosedLoop::End(const Eigen::VectorXd& parameters, const Thermal& thermal,

@@ -21,10 +21,17 @@ struct LoopResponse {
   std::optional<Eigen::Index> first_driving;
 };
 
-/// Where the loop ends.
+/// Where the loop ends, or a stretch of it.
 struct LoopEnd {
-  double energy = 0;       // E at the last sample, N.m or N
+  double energy = 0;       // E at the last sample, or at the one behind the stretch, N.m or N
   Eigen::VectorXd slopes;  // [d + 3 + J] dE/d(p, k, log tau, E0, jumps)
+};
+
+/// Columns of a law along the samples from the first on, and those of its losses; empty: the same. Both [m x d].
+struct LoopColumns {
+  Eigen::Index first = 0;
+  Eigen::MatrixXd law;
+  Eigen::MatrixXd loss{};
 };
 
 /// The loop E -> F -> W -> E over N samples of a velocity, for a law that is linear in its d
@@ -55,6 +62,12 @@ class ClosedLoop {
   Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
+  /// dF/d(p, k, log tau, E0, jumps) along a stretch, [m x (d + 3 + J)], of a law with other columns than the loop's, which
+  /// are not read. at: E and its derivatives at the first of its samples, led on to the sample behind it.
+  Eigen::MatrixXd SlopesAlong(const LoopColumns& columns, const Eigen::VectorXd& parameters,
+                              const Thermal& thermal, const Eigen::VectorXd& jumps,
+                              LoopEnd& at) const;
+
   /// E at the last sample, and its exact derivatives there.
   LoopEnd End(const Eigen::VectorXd& parameters, const Thermal& thermal, double initial_energy = 0,
               const Eigen::VectorXd& jumps = {}) const;
@@ -78,7 +91,7 @@ class ClosedLoop {
   const std::vector<Eigen::Index>& jumps() const { return jumps_; }  // [J] samples
 
  private:
-  Rows Signed(const Eigen::MatrixXd& columns) const;
+  Rows Signed(const Eigen::MatrixXd& columns, Eigen::Index first = 0) const;
 
   Eigen::VectorXd speed_;
   Eigen::VectorXd direction_;

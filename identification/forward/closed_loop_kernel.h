@@ -3,6 +3,7 @@
 
 #include <array>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
@@ -30,27 +31,35 @@ template <int D>
 using Sensitivities = std::conditional_t<D == Eigen::Dynamic, std::vector<double>,
                                          std::array<double, static_cast<size_t>(D + 3)>>;
 
-/// Runs the loop with its derivatives. parameters: [d] of the law; jumps: [J] of E at the loop's
-/// jumps, for a D that is Dynamic alone; visit(n, a, g, S) sees the level a, its direct derivatives
-/// g [d] and the derivatives S [d + 3 + J] of E by (p, k, log tau, E0, jumps), all at sample n:
-/// da/dp = g + S.
+/// Samples of a loop with their levels: all of it, or a stretch.
+struct LoopStretch {
+  Eigen::Index first = 0, last = 0;  // samples, the last one past the end
+  const double* levels = nullptr;    // [last - first x d] g, row by row
+  const double* of_loss = nullptr;   // the same of the losses
+  Eigen::Index d = 0;
+};
+
+/// Runs the loop along a stretch with its derivatives. parameters: [d] of the law; energy_at, slopes_at: E and its
+/// derivatives [d + 3 + J] by (p, k, log tau, E0, jumps) at the first sample, led on to the one behind the last; jumps: [J] of E at
+/// the loop's jumps, for a D that is Dynamic alone; visit(n, a, g, S) sees the level a, its direct derivatives g [d] and
+/// S, all at sample n: da/dp = g + S.
 template <int D, typename Hold, typename Visit>
-void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, double gain,
-                          double initial_energy, const double* jumps, const Hold& hold_after,
-                          Visit&& visit) {
-  const Eigen::Index d = LoopSize<D>(loop.levels().cols());
+void RunAlong(const ClosedLoop& loop, const LoopStretch& stretch, const double* parameters,
+              double gain, const double* jumps, const Hold& hold_after, double& energy_at,
+              Sensitivities<D>& slopes_at, Visit&& visit) {
+  // locals, which may stay in registers
+  Sensitivities<D> S = std::move(slopes_at);
+  double energy = energy_at;
+  const Eigen::Index d = LoopSize<D>(stretch.d);
   const std::vector<Eigen::Index>& jump_at = loop.jumps();
-  Sensitivities<D> S{};
-  if constexpr (D == Eigen::Dynamic) S.resize(static_cast<size_t>(d) + 3 + jump_at.size());
-  S[d + 2] = 1;
-  double energy = initial_energy;
-  const double* g = loop.levels().data();
-  const double* of_loss = loop.loss_levels().data();
+  const double* g = stretch.levels;
+  const double* of_loss = stretch.of_loss;
   const bool apart = of_loss != g;
   const double* speed = loop.speed().data();
 
   size_t jumped = 0;
-  for (Eigen::Index n = 0; n < loop.size(); ++n, g += d, of_loss += d) {
+  while (jumped < jump_at.size() && jump_at[jumped] < stretch.first) ++jumped;
+  for (Eigen::Index n = stretch.first; n < stretch.last; ++n, g += d, of_loss += d) {
     if constexpr (D == Eigen::Dynamic) {
       if (jumped < jump_at.size() && jump_at[jumped] == n) {
         energy += jumps[jumped];
@@ -78,6 +87,23 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     }
     energy = ThermalStep(feedback, lambda, energy, nominal);
   }
+  energy_at = energy;
+  slopes_at = std::move(S);
+}
+
+/// RunAlong all of the loop, from E(0).
+template <int D, typename Hold, typename Visit>
+void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, double gain,
+                          double initial_energy, const double* jumps, const Hold& hold_after,
+                          Visit&& visit) {
+  const Eigen::Index d = LoopSize<D>(loop.levels().cols());
+  Sensitivities<D> slopes{};
+  if constexpr (D == Eigen::Dynamic)
+    slopes.resize(static_cast<size_t>(d) + 3 + loop.jumps().size());
+  slopes[d + 2] = 1;
+  double energy = initial_energy;
+  const LoopStretch all{0, loop.size(), loop.levels().data(), loop.loss_levels().data(), d};
+  RunAlong<D>(loop, all, parameters, gain, jumps, hold_after, energy, slopes, visit);
 }
 
 /// Calls run(hold_after) with the hold that follows each sample n, hold_after(n): one for all, or one of a table.

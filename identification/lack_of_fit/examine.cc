@@ -266,9 +266,7 @@ void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& e
   if (const double step = HidingStep(m.torque, variance); step > 0) {
     // any error within half a step, at each bin the worst
     rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
-    const Eigen::MatrixXd each = Eigen::MatrixXd::Identity(bins.size(), bins.size());
-    examination.Add(Source::hidden_steps, Action::widen,
-                    step / 2 * fit.MovesBy(each).cwiseAbs().rowwise().sum());
+    examination.Add(Source::hidden_steps, Action::widen, step / 2 * fit.MostMoves());
     return;
   }
   const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);

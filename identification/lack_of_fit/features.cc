@@ -1,8 +1,11 @@
 #include "identification/lack_of_fit/features.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <unsupported/Eigen/FFT>
 #include <vector>
 
 #include "identification/lack_of_fit/rows_by_value.h"
@@ -35,49 +38,56 @@ MatrixXd BothDirections(const Bins& bins, const MatrixXd& columns) {
   return both;
 }
 
-/// Waves of values at some times, each of which turns by its own step.
-struct TurningWaves {
-  std::vector<double> cosine, sine;            // [m] of the values
-  std::vector<double> turn_cosine, turn_sine;  // [m] of the steps
+/// (|Z(k)|^2 + |Z(-k)|^2) / 2 for k < count, Z(k) the sum of z e^(-i k x): by a fast Fourier transform of z spread over even
+/// cells by Gaussians (Greengard and Lee, SIAM Review 46, 2004, Eqs. 8 to 12), right to 12 digits of the largest.
+/// x: [m] rad, 0 to pi
+ArrayXd SquaresOfWaves(const ArrayXd& x, const std::vector<std::complex<double>>& z, Index count) {
+  constexpr Index spread = 12;  // cells to each side; why: as many digits
+  const auto cells = static_cast<Index>(std::bit_ceil(static_cast<size_t>(4 * count + spread)));
+  const double width = 2 * kPi / static_cast<double>(cells);
+  const double modes = 2 * static_cast<double>(count), finer = static_cast<double>(cells) / modes;
+  const double tau = kPi * spread / (modes * modes * finer * (finer - 0.5));
 
-  /// Square of the sum of all, which then turn by a step.
-  double SquareAndTurn() {
-    double cosines = 0, sines = 0;
-    for (std::size_t i = 0; i < cosine.size(); ++i) {
-      const double c = cosine[i], s = sine[i];
-      cosines += c;
-      sines += s;
-      cosine[i] = c * turn_cosine[i] - s * turn_sine[i];
-      sine[i] = c * turn_sine[i] + s * turn_cosine[i];
+  // each value into the cells around it: exp(-(a - l w)^2 / 4 tau), a its distance from a cell, in three factors
+  const ArrayXd cell = ArrayXd::LinSpaced(2 * spread, 1 - spread, spread);
+  const ArrayXd of_cell = (-(cell * width).square() / (4 * tau)).exp();
+  std::vector<std::complex<double>> grid(static_cast<size_t>(cells)), spectrum;
+  for (Index i = 0; i < x.size(); ++i) {
+    const auto nearest = static_cast<Index>(x[i] / width);
+    const double away = x[i] - static_cast<double>(nearest) * width;
+    const double each = std::exp(away * width / (2 * tau));
+    double of_value = std::exp(-away * away / (4 * tau)) * std::pow(each, 1 - spread);
+    for (Index l = 0; l < 2 * spread; ++l, of_value *= each) {
+      const Index at = (nearest + l + 1 - spread + cells) % cells;
+      grid[static_cast<size_t>(at)] += of_value * of_cell[l] * z[static_cast<size_t>(i)];
     }
-    return cosines * cosines + sines * sines;
   }
-};
+  Eigen::FFT<double>().fwd(spectrum, grid);
+  // what the Gaussians took is given back
+  ArrayXd squares(count);
+  for (Index k = 0; k < count; ++k) {
+    const auto at = static_cast<size_t>(k), opposite = static_cast<size_t>((cells - k) % cells);
+    const double order = static_cast<double>(k);
+    squares[k] = std::exp(2 * order * order * tau) *
+                 (std::norm(spectrum[at]) + std::norm(spectrum[opposite]));
+  }
+  return squares * kPi / (2 * tau * static_cast<double>(cells * cells));
+}
 
 /// Which of the first `count` multiples of kCyclesApart over the log, from kFirstCycles on, explains most of what is left if it
 /// covers it evenly.
 double StrongestCycles(const Bins& bins, const GrowingFit& fit, Index count) {
   // forwards and backwards: as a force in one direction and as one against the motion it is sum and difference of
-  // both, whose squares add up to twice those of both
+  // both, whose squares add up to twice those of both; one as real part, one as imaginary
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
-  const ArrayXd step = 2 * kPi * kCyclesApart * bins.time.array();
-  const MatrixXd turns = Waves(step);
-  const MatrixXd first = left.asDiagonal() * Waves(kFirstCycles * step);
-  TurningWaves directions[2];
+  std::vector<std::complex<double>> directions;
   for (Index c = 0; c < bins.size(); ++c) {
-    TurningWaves& waves = directions[bins.velocity[c] < 0];
-    waves.cosine.push_back(first(c, 0));
-    waves.sine.push_back(first(c, 1));
-    waves.turn_cosine.push_back(turns(c, 0));
-    waves.turn_sine.push_back(turns(c, 1));
+    const bool backwards = bins.velocity[c] < 0;
+    directions.emplace_back(backwards ? 0 : left[c], backwards ? left[c] : 0);
   }
+  const ArrayXd step = 2 * kPi * kCyclesApart * bins.time.array();
   Index strongest = 0;
-  double most = -1;
-  for (Index k = 0; k < count; ++k) {
-    const double explained = directions[0].SquareAndTurn() + directions[1].SquareAndTurn();
-    if (explained > most) strongest = k;
-    most = std::max(most, explained);
-  }
+  SquaresOfWaves(step, directions, kFirstCycles + count).tail(count).maxCoeff(&strongest);
   return kCyclesApart * static_cast<double>(kFirstCycles + strongest);
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <numeric>
@@ -142,18 +143,129 @@ Layout JoinedParts(const Layout& maps, const Layout& joined) {
                           {&Layout::rigid, maps.rigid.size}});
 }
 
-/// Of all unknowns. jacobian: [n x p]; prior: [p]; residual: [n]
-Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
-                         const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& prior,
-                         const Eigen::VectorXd& residual) {
-  const Eigen::Index d = jacobian.cols();
-  const Slice& weights = warm.fit.layout.weights;
-  // normal matrix of law, maps and warming together
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(d, d);
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+/// Rows of the derivatives of law, maps and warming together, made block by block along the log: all of them at once are
+/// far larger than it. Unknowns in the order of `layout`.
+class JointRows {
+ public:
+  JointRows(const IdentifierInput& input, const WarmMaps& warm)
+      : m_(input.measurements),
+        warm_(warm),
+        joined_(Joined(warm)),
+        parameters_(joined_.law()),
+        points_(PointsOf(m_)),
+        law_(LawColumns(*warm.task.law, m_.velocity)),
+        of_loss_(LossColumns(*warm.task.law, m_)),
+        loop_(ClosedLoop::Along(m_, Eigen::MatrixXd(m_.size(), 0)).WithJumps(Behind(warm.gaps))) {
+    const Layout parts = JoinedParts(warm.fit.layout, joined_.layout);
+    layout_ = parts.Reordered(&Layout::law, &Layout::rigid, &Layout::weights, &Layout::heat,
+                              &Layout::start, &Layout::jumps);
+    order_ = parts.PlacesOf(layout_);
+    for (Eigen::Index n = 0; n < m_.size(); ++n) {
+      if (input.selection.keep[n]) kept_.push_back(n);
+    }
+    FollowLoop();
+  }
+
+  const Layout& layout() const { return layout_; }
+  Eigen::VectorXd prior() const { return joined_.prior(order_); }  // [p]
+  const Eigen::MatrixXd& gram() const { return gram_; }            // [p x p] of the kept rows
+
+  /// dE/dx at the end of the log, [p].
+  Eigen::VectorXd OfEnd() const {
+    Eigen::VectorXd of_end = Eigen::VectorXd::Zero(joined_.layout.size());
+    of_end.head(joined_.layout.rigid.begin) =
+        OfEstimated(begins_.back().at.slopes.transpose(), joined_.layout).transpose();
+    return of_end(order_);
+  }
+
+  /// Rows first <= i < last of the kept samples. [last - first x p]
+  Eigen::MatrixXd Between(Eigen::Index first, Eigen::Index last) const {
+    Eigen::MatrixXd rows(last - first, layout_.size());
+    if (first == last) return rows;
+    // from the block that holds the first of them
+    const Eigen::Index begin = kept_[static_cast<size_t>(first)];
+    const auto behind = std::ranges::upper_bound(begins_, begin, {}, &Begin::sample);
+    LoopEnd at = (behind - 1)->at;
+    for (Eigen::Index n = (behind - 1)->sample, done = first; done < last;) {
+      const Eigen::Index end = std::min(n + kBlock, kept_[static_cast<size_t>(last - 1)] + 1);
+      const Eigen::MatrixXd block = Along(n, end, at);
+      for (; done < last && kept_[static_cast<size_t>(done)] < end; ++done) {
+        rows.row(done - first) = block.row(kept_[static_cast<size_t>(done)] - n);
+      }
+      n = end;
+    }
+    return rows;
+  }
+
+ private:
+  static constexpr Eigen::Index kBlock = 4096;  // samples
+
+  /// The loop where a block begins.
+  struct Begin {
+    Eigen::Index sample;
+    LoopEnd at;
+  };
+
+  /// Rows of all samples first <= n < last. at: of the loop at the first, led on to the last; [last - first x p]
+  Eigen::MatrixXd Along(Eigen::Index first, Eigen::Index last, LoopEnd& at) const {
+    const Eigen::Index size = last - first;
+    const Eigen::MatrixXd kernels = DenseKernels(warm_.fit.maps, points_, first, last);
+    LoopColumns columns{first, ConcatColumns(law_.middleRows(first, size), kernels)};
+    if (of_loss_.size() > 0) {
+      columns.loss = ConcatColumns(of_loss_.middleRows(first, size), kernels);
+    }
+    const Eigen::MatrixXd slopes =
+        loop_.SlopesAlong(columns, parameters_, joined_.thermal(), joined_.jumps(), at);
+    return ConcatColumns(OfEstimated(slopes, joined_.layout),
+                         warm_.task.rigid.columns.middleRows(first, size))(Eigen::all, order_);
+  }
+
+  /// Remembers where blocks begin, the last with the last sample, and sums the products of their kept rows.
+  void FollowLoop() {
+    gram_ = Eigen::MatrixXd::Zero(layout_.size(), layout_.size());
+    LoopEnd at{joined_.initial_energy(),
+               Eigen::VectorXd::Zero(parameters_.size() + 3 + joined_.layout.jumps.size)};
+    at.slopes[parameters_.size() + 2] = 1;
+    const Eigen::Index end = m_.size() - 1;
+    size_t next = 0;
+    for (Eigen::Index n = 0; n <= end;) {
+      begins_.push_back({n, at});
+      const Eigen::Index last = n == end ? m_.size() : std::min(n + kBlock, end);
+      const Eigen::MatrixXd block = Along(n, last, at);
+      // those of its rows that are kept
+      std::vector<Eigen::Index> kept;
+      for (; next < kept_.size() && kept_[next] < last; ++next) kept.push_back(kept_[next] - n);
+      gram_.selfadjointView<Eigen::Lower>().rankUpdate(block(kept, Eigen::all).transpose());
+      n = last;
+    }
+    gram_.triangularView<Eigen::StrictlyUpper>() = gram_.transpose();
+  }
+
+  const LogSamples& m_;
+  const WarmMaps& warm_;
+  ThermalFit joined_;
+  Eigen::VectorXd parameters_;  // [d + weights]
+  MapPoints points_;            // [N x 5]
+  Eigen::MatrixXd law_;         // [N x d]
+  Eigen::MatrixXd of_loss_;     // [N x d], or empty where the losses have the same
+  ClosedLoop loop_;             // without columns of its own
+  Layout layout_;
+  std::vector<Eigen::Index> order_;  // of `layout_` in a joined fit
+  std::vector<Eigen::Index> kept_;   // [n] samples
+  std::vector<Begin> begins_;
+  Eigen::MatrixXd gram_;
+};
+
+/// residual: [n] of law, maps and heat, N.m or N
+JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& warm,
+                                 const Eigen::VectorXd& residual) {
+  const JointRows joint(input, warm);
+  const Eigen::MatrixXd& gram = joint.gram();
+  const Eigen::VectorXd prior = joint.prior();
+  const Eigen::Index d = gram.cols();
 
   // columns of norm 1 for the inverse: the gain's are far from the others'
+  const Slice& weights = warm.fit.layout.weights;
   Eigen::MatrixXd penalised = gram;
   auto of_weights = penalised.block(weights.begin, weights.begin, weights.size, weights.size);
   of_weights += PenaltyOf(warm.fit.maps, of_weights, warm.fit.unseen, warm.fit.strength);
@@ -163,43 +275,16 @@ Uncertainty CovarianceOf(const IdentifierInput& input, const WarmMaps& warm,
   const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
   const Eigen::MatrixXd inverse =
       scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(d, d)) * scale.asDiagonal();
-  // rows of samples, from the first to before the last
-  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
-    return jacobian.middleRows(first, last - first);
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) {
+    return joint.Between(first, last);
   };
   // independent weights: with those that go together gain and time constant are off by half of what is said
-  return PenalisedCovariance({gram, inverse, warm.fit.free(), warm.fit.weights(), warm.fit.strength,
-                              warm.fit.unseen, prior},
-                             rows, residual, input.selection);
-}
-
-/// residual: [n] of law, maps and heat, N.m or N
-JointUncertainty JointCovariance(const IdentifierInput& input, const WarmMaps& warm,
-                                 const Eigen::VectorXd& residual) {
-  const LogSamples& m = input.measurements;
-  // columns of law and kernels, and those of the losses where they differ
-  const Eigen::MatrixXd law = LawColumns(*warm.task.law, m.velocity);
-  const Eigen::MatrixXd of_loss = LossColumns(*warm.task.law, m);
-  const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
-  const ClosedLoop loop =
-      ClosedLoop::Along(m, ConcatColumns(law, kernels),
-                        of_loss.size() > 0 ? ConcatColumns(of_loss, kernels) : of_loss)
-          .WithJumps(Behind(warm.gaps));
-
-  // derivatives of torque and of E at the end by all unknowns
-  const ThermalFit joined = Joined(warm);
   JointUncertainty result;
-  const Layout parts = JoinedParts(warm.fit.layout, joined.layout);
-  result.layout = parts.Reordered(&Layout::law, &Layout::rigid, &Layout::weights, &Layout::heat,
-                                  &Layout::start, &Layout::jumps);
-  const std::vector<Eigen::Index> order = parts.PlacesOf(result.layout);
-  const Eigen::MatrixXd jacobian =
-      Kept(WarmJacobian(loop, warm.task.rigid.columns, joined), input.selection)(Eigen::all, order);
-  Eigen::VectorXd of_end = Eigen::VectorXd::Zero(joined.layout.size());
-  of_end.head(joined.layout.rigid.begin) = WarmEnd(loop, joined).slopes;
-  of_end = of_end(order).eval();
-
-  result.known = CovarianceOf(input, warm, jacobian, joined.prior(order), residual);
+  result.layout = joint.layout();
+  result.known = PenalisedCovariance({gram, inverse, warm.fit.free(), warm.fit.weights(),
+                                      warm.fit.strength, warm.fit.unseen, prior},
+                                     rows, residual, input.selection);
+  const Eigen::VectorXd of_end = joint.OfEnd();
   result.end_energy_std = std::sqrt(of_end.dot(result.known.covariance * of_end));
   return result;
 }

@@ -13,6 +13,8 @@ using Eigen::VectorXd;
 
 constexpr double kMisfit = 0.05;     // why: of ten steps of any size, 1e-10 are multiples by chance
 constexpr double kLastBits = 1e-12;  // why: of the largest position, some bits of a double
+constexpr Index kFew =
+    64;  // steps; why: below each of them that is no multiple the divisor falls to a twentieth
 constexpr double kNormalMedian = 0.6745;  // why: of |z|, z a standard normal variable
 
 /// Standard deviation of the noise that third differences show, those that are 0 counted or not.
@@ -27,18 +29,8 @@ double ThirdDifferenceNoise(const VectorXd& x, bool with_zeros) {
   return MedianInPlace(third) / (kNormalMedian * std::sqrt(20.0));
 }
 
-}  // namespace
-
-double StepOfPosition(const VectorXd& position) {
-  const Index n = position.size() - 1;
-  if (n < 1) return 0;
-  VectorXd steps = (position.tail(n) - position.head(n)).cwiseAbs();
-  std::ranges::sort(steps);
-  // what is not the rounding of numbers, the smallest first
-  const double rounding = kLastBits * position.cwiseAbs().maxCoeff();
-  const double* const end = steps.data() + n;
-  const double* const begin = std::upper_bound<const double*>(steps.data(), end, rounding);
-
+/// The common divisor of ascending steps, each of which is a multiple to kMisfit, or 0. rounding: of what is no step
+double CommonDivisor(const double* begin, const double* end, double rounding) {
   double divisor = begin == end ? 0 : *begin;
   for (double left = divisor; left > 0;) {
     // by what each step misses a multiple, of a divisor that larger steps show more finely
@@ -56,7 +48,29 @@ double StepOfPosition(const VectorXd& position) {
     if (left > 0) divisor = left > rounding ? left : 0;
     if (divisor == 0) return 0;
   }
-  return steps[n - 1] - steps[0] > 0.5 * divisor ? divisor : 0;
+  return divisor;
+}
+
+}  // namespace
+
+double StepOfPosition(const VectorXd& position) {
+  const Index n = position.size() - 1;
+  if (n < 1) return 0;
+  VectorXd steps = (position.tail(n) - position.head(n)).cwiseAbs();
+  const double range = steps.maxCoeff() - steps.minCoeff();
+  // what is not the rounding of numbers, the smallest first
+  const double rounding = kLastBits * position.cwiseAbs().maxCoeff();
+  double* const end = steps.data() + n;
+  double* const begin =
+      std::partition(steps.data(), end, [&](double step) { return step <= rounding; });
+  double* const few = begin + std::min<Index>(kFew, end - begin);
+
+  // what has no divisor shows it by the smallest alone, without the order of all others
+  std::partial_sort(begin, few, end);
+  if (CommonDivisor(begin, few, rounding) == 0) return 0;
+  std::sort(few, end);
+  const double divisor = CommonDivisor(begin, end, rounding);
+  return range > 0.5 * divisor ? divisor : 0;
 }
 
 PositionNoise MeasurePositionNoise(const VectorXd& position) {

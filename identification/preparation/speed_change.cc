@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 namespace warmjoint {
 namespace {
@@ -39,17 +41,56 @@ double GoldenSection(double low, double high, const Function& squares) {
   return at_left < at_right ? left : right;
 }
 
+/// Positions around a change of speed, nearest to where the lines cross first. A ramp of duration D leaves the line of its
+/// side by (v1 - v0) / (2 D) (D / 2 - |t|)^2 at the time t from there, |t| < D / 2.
+class AroundCrossing {
+ public:
+  AroundCrossing(const VectorXd& time, const VectorXd& position, const SpeedChange& jump,
+                 Index first, Index last)
+      : change_of_speed_(jump.behind.slope - jump.before.slope) {
+    // outwards from the crossing, the nearer of the next on both sides first
+    Index behind = first;
+    while (behind <= last && time[behind] < jump.time) ++behind;
+    Index before = behind - 1;
+    while (before >= first || behind <= last) {
+      const bool takes_before = behind > last || (before >= first && jump.time - time[before] <=
+                                                                         time[behind] - jump.time);
+      const Index i = takes_before ? before-- : behind++;
+      const StraightLine& line = takes_before ? jump.before : jump.behind;
+      away_.push_back(std::abs(time[i] - jump.time));
+      off_.push_back(position[i] - line.At(time[i]));
+    }
+    // squares of what no ramp reaches
+    beyond_.assign(off_.size() + 1, 0);
+    for (size_t i = off_.size(); i > 0; --i) {
+      beyond_[i - 1] = beyond_[i] + off_[i - 1] * off_[i - 1];
+    }
+  }
+
+  /// Sum of squares of the positions less a change of that duration.
+  double Squares(double duration) const {
+    const double half = duration / 2, bend = change_of_speed_ / (2 * duration);
+    double sum = 0;
+    size_t i = 0;
+    for (; i < away_.size() && away_[i] < half; ++i) {
+      const double inside = half - away_[i], off = off_[i] - bend * inside * inside;
+      sum += off * off;
+    }
+    return sum + beyond_[i];
+  }
+
+ private:
+  double change_of_speed_;      // rad/s or m/s
+  std::vector<double> away_;    // s, ascending
+  std::vector<double> off_;     // the line of its side, rad or m
+  std::vector<double> beyond_;  // squares of `off_` from each on
+};
+
 /// The duration of least squares, 0 where a jump explains the positions as well.
 double FindDuration(const VectorXd& time, const VectorXd& position, const SpeedChange& jump,
                     Index first, Index last, double deviation) {
-  // of the positions around a change of that duration
-  const auto squares = [&](double duration) {
-    SpeedChange change = jump;
-    change.duration = duration;
-    double sum = 0;
-    for (Index i = first; i <= last; ++i) sum += std::pow(position[i] - change.At(time[i]), 2);
-    return sum;
-  };
+  const AroundCrossing around(time, position, jump, first, last);
+  const auto squares = [&](double duration) { return around.Squares(duration); };
   // the best duration of an even grid, then the minimum around it
   const double longest = 2 * std::min(jump.time - time[first], time[last] - jump.time);
   const double at_jump = squares(0);

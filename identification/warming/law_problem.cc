@@ -19,14 +19,6 @@ Eigen::VectorXd AtSamples(const Eigen::VectorXd& kept, const Selection& selectio
   return all;
 }
 
-/// Columns of the loop's derivatives, which are by (p, k, log tau, E0, jumps), that a fit has: E0 only where it was
-/// estimated. of: [N x (d + 3 + J)] or a row
-Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const Layout& layout) {
-  Eigen::MatrixXd kept(of.rows(), layout.rigid.begin);
-  kept << of.leftCols(layout.jumps.begin), of.rightCols(layout.jumps.size);
-  return kept;
-}
-
 }  // namespace
 
 LawProblem::LawProblem(const IdentifierInput& input, const LinearTask& task)
@@ -130,6 +122,12 @@ void LawProblem::TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorX
   gaps_ = gaps;
   jump_spread_ = spread;
   loop_ = loop_.WithJumps(Behind(gaps));
+}
+
+Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const Layout& layout) {
+  Eigen::MatrixXd kept(of.rows(), layout.rigid.begin);
+  kept << of.leftCols(layout.jumps.begin), of.rightCols(layout.jumps.size);
+  return kept;
 }
 
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const Eigen::MatrixXd& rigid,

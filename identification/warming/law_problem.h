@@ -85,6 +85,10 @@ class LawProblem {
   Eigen::VectorXd jump_spread_;  // [J]
 };
 
+/// Columns of the loop's derivatives, which are by (p, k, log tau, E0, jumps), that a fit has: E0 only where it was
+/// estimated. of: [N x (d + 3 + J)] or a row
+Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const Layout& layout);
+
 /// d(F + G)/dx over all samples, without lag. rigid: [N x q] dG/dg; returns [N x p]
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const Eigen::MatrixXd& rigid,
                              const ThermalFit& fit);
