@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "identification/answer/settling.h"
 #include "identification/explain.h"
 #include "identification/inference/apply.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
@@ -131,6 +132,27 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
   return causes;
 }
 
+constexpr int kMostRounds = 3;  // why: what a fit to unsettled torque hides shows in the next
+
+/// The fit to what has settled: the samples of segments lose their first seconds while the residual shows that the torque had not.
+/// settling: s, of all rounds
+Fit FitSettled(const Identifier& identifier, const IdentifierInput& input,
+               std::optional<Selection>& settled, double& settling) {
+  Fit fit = AtBounds(identifier.fit(input), input.measurements);
+  for (int round = 0; round < kMostRounds && !fit.refusal; ++round) {
+    const Eigen::VectorXd& time = input.measurements.time;
+    // a view that is not the input's has other samples, and rows of means have none of their own
+    const bool same = fit.used.keep.size() == time.size() && fit.torque.size() == fit.used.count();
+    if (input.view != View::constant_speed || !same) break;
+    const double more = SettlingTime(fit.used, time, fit.residual());
+    if (more == 0) break;
+    settling += more;
+    settled = WithoutSettling(settled.value_or(input.selection), time, more);
+    fit = AtBounds(identifier.fit(input.With(*settled)), input.measurements);
+  }
+  return fit;
+}
+
 /// What was found in log and fit, and the tests as data.
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                      const LackOfFitSettings& judging, const Answer& answer) {
@@ -155,15 +177,25 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
 
 }  // namespace
 
+IdentifierInput InputOf(const Answer& answer, const Identifier& identifier,
+                        const IdentifierInput& given) {
+  const IdentifierInput input = SelectSamples(identifier, given);
+  return answer.settled ? input.With(*answer.settled) : input;
+}
+
 Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
                    const LackOfFitSettings& judging) {
-  const IdentifierInput input = SelectSamples(identifier, given);
   Answer answer;
-  answer.fit = AtBounds(identifier.fit(input), input.measurements);
+  double settling = 0;
+  answer.fit = FitSettled(identifier, SelectSamples(identifier, given), answer.settled, settling);
   answer.inferred = Infer(answer.fit);
 
   // what is said about it, and what that leaves of it
+  const IdentifierInput input = InputOf(answer, identifier, given);
   LackOfFit found = FindCauses(identifier, input, judging, answer);
+  if (answer.settled) {
+    found.causes.push_back(OfTheLog(Source::preparation, SaySettling(settling)));
+  }
   answer.judged = Apply(answer.inferred, std::move(found.causes));
   answer.judged.diagnostics = std::move(found.diagnostics);
   answer.judged.assumptions =

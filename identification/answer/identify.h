@@ -3,6 +3,8 @@
 
 #include <warmjoint/estimate.h>
 
+#include <optional>
+
 #include "identification/identifier.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
@@ -14,12 +16,20 @@ struct Answer {
   Fit fit;
   Inference inferred;
   Inference judged;
+  /// The samples that it rests on, where some of those that were given had not settled.
+  std::optional<Selection> settled{};
 };
+
+/// The input that an answer rests on: what the identifier selects of `given`, once it has settled. answer: must outlive it.
+IdentifierInput InputOf(const Answer& answer, const Identifier& identifier,
+                        const IdentifierInput& given);
 
 /// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
 /// is bad_data, and the message names them; else the residual is examined for
 /// structure (lack_of_fit/find_lack_of_fit.h). What the preparation of the log means for the numbers is a cause, too. No answer is ok that
 /// rests on fewer than 30 samples or a twentieth of those that move, or that the mean of the torque beats beyond chance.
+/// Where the residual shows that the torque takes its time to settle after a change of speed (settling.h), the fit is made again
+/// without these samples.
 Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& input,
                    const LackOfFitSettings& judging = {});
 

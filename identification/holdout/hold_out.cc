@@ -23,6 +23,20 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
   return fit.inertia ? "no sample moves clearly" : "no sample moves at a constant speed";
 }
 
+/// Of the first samples of a log those that were chosen of all.
+Selection Within(Selection first, const Selection& chosen) {
+  const Eigen::Index n = std::min(first.keep.size(), chosen.keep.size());
+  first.keep.head(n) = first.keep.head(n) && chosen.keep.head(n);
+  first.keep.tail(first.keep.size() - n) = false;
+  // segments as they were chosen, as far as they go
+  first.segments.clear();
+  for (Segment segment : chosen.segments) {
+    segment.end = std::min(segment.end, n);
+    if (segment.begin < segment.end) first.segments.push_back(segment);
+  }
+  return first;
+}
+
 }  // namespace
 
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
@@ -37,7 +51,11 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   const double split = input.measurements.time[end];
   // what lies before, seen as the identifier saw the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
-  const IdentifierInput seen = before.Through(input.view);
+  const IdentifierInput all = before.Through(input.view);
+  // at constant speed without what had not settled; other views choose their samples anew
+  const bool steady = input.view == View::constant_speed;
+  const Selection chosen = steady ? Within(all.selection, input.selection) : all.selection;
+  const IdentifierInput seen = all.With(chosen);
   Fit fit = all_data.structure ? all_data.structure(seen) : identifier.fit(seen);
   return FirstPart{split, AtBounds(std::move(fit), seen.measurements)};
 }

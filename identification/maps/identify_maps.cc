@@ -18,6 +18,7 @@
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
+#include "identification/uncertainty/tails.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -101,6 +102,8 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   const Law& law = *task.law;
   const MapProblem problem = ProblemOf(input, task);
   MakeBands(law, problem, maps, known, fit);
+  WidenUnresolved(maps.maps.front(), input.measurements,
+                  StudentQuantile(known.degrees_of_freedom, kIntervalLevel), fit.bands.front());
   const bool shares = std::ranges::any_of(
       fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
   std::vector<FrictionAtSpeed> friction_at_speeds =

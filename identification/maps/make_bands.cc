@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -304,6 +306,61 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
       band.value.push_back(value[i]);
       band.std.push_back(deviation);
       band.interval95.push_back({value[i] - reach * deviation, value[i] + reach * deviation});
+    }
+  }
+}
+
+namespace {
+
+// why: a filter against aliasing at half the sampling rate leaves 0.97 of what is at a quarter of it, and less of what is above
+constexpr double kSamplesACycle = 4;
+
+/// Amplitude of the k-th harmonic of values at even places around a circle, N.m or N.
+double AmplitudeOf(int k, const std::vector<double>& values) {
+  std::complex<double> sum = 0;
+  const auto n = static_cast<double>(values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    sum += std::polar(values[i], 2 * std::numbers::pi * k * static_cast<double>(i) / n);
+  }
+  return 2 * std::abs(sum) / n;
+}
+
+}  // namespace
+
+void WidenUnresolved(const FrictionMap& motor, const LogSamples& m, double reach, MapBand& band) {
+  const MapAxis* over_speed = FindAxis(motor, MapQuantity::velocity);
+  if (motor.axes[0].quantity != MapQuantity::motor_position || !over_speed) return;
+  const auto at = static_cast<size_t>(over_speed - motor.axes.data());
+  const KernelLines lines(motor);
+  const auto count = static_cast<size_t>(lines.length), stride = static_cast<size_t>(lines.stride);
+  const double turns = m.gear * MedianStep(m.time) / (2 * std::numbers::pi);  // a sample at 1 rad/s
+
+  // of each line its speed, and its values around the turn, before any is widened
+  std::vector<double> speeds(stride);
+  std::vector<std::vector<double>> values(stride);
+  for (size_t j = 0; j < stride; ++j) {
+    speeds[j] = band.points[j][at];
+    for (size_t i = 0; i < count; ++i) values[j].push_back(band.value[i * stride + j]);
+  }
+  const auto resolves = [&](size_t j, int k) {
+    return k * turns * std::abs(speeds[j]) * kSamplesACycle <= 1;
+  };
+  for (size_t j = 0; j < stride; ++j) {
+    double variance = 0;
+    for (int k = 1; 2 * k <= static_cast<int>(count); ++k) {
+      if (resolves(j, k)) continue;
+      // as strong as at the slowest speed of this direction that shows it
+      std::optional<size_t> slowest;
+      for (size_t l = 0; l < stride; ++l) {
+        const bool shows = speeds[l] * speeds[j] > 0 && resolves(l, k);
+        if (shows && (!slowest || std::abs(speeds[l]) < std::abs(speeds[*slowest]))) slowest = l;
+      }
+      if (slowest) variance += std::pow(AmplitudeOf(k, values[*slowest]), 2) / 2;
+    }
+    for (size_t i = j; i < count * stride; i += stride) {
+      band.std[i] = std::hypot(band.std[i], std::sqrt(variance));
+      band.interval95[i] = {band.value[i] - reach * band.std[i],
+                            band.value[i] + reach * band.std[i]};
     }
   }
 }

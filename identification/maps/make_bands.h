@@ -3,6 +3,7 @@
 
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
+#include <warmjoint/prepared_log.h>
 
 #include <vector>
 
@@ -28,6 +29,13 @@ namespace warmjoint {
 /// Sets the fit's bands and bands_by_law.
 void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
                const Uncertainty& known, Fit& fit);
+
+/// Widens the band of a map over the motor's turn and speed by what the log cannot show of it: the k-th harmonic of the turn
+/// where it passes in fewer than four samples, of which a filter against aliasing may have taken any share. Its variance
+/// there is that of a wave as strong as the band has at the slowest speed of the same direction that shows it. Values stay:
+/// they are what the torque of the log follows. reach: of the interval, in deviations
+void WidenUnresolved(const FrictionMap& motor, const LogSamples& measurements, double reach,
+                     MapBand& band);
 
 /// What law and maps brake with forwards and backwards at a low, the median and a high speed that the joint
 /// held, with 95 % intervals. A constant that only the prior shares out between law and maps is no property of the

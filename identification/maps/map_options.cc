@@ -2,13 +2,76 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace warmjoint {
 namespace {
 
 Eigen::VectorXd Column(MapQuantity quantity, const MapPoints& points) {
   return points.col(static_cast<int>(quantity));
+}
+
+// of ln |v|; why: speeds nearer to each other are one, as for friction at speeds (make_bands.cc), and what lies further
+// apart than the ends of a group was not held
+constexpr double kOneSpeed = 0.2;
+
+/// Speeds that a log holds, ascending, those next to each other in ratio as one where there are more than `most`; none where it
+/// moves at all speeds. speed: [n] of the samples, rad/s or m/s, above 0
+std::vector<double> HeldSpeeds(Eigen::VectorXd speed, std::size_t most) {
+  struct Group {
+    double lowest, highest, sum, count;
+    double mean() const { return sum / count; }
+  };
+  std::ranges::sort(speed);
+  std::vector<Group> groups;
+  for (const double v : speed) {
+    if (groups.empty() || std::log(v / groups.back().highest) > kOneSpeed) {
+      groups.push_back({v, v, 0, 0});
+    }
+    groups.back().highest = v;
+    groups.back().sum += v;
+    groups.back().count += 1;
+  }
+  const auto is_wide = [](const Group& one) {
+    return std::log(one.highest / one.lowest) > 2 * kOneSpeed;
+  };
+  if (std::ranges::any_of(groups, is_wide)) return {};
+
+  // the nearest two become one
+  while (groups.size() > most) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i + 1 < groups.size(); ++i) {
+      const auto ratio = [&](std::size_t k) { return groups[k + 1].mean() / groups[k].mean(); };
+      if (ratio(i) < ratio(nearest)) nearest = i;
+    }
+    groups[nearest].sum += groups[nearest + 1].sum;
+    groups[nearest].count += groups[nearest + 1].count;
+    groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(nearest) + 1);
+  }
+  std::vector<double> means;
+  for (const Group& one : groups) means.push_back(one.mean());
+  return means;
+}
+
+// of the least distance between two speeds; why: the kernels of others are 1 % at each, and between two speeds, where the
+// log says nothing, a normalised map holds the value of the nearer
+constexpr double kNarrow = 1.0 / 3;
+
+/// Centres at these speeds of both directions of motion, kept apart.
+GaussianAxis AxisAt(const std::vector<double>& speeds) {
+  GaussianAxis axis;
+  axis.sides = Sides::apart;
+  axis.width = speeds.back();
+  for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
+    axis.width = std::min(axis.width, kNarrow * (speeds[i + 1] - speeds[i]));
+  }
+  for (std::size_t i = speeds.size(); i-- > 0;) axis.centres.push_back(-speeds[i]);
+  axis.centres.insert(axis.centres.end(), speeds.begin(), speeds.end());
+  return axis;
 }
 
 }  // namespace
@@ -24,10 +87,16 @@ MapAxis VelocityAxis(const MapPoints& points, int count, double width) {
   const Eigen::VectorXd speed = Column(MapQuantity::velocity, points).cwiseAbs();
   const double lowest = speed.minCoeff(), highest = speed.maxCoeff();
   const bool one = count == 1 || !(highest - lowest > 1e-6 * highest);
-  MapAxis axis{MapQuantity::velocity,
-               one ? SpeedAxis(highest, highest, 1) : SpeedAxis(lowest, highest, count)};
-  // one kernel a side is 1 on its side, plain or not
-  axis.kernels.width *= one ? 1e6 : width;
+  if (one) {
+    MapAxis axis{MapQuantity::velocity, SpeedAxis(highest, highest, 1)};
+    // one kernel a side is 1 on its side, plain or not
+    axis.kernels.width *= 1e6;
+    return axis;
+  }
+  const std::vector<double> held = HeldSpeeds(speed, static_cast<std::size_t>(count));
+  if (held.size() > 1) return {MapQuantity::velocity, AxisAt(held)};
+  MapAxis axis{MapQuantity::velocity, SpeedAxis(lowest, highest, count)};
+  axis.kernels.width *= width;
   return axis;
 }
 

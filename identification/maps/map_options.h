@@ -124,8 +124,9 @@ MapShapes ForEachWidth(const MapOptions& options, const Maps& maps) {
 /// points: [n x 5] of the kept samples.
 MapAxis RangeAxis(MapQuantity quantity, const MapPoints& points, int count, double width);
 
-/// Even centres over the speeds, `count` for each direction of motion, one side apart from the
-/// other. A count of 1 tells the directions apart and nothing else.
+/// Centres at the speeds that the samples hold, `count` at most for each direction of motion, one side apart from the other,
+/// and so narrow that between two of them a normalised map holds the value of the nearer; where the samples move at all
+/// speeds, even centres over these. A count of 1 tells the directions apart and nothing else.
 MapAxis VelocityAxis(const MapPoints& points, int count, double width);
 
 /// Even centres over one turn of the motor or of the joint, 2 pi rad, on a circle.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "identification/answer/settling.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/seen_samples.h"
@@ -113,6 +114,10 @@ FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
   view.fitted = given.force;
   if (const std::optional<double> lag = ValueOf(Role::lag, estimate)) {
     view.fitted = LowPass(view.time, given.force + view.rigid, *lag) - view.rigid;
+  }
+  // what had not settled is no matter of the fit
+  if (const double settling = SettlingTime(view.selection, view.time, Residuals(view))) {
+    view.selection = WithoutSettling(view.selection, view.time, settling);
   }
 
   // how sure the heat is

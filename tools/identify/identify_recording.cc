@@ -140,8 +140,9 @@ HoldOutSource HoldOutShare(double fraction) {
 
 Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
                        const HoldOutSource& holdout, const Narrator& narrator) {
-  const IdentifierInput input{log, task.options, {}, narrator};
-  const Answer answer = FitAndCheck(task.identifier, input, task.judging);
+  const IdentifierInput given{log, task.options, {}, narrator};
+  const Answer answer = FitAndCheck(task.identifier, given, task.judging);
+  const IdentifierInput input = InputOf(answer, task.identifier, given);
   Estimate reported = ReportAnswer(task.identifier, input, answer);
   Identified identified{reported, WithVoidNumbers(task.identifier, input, answer, reported)};
   // numbers of a refused fit are shown where that was asked for
