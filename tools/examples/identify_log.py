@@ -17,7 +17,7 @@ def main():
     folder = pathlib.Path(sys.argv[2])
 
     # other names and units: wj.read(path, map={"position": "q"}, unit={"position": "deg"});
-    # a data frame: wj.Log.from_pandas(frame, time="t_s", position="q_rad", torque="tau_Nm")
+    # a data frame: wj.Log.from_frame(frame, time="t_s", position="q_rad", torque="tau_Nm")
     log = wj.read(sys.argv[1])
     print(wj.check(log))
 

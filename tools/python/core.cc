@@ -1,6 +1,7 @@
 // warmjoint._core: recordings, their check, identification and friction. No engine.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/function.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -12,7 +13,11 @@
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/score.h>
 
+#include <cmath>
+#include <functional>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -20,7 +25,7 @@
 #include <vector>
 
 #include "identification/estimate.h"
-#include "identification/preparation/check.h"
+#include "models/foundation/atomic_file.h"
 #include "models/friction/friction_json.h"
 #include "tools/figures/estimate_figures.h"
 #include "tools/figures/fit_view.h"
@@ -29,7 +34,9 @@
 #include "tools/identify/identify_recording.h"
 #include "tools/identify/predict_recording.h"
 #include "tools/python/interrupt.h"
+#include "tools/python/logs.h"
 #include "tools/python/trees.h"
+#include "tools/python/words.h"
 
 namespace warmjoint::python {
 namespace {
@@ -37,64 +44,45 @@ namespace {
 // The signatures are what type checkers read (_core.pyi is made of them).
 namespace nb = nanobind;
 using Eigen::Index;
-using Column = nb::ndarray<nb::numpy, const double, nb::ndim<1>>;
 using Given = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-/// A recording that is prepared, and the files that it was read from.
-struct Log {
-  PreparedLog prepared;
-  std::optional<RecordingSource> source;
-
-  const Measurements& measurements() const { return prepared.raw().measurements; }
-};
-
-// Logs.
-
-/// A column of a log as an array that shares its memory.
-nb::object ViewOf(const Eigen::VectorXd& column, nb::handle log) {
-  return nb::cast(Column(column.data(), {static_cast<std::size_t>(column.size())}, log));
-}
-
-/// Columns by their names in the header that a file would have. settings: of a RecordingSource.
-Log LogOfColumns(const std::map<std::string, Given>& columns, nb::handle settings) {
-  const auto source = FieldsFromPython<RecordingSource>(settings, "log");
-  std::map<std::string, std::vector<double>> values;
-  for (const auto& [name, column] : columns) {
-    values[name].assign(column.data(), column.data() + column.size());
-  }
-  return Interruptibly([values = std::move(values), source](const auto&) {
-    return Log{Prepare(MakeRecording(values, source.read, source.files.at(0)), source.prepare), {}};
-  });
-}
-
-Log ReadLog(nb::handle settings) {
-  const auto source = FieldsFromPython<RecordingSource>(settings, "read");
-  // readers of HDF5 and MATLAB fork, which only the thread that calls may do
-  nb::gil_scoped_release released;
-  return {Prepare(ReadRecordings(source), source.prepare), source};
-}
-
-/// Several logs of one joint, each from a cold start, as one.
-Log JoinLogs(const std::vector<Log>& logs) {
-  std::vector<PreparedLog> recordings;
-  for (const Log& log : logs) recordings.push_back(log.prepared);
-  return Interruptibly([recordings = std::move(recordings)](const auto&) {
-    return Log{Join(recordings), {}};
-  });
-}
 
 // Identification.
 
+/// What a fit tries, told by one thread and read by another.
+class Told {
+ public:
+  void Set(const std::string& words) {
+    const std::lock_guard held(mutex_);
+    words_ = words;
+  }
+  std::string Get() {
+    const std::lock_guard held(mutex_);
+    return words_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::string words_;
+};
+
+/// watch: is told what is being tried, some times a second.
 nb::object IdentifyInPython(const Log& log, nb::handle given, double share,
-                            const std::optional<Log>& other) {
+                            const std::optional<Log>& other,
+                            const std::optional<std::function<void(const std::string&)>>& watch) {
   const auto settings = FieldsFromPython<IdentifySettings>(given, "identify");
   HoldOutSource holdout = HoldOutShare(share);
   if (other) holdout = {0, other->prepared};
-  const Estimate estimate = Interruptibly([=](const auto& stop) {
-    Estimate answer =
-        Identify(log.prepared, settings, holdout, {}, [&](const std::string&) { stop(); });
+  const auto told = std::make_shared<Told>();
+  const auto fit = [=](const auto& stop) {
+    Estimate answer = Identify(log.prepared, settings, holdout, {}, [&](const std::string& words) {
+      told->Set(words);
+      stop();
+    });
     answer.recording = log.source;
     return answer;
+  };
+  const Estimate estimate = Interruptibly(fit, [&] {
+    if (watch) (*watch)(told->Get());
   });
   return ToPython(EstimateToTree(estimate));
 }
@@ -137,13 +125,38 @@ nb::object ScoreInPython(nb::handle estimate, const Log& log, nb::handle truth) 
 /// {name: figure}, as tools/figures/figure.h describes them: what an estimate gives with its log, or without.
 nb::object FiguresInPython(nb::handle given, const std::optional<Log>& log) {
   const Estimate estimate = EstimateOf(given);
-  const figures::EstimateView view =
-      log ? figures::ViewOwnRecording(estimate, log->prepared) : figures::EstimateView{estimate};
-  Tree all = Tree::object();
-  for (const figures::EstimateFigure& one : figures::EstimateFigures()) {
-    if (auto made = one.make(view)) all[one.name] = figures::FigureJson(*std::move(made));
-  }
+  const Tree all = Interruptibly([estimate, log](const auto&) {
+    const figures::EstimateView view =
+        log ? figures::ViewOwnRecording(estimate, log->prepared) : figures::EstimateView{estimate};
+    Tree made = Tree::object();
+    for (const figures::EstimateFigure& one : figures::EstimateFigures()) {
+      if (auto figure = one.make(view)) made[one.name] = figures::FigureJson(*std::move(figure));
+    }
+    return made;
+  });
   return ToPython(all);
+}
+
+/// Names of all figures that estimates may give.
+std::vector<std::string> FigureNames() {
+  std::vector<std::string> names;
+  for (const figures::EstimateFigure& one : figures::EstimateFigures()) names.push_back(one.name);
+  return names;
+}
+
+/// Settings of ReadLog for the recording that an estimate remembers; None where it remembers none. Whether the files are there is for
+/// the caller to see.
+nb::object RecordingInPython(nb::handle given) {
+  const Estimate estimate = EstimateOf(given);
+  return estimate.recording ? FieldsToPython(*estimate.recording) : nb::none();
+}
+
+/// Times (s), and torque less fit (N.m or N), of the samples that the fit takes, [n] each; nothing without a friction.
+nb::object ResidualsInPython(nb::handle given, const Log& log) {
+  const figures::FitView view = figures::MakeFitView(log.prepared, EstimateOf(given));
+  if (!view.has_fit) return nb::none();
+  const Eigen::VectorXd time = view.time.array() + log.measurements().time[0];
+  return nb::make_tuple(ToPython(figures::KeptOf(view, time)), ToPython(figures::Residuals(view)));
 }
 
 /// What the page of a log and its estimate shows.
@@ -172,70 +185,32 @@ nb::object ForceAt(nb::handle given, const std::map<std::string, Given>& places)
   return ToPython(std::move(forces));
 }
 
-constexpr const char* kColumn = "numpy.typing.NDArray[numpy.float64]";
-
-std::string Property(const std::string& name, const std::string& type) {
-  return "def " + name + "(self) -> " + type;
-}
-
-void AddLog(nb::module_& module) {
-  nb::class_<Log> log(module, "Log");
-  for (const auto& [name, member] :
-       {std::pair("time", &Measurements::time), std::pair("position", &Measurements::position),
-        std::pair("velocity", &Measurements::velocity),
-        std::pair("torque", &Measurements::torque)}) {
-    log.def_prop_ro(
-        name,
-        [column = member](nb::handle self) {
-          return ViewOf(nb::cast<const Log&>(self).measurements().*column, self);
-        },
-        nb::sig(Property(name, kColumn).c_str()));
+/// E1 and, with a second stage, E2 after n steps at steady speeds, [n] N.m or N each, by Eq. (22). places: speed, position, load, step (s),
+/// first (E1) and second (E2), each [n].
+std::pair<nb::object, nb::object> StepHeat(nb::handle given,
+                                           const std::map<std::string, Given>& places) {
+  const FrictionModel model(FrictionOf(given));
+  const auto at = [&](const char* name, Index i) { return places.at(name).data()[i]; };
+  Eigen::VectorXd first(static_cast<Index>(places.at("speed").size())), second = first;
+  for (Index i = 0; i < first.size(); ++i) {
+    const auto twice = [](double value) { return Eigen::VectorXd::Constant(2, value).eval(); };
+    const JointTrajectory motion{.time = Eigen::Vector2d(0, at("step", i)),
+                                 .velocity = twice(at("speed", i)),
+                                 .position = twice(at("position", i)),
+                                 .load = twice(at("load", i))};
+    const FrictionState end = model.Along(motion, {at("first", i), at("second", i)}).end;
+    first[i] = end.energy;
+    second[i] = end.second_energy;
   }
-  for (const auto& [name, member] : {std::pair("motor_position", &Measurements::motor_position),
-                                     std::pair("load", &Measurements::load),
-                                     std::pair("temperature", &Measurements::temperature)}) {
-    log.def_prop_ro(
-        name,
-        [column = member](nb::handle self) {
-          const auto& given = nb::cast<const Log&>(self).measurements().*column;
-          return given ? ViewOf(*given, self) : nb::object(nb::none());
-        },
-        nb::sig(Property(name, std::string(kColumn) + " | None").c_str()));
-  }
-  log.def_prop_ro("size", [](const Log& self) { return self.measurements().size(); })
-      .def_prop_ro(
-          "joint", [](const Log& self) { return std::string(NameOf(self.measurements().joint)); },
-          nb::sig("def joint(self) -> typing.Literal['rotary', 'linear']"))
-      .def_prop_ro("gear", [](const Log& self) { return self.measurements().gear; })
-      .def_prop_ro("torque_unit", [](const Log& self) { return self.measurements().torque_unit; })
-      .def_prop_ro("source", [](const Log& self) { return self.measurements().source; })
-      .def_prop_ro("notes", [](const Log& self) { return self.measurements().notes; })
-      .def_prop_ro("files",
-                   [](const Log& self) {
-                     return self.source ? self.source->files : std::vector<std::string>{};
-                   })
-      .def("save", [](const Log& self, const std::string& file) {
-        WriteRecording(self.measurements(), file);
-      });
-  module.def("log_of_columns", &LogOfColumns,
-             nb::sig("def log_of_columns(columns: dict[str, numpy.typing.NDArray[numpy.float64]], "
-                     "settings: dict[str, object]) -> Log"));
-  module.def("read_log", &ReadLog, nb::sig("def read_log(settings: dict[str, object]) -> Log"));
-  module.def("join_logs", &JoinLogs);
-  module.def(
-      "check",
-      [](const Log& self) {
-        const RecordingCheck check = CheckRecording(self.prepared);
-        return std::pair(ToPython(Tree(CheckToJson(check))), CheckToText(check));
-      },
-      nb::sig("def check(log: Log) -> tuple[dict[str, typing.Any], str]"));
+  return {ToPython(std::move(first)), ToPython(std::move(second))};
 }
 
 void AddIdentification(nb::module_& module) {
   module.def("identify", &IdentifyInPython, nb::arg("log"), nb::arg("settings"), nb::arg("share"),
-             nb::arg("other").none(),
+             nb::arg("other").none(), nb::arg("watch").none(),
              nb::sig("def identify(log: Log, settings: dict[str, object], share: float, other: Log "
-                     "| None) -> dict[str, typing.Any]"));
+                     "| None, watch: collections.abc.Callable[[str], None] | None) -> dict[str, "
+                     "typing.Any]"));
   module.def("predict", &PredictInPython,
              nb::sig("def predict(estimate: dict[str, typing.Any], log: Log, energies: "
                      "list[float]) -> dict[str, typing.Any]"));
@@ -255,6 +230,14 @@ void AddIdentification(nb::module_& module) {
   module.def("figures", &FiguresInPython, nb::arg("estimate"), nb::arg("log").none(),
              nb::sig("def figures(estimate: dict[str, typing.Any], log: Log | None) -> dict[str, "
                      "dict[str, typing.Any]]"));
+  module.def("residuals", &ResidualsInPython,
+             nb::sig("def residuals(estimate: dict[str, typing.Any], log: Log) -> "
+                     "tuple[numpy.typing.NDArray[numpy.float64], "
+                     "numpy.typing.NDArray[numpy.float64]] | None"));
+  module.def("figure_names", &FigureNames);
+  module.def("recording", &RecordingInPython,
+             nb::sig("def recording(estimate: dict[str, typing.Any]) -> dict[str, typing.Any] | "
+                     "None"));
   module.def(
       "log_page", &LogPageInPython,
       nb::sig("def log_page(estimate: dict[str, typing.Any], log: Log) -> dict[str, typing.Any]"));
@@ -280,6 +263,11 @@ void AddFriction(nb::module_& module) {
       "force", &ForceAt,
       nb::sig("def force(given: dict[str, typing.Any], places: dict[str, "
               "numpy.typing.NDArray[numpy.float64]]) -> numpy.typing.NDArray[numpy.float64]"));
+  module.def("step_heat", &StepHeat,
+             nb::sig("def step_heat(given: dict[str, typing.Any], places: dict[str, "
+                     "numpy.typing.NDArray[numpy.float64]]) -> "
+                     "tuple[numpy.typing.NDArray[numpy.float64], "
+                     "numpy.typing.NDArray[numpy.float64]]"));
   module.def(
       "settled_energy",
       [](nb::handle given, double speed) { return SettledEnergy(FrictionOf(given), speed); },
@@ -290,18 +278,53 @@ void AddFriction(nb::module_& module) {
       nb::sig("def laws() -> list[dict[str, typing.Any]]"));
 }
 
+/// JSON has no numbers that are not finite.
+void RefuseNotFinite(const Tree& tree, const std::string& name) {
+  if (tree.is_number_float() && !std::isfinite(tree.get<double>())) {
+    Refuse({name}, "is {}; it must be a finite number", tree.get<double>());
+  }
+  if (!tree.is_structured()) return;
+  for (const auto& [key, entry] : tree.items()) {
+    RefuseNotFinite(entry, tree.is_object() ? name + "." + key : name);
+  }
+}
+
+void AddWords(nb::module_& module) {
+  module.def("in_python", &InPython);
+  module.def(
+      "calls_in",
+      [](const std::string& text) {
+        nb::list calls;
+        for (const Tree& call : CallsIn(text)) calls.append(ToPython(call));
+        return calls;
+      },
+      nb::sig("def calls_in(text: str) -> list[dict[str, typing.Any]]"));
+  module.def(
+      "to_json",
+      [](nb::handle value, const std::string& name) {
+        const Tree tree = ToTree(value, name);
+        RefuseNotFinite(tree, name);
+        return tree.dump();
+      },
+      nb::sig("def to_json(value: object, name: str) -> str"));
+  module.def("write_text",
+             [](const std::string& file, const std::string& text) { WriteWholeFile(file, text); });
+}
+
 }  // namespace
 }  // namespace warmjoint::python
 
 NB_MODULE(_core, module) {
   namespace nb = nanobind;
   using namespace warmjoint;
-  // refusals keep the program's text
+  // refusals keep the program's text, with arguments in place of options
   nb::exception<BadInput>(module, "BadInput", PyExc_ValueError);
   nb::exception<OutputFailed>(module, "OutputFailed", PyExc_OSError);
+  python::SpeakPython(module);
   module.attr("version") = Version();
-  python::AddLog(module);
+  python::AddLogs(module);
   python::AddIdentification(module);
   python::AddFriction(module);
+  python::AddWords(module);
   python::WaitAtExit();
 }

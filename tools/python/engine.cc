@@ -6,7 +6,6 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
-#include <warmjoint/errors.h>
 #include <warmjoint/simulation.h>
 #include <warmjoint/suite.h>
 
@@ -18,6 +17,7 @@
 
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
+#include "tools/python/words.h"
 
 namespace warmjoint::python {
 namespace {
@@ -91,16 +91,7 @@ NB_MODULE(_engine, module) {
   namespace nb = nanobind;
   using namespace warmjoint;
   // refusals are those of the package
-  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
-    const nb::module_ core = nb::module_::import_("warmjoint._core");
-    try {
-      std::rethrow_exception(thrown);
-    } catch (const BadInput& refusal) {
-      PyErr_SetString(core.attr("BadInput").ptr(), refusal.what());
-    } catch (const OutputFailed& failure) {
-      PyErr_SetString(core.attr("OutputFailed").ptr(), failure.what());
-    }
-  });
+  python::SpeakPython(nb::module_::import_("warmjoint._core"));
   module.def("simulate", &python::SimulateInPython, nb::arg("scenario"), nb::arg("set"),
              nb::arg("seed").none(), nb::arg("realization"),
              nb::sig("def simulate(scenario: str, set: list[tuple[str, str]], seed: int | None, "

@@ -20,9 +20,10 @@ inline std::vector<std::thread> abandoned_threads;
 struct Interrupted {};
 
 /// Calls work(stop) in a thread of its own, without the interpreter's lock, and raises what Python's signal handlers raise
-/// meanwhile (Ctrl-C). stop() throws once nobody waits; work must own what it uses.
-template <class Work>
-auto Interruptibly(Work work) {
+/// meanwhile (Ctrl-C), or watch(), which is called fifty times a second with the lock. stop() throws once nobody waits; work must own what
+/// it uses.
+template <class Work, class Watch>
+auto Interruptibly(Work work, const Watch& watch) {
   const auto abandoned = std::make_shared<std::atomic<bool>>(false);
   const auto stop = [abandoned] {
     if (*abandoned) throw Interrupted{};
@@ -35,14 +36,23 @@ auto Interruptibly(Work work) {
     nanobind::gil_scoped_release released;
     while (answer.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
       nanobind::gil_scoped_acquire held;
-      if (PyErr_CheckSignals() == 0) continue;
-      *abandoned = true;
-      abandoned_threads.push_back(std::move(thread));
-      throw nanobind::python_error();
+      try {
+        if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+        watch();
+      } catch (...) {
+        *abandoned = true;
+        abandoned_threads.push_back(std::move(thread));
+        throw;
+      }
     }
   }
   thread.join();
   return answer.get();
+}
+
+template <class Work>
+auto Interruptibly(Work work) {
+  return Interruptibly(std::move(work), [] {});
 }
 
 /// Lets the interpreter's end wait for what was abandoned.

@@ -14,8 +14,12 @@ namespace warmjoint::python {
 /// Numbers keep all their bits; null is None.
 nanobind::object ToPython(const Tree& tree);
 
-/// The inverse, also of numbers and arrays of NumPy and of paths. Throws BadInput with `name` for what is none of these.
+/// The inverse, also of numbers and arrays of NumPy and of paths. Throws BadInput with `name` for what is none of these, holds itself, is
+/// nested more than 64 levels deep, or holds whole numbers beyond 64 bits or texts that are no UTF-8.
 Tree ToTree(nanobind::handle value, const std::string& name);
+
+/// A text of Python as UTF-8. Throws BadInput with `name` for one with surrogates.
+std::string TextOf(nanobind::handle text, const std::string& name);
 
 /// A column as an array of NumPy that owns its memory, [N].
 nanobind::object ToPython(Eigen::VectorXd column);

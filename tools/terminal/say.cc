@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <numeric>
 
 #include "models/foundation/excerpt.h"
 
@@ -42,6 +43,32 @@ std::string MarkdownLine(const std::vector<std::string>& cells) {
     line += fmt::format(" {} |", escaped);
   }
   return line + "\n";
+}
+
+/// Of columns with two blanks between.
+size_t WidthOf(const std::vector<size_t>& widths, const std::vector<size_t>& columns) {
+  size_t total = columns.empty() ? 0 : 2 * (columns.size() - 1);
+  for (const size_t i : columns) total += widths[i];
+  return total;
+}
+
+/// The columns of each table that a wide one is printed as: the first `left` ones and as many others as a page of 80 columns has room for.
+std::vector<std::vector<size_t>> PartsOfPage(const std::vector<size_t>& widths, size_t left) {
+  std::vector<size_t> names(std::min(left, widths.size()));
+  std::iota(names.begin(), names.end(), size_t{0});
+  std::vector<std::vector<size_t>> parts{names};
+  for (size_t i = names.size(); i < widths.size(); ++i) {
+    std::vector<size_t> more = parts.back();
+    more.push_back(i);
+    const bool fits = WidthOf(widths, more) <= static_cast<size_t>(Page{}.width);
+    if (fits || parts.back().size() == names.size()) {
+      parts.back() = std::move(more);
+    } else {
+      parts.push_back(names);
+      parts.back().push_back(i);
+    }
+  }
+  return parts;
 }
 
 }  // namespace
@@ -82,21 +109,23 @@ std::string TableToText(const Table& given, size_t left) {
   }
 
   // text to the left, numbers to the right; no blanks at the end of a line
-  const auto line = [&](const std::vector<std::string>& cells) {
+  const auto line = [&](const std::vector<std::string>& cells, const std::vector<size_t>& part) {
     std::string text;
-    for (size_t i = 0; i < cells.size(); ++i) {
+    for (const size_t i : part) {
       const std::string blanks(widths[i] - Width(cells[i]), ' ');
-      text += (i > 0 ? "  " : "") + (i < left ? cells[i] + blanks : blanks + cells[i]);
+      text += (i != part.front() ? "  " : "") + (i < left ? cells[i] + blanks : blanks + cells[i]);
     }
     text.erase(text.find_last_not_of(' ') + 1);
     return text + "\n";
   };
 
   // the header, a rule below all columns, the rows
-  size_t total = widths.empty() ? 0 : 2 * (widths.size() - 1);
-  for (const size_t width : widths) total += width;
-  std::string text = line(table.header) + std::string(total, '-') + "\n";
-  for (const auto& row : table.rows) text += line(row);
+  std::string text;
+  for (const std::vector<size_t>& part : PartsOfPage(widths, left)) {
+    if (!text.empty()) text += "\n";
+    text += line(table.header, part) + std::string(WidthOf(widths, part), '-') + "\n";
+    for (const auto& row : table.rows) text += line(row, part);
+  }
   return text;
 }
 

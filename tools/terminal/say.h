@@ -43,7 +43,8 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Columns aligned with blanks: the first `left` ones to the left, the others to the right.
+/// Columns aligned with blanks: the first `left` ones to the left, the others to the right. Those that 80 columns of a terminal have no
+/// room for stand in further tables below, behind the first `left` ones again.
 std::string TableToText(const Table& table, size_t left);
 
 /// The same as a Markdown table.

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
-from warmjoint.engine import Run, Simulated, compare, run, score, simulate
-from warmjoint.estimate import Estimate, Parameter, Prediction, Rejected, identifiers, identify, load
+from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
+from warmjoint.estimate import Estimate, Parameter, Prediction, Rejected, Residuals, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
 from warmjoint.log import Check, Log, check, read
 
@@ -33,6 +33,10 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module 'warmjoint' has no attribute '{name}'")
 
 
-__all__ = ["BadInput", "Check", "Estimate", "Friction", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected", "Run",
-           "Simulated", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+__all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected", "Residuals", "Run",
+           "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
            "simulate"]

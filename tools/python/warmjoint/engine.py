@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import html
 import json
 import os
 import pathlib
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from warmjoint import _core
 from warmjoint.estimate import Estimate
 from warmjoint.log import Log
+from warmjoint.values import kind_of, path_of
+
+if TYPE_CHECKING:
+    import pandas
 
 Identifier = Callable[[Log], "Estimate | Mapping[str, Any]"]
 Progress = Callable[[int, int], None]
@@ -31,12 +36,12 @@ class Simulated:
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Writes recording.csv and truth.json, as `warmjoint simulate` does."""
-        path = pathlib.Path(folder)
+        path = pathlib.Path(path_of(folder, "folder"))
         path.mkdir(parents=True, exist_ok=True)
         self.log.save(path / "recording.csv")
         text = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in self.truth.items()}
         lines = ",\n".join(f" {json.dumps(name)}: {json.dumps(value)}" for name, value in text.items())
-        (path / "truth.json").write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
+        _core.write_text(os.fspath(path / "truth.json"), f"{{\n{lines}\n}}\n")
 
 
 def simulate(scenario: str | os.PathLike[str] | Mapping[str, Any], *, seed: int | None = None, realization: int = 0,
@@ -48,8 +53,8 @@ def simulate(scenario: str | os.PathLike[str] | Mapping[str, Any], *, seed: int 
 
     changes go over its entries. The same seed and realization give the same recording. Raises BadInput.
     """
-    set_ = [(key, json.dumps(value)) for key, value in changes.items()]
-    with _file_of(scenario) as path:
+    set_ = [(key, _core.to_json(value, key)) for key, value in changes.items()]
+    with _file_of(scenario, "scenario") as path:
         arguments, truth = _engine().simulate(path, set_, seed, realization)
     for name in ("velocity", "force", "loss", "energy"):
         truth[name] = np.asarray(truth[name], dtype=np.float64)
@@ -60,6 +65,8 @@ def score(estimate: Estimate, truth: Simulated | Mapping[str, Any], log: Log | N
     """An estimate against the truth: {continuous{parameter: {truth, estimate, estimated, interval95, covered, relative_error,
     bound}}, discrete, npe_continuous, npe_discrete, ...}. bound: Cramer-Rao standard deviation, SI. log: that it was identified
     from, where the estimate does not know it."""
+    if not isinstance(truth, (Simulated, Mapping)):
+        raise _core.BadInput(f"truth: is {kind_of(truth)}; give what simulate returns, or what truth.json holds")
     known = truth.truth if isinstance(truth, Simulated) else dict(truth)
     one = log or estimate.log or (truth.log if isinstance(truth, Simulated) else None)
     if one is None:
@@ -80,10 +87,11 @@ class Run:
     notice: str  # of joints that did not follow their motion
 
 
-def run(suite: str | os.PathLike[str], output: str | os.PathLike[str] | None = None, *,
+def run(suite: str | os.PathLike[str] | Mapping[str, Any], output: str | os.PathLike[str] | None = None, *,
         identifiers: Mapping[str, Identifier | None] | Iterable[str] = (), realizations: int | None = None,
         seed: int | None = None, jobs: int | None = None, progress: Progress | None = None) -> Run:
-    """Runs a suite (a name of `warmjoint list suites`, or a YAML file) into a directory, or goes on where an earlier run stopped.
+    """Runs a suite (a name of `warmjoint list suites`, a YAML file, or what such a file holds) into a directory, or goes on where an
+    earlier run stopped.
 
     identifiers: names, or {"mine": function, "energy-ml": None}. A function gets a Log and returns an Estimate or what an
     estimate.json holds; it is judged as our own are. output: a new temporary directory where it is left out. progress is called
@@ -93,23 +101,33 @@ def run(suite: str | os.PathLike[str], output: str | os.PathLike[str] | None = N
     functions = {name: _answer(function) for name, function in named.items() if function is not None}
     options: dict[str, object] = {"identifiers": [name for name, function in named.items() if function is None]}
     options |= {name: value for name, value in (("realizations", realizations), ("seed", seed), ("jobs", jobs)) if value is not None}
-    directory = pathlib.Path(output) if output is not None else pathlib.Path(tempfile.mkdtemp(prefix="warmjoint_"))
-    ending = _engine().run(os.fspath(suite), os.fspath(directory), options, functions, progress or (lambda done, of: None))
+    directory = pathlib.Path(path_of(output, "output") if output is not None else tempfile.mkdtemp(prefix="warmjoint_"))
+    with _file_of(suite, "suite") as path:
+        ending = _engine().run(path, os.fspath(directory), options, functions, progress or (lambda done, of: None))
     return Run(directory, **ending)
 
 
-def compare(run: Run | str | os.PathLike[str]) -> Any:
-    """The leaderboard of a run, best identifier first: a pandas DataFrame where pandas is, else a list of dicts. Both are what
-    `warmjoint compare --format json` prints of `rows`."""
-    directory = run.directory if isinstance(run, Run) else run
-    board = json.loads(_engine().leaderboard(os.fspath(directory), "json"))
-    rows = [_flat(row) | ({"variant": group["variant"]} if "variant" in group else {})
-            for group in board.get("groups", [board]) for row in group["rows"]]
-    try:
+class Board(list[dict[str, Any]]):
+    """A leaderboard: a list of rows, best identifier first, each a dict."""
+
+    def to_pandas(self) -> pandas.DataFrame:
         import pandas
-    except ImportError:
-        return rows
-    return pandas.DataFrame(rows)
+
+        return pandas.DataFrame(list(self))
+
+    def _repr_html_(self) -> str:
+        names = list(dict.fromkeys(name for row in self for name in row))
+        rows = "".join("<tr>" + "".join(f"<td>{html.escape(_cell(row.get(name)))}</td>" for name in names) + "</tr>" for row in self)
+        return "<table><tr>" + "".join(f"<th>{html.escape(name)}</th>" for name in names) + f"</tr>{rows}</table>"
+
+
+def compare(run: Run | str | os.PathLike[str]) -> Board:
+    """The leaderboard of a run, best identifier first: what `warmjoint compare --format json` prints of `rows`, as a list of dicts with
+    to_pandas()."""
+    directory = run.directory if isinstance(run, Run) else path_of(run, "run")
+    board = json.loads(_engine().leaderboard(os.fspath(directory), "json"))
+    return Board(_flat(row) | ({"variant": group["variant"]} if "variant" in group else {})
+                 for group in board.get("groups", [board]) for row in group["rows"])
 
 
 def require_mujoco() -> None:
@@ -136,23 +154,28 @@ def _engine() -> ModuleType:
 
 
 @contextlib.contextmanager
-def _file_of(scenario: str | os.PathLike[str] | Mapping[str, Any]) -> Iterator[str]:
-    """The path of a scenario; of one that is given as a dict that of a temporary file."""
-    if not isinstance(scenario, Mapping):
-        yield os.fspath(scenario)
+def _file_of(given: str | os.PathLike[str] | Mapping[str, Any], argument: str) -> Iterator[str]:
+    """The path of a scenario or a suite; of one that is given as a dict that of a temporary file."""
+    if not isinstance(given, Mapping):
+        yield path_of(given, argument)
         return
+    text = _core.to_json(dict(given), argument)
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
-        path = pathlib.Path(folder) / "scenario.yaml"
-        path.write_text(json.dumps(dict(scenario)), encoding="utf-8")
+        path = pathlib.Path(folder) / f"{argument}.yaml"
+        path.write_text(text, encoding="utf-8")
         yield os.fspath(path)
 
 
 def _answer(function: Identifier) -> Callable[[dict[str, Any]], str]:
     def answer(arguments: dict[str, Any]) -> str:
         estimate = function(Log(**arguments))
-        return estimate.to_json() if isinstance(estimate, Estimate) else json.dumps(dict(estimate))
+        return estimate.to_json() if isinstance(estimate, Estimate) else _core.to_json(dict(estimate), "estimate")
 
     return answer
+
+
+def _cell(value: Any) -> str:
+    return "" if value is None else f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _flat(row: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

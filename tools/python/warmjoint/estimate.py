@@ -6,15 +6,28 @@ import dataclasses
 import html
 import math
 import os
-from collections.abc import Sequence
-from typing import Any, Literal
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
 from warmjoint.friction import Friction, settled_energies
-from warmjoint.log import Array, Log
+from warmjoint.log import READING, Log, log_of
+from warmjoint.values import Array, kind_of, number, numbers, path_of
+
+if TYPE_CHECKING:
+    import pandas
+
+VOID = ("bad_data", "not_identifiable", "not_converged")  # statuses without numbers
+
+
+class Void(UserWarning):
+    """A number was asked for that the estimate does not have: it is nan."""
 
 
 class Rejected(RuntimeError):
@@ -23,7 +36,8 @@ class Rejected(RuntimeError):
 
 @dataclasses.dataclass(frozen=True)
 class Parameter:
-    """An estimated parameter in SI. std and ci95 (95 % confidence interval) are None where they do not exist."""
+    """An estimated parameter in SI. std and ci95 (95 % confidence interval) are None where they do not exist; value is nan where the
+    log or the motion cannot tell it."""
 
     name: str
     value: float
@@ -47,16 +61,34 @@ class Prediction:
     metrics: dict[str, float]  # rmse and mae in N.m or N, fit in %
 
 
+@dataclasses.dataclass(frozen=True)
+class Residuals:
+    """What a fit leaves of the torque at the n samples that it takes."""
+
+    time: Array  # [n] s
+    torque: Array  # [n] torque less fit, N.m or N
+
+
 class Estimate:
     """What an identifier answers. `data` is estimate.json as a dict.
 
     `status` is ok, not_converged, not_identifiable, inadequate_model or bad_data; but for ok there are no numbers to use, and
-    `message` says why and what helps. estimate["coulomb"] is a Parameter.
+    `message` says why and what helps. estimate["coulomb"] is a Parameter; its value is nan, with a warning, of an estimate that is
+    bad_data, not_identifiable or not_converged and was not made or loaded with force=True. Estimates can be pickled and copied.
     """
 
-    def __init__(self, data: dict[str, Any], log: Log | None = None) -> None:
+    def __init__(self, data: dict[str, Any], log: Log | None = None, force: bool = False) -> None:
         self.data = data
-        self.log = log
+        self.force = force
+        self._log = log
+
+    @property
+    def log(self) -> Log | None:
+        """The log that it was identified from; of a loaded estimate its recording, read again where its files are there, else None."""
+        recording = _core.recording(self.data) if self._log is None else None
+        if recording and recording["files"] and all(map(os.path.exists, recording["files"])):
+            self._log = Log._of(_core.read_log(recording))
+        return self._log
 
     @property
     def status(self) -> str:
@@ -68,7 +100,21 @@ class Estimate:
 
     @property
     def message(self) -> str:
-        return str(self.data["message"])
+        """Why, and what helps, with arguments of Python's functions; `data` has the program's own words."""
+        return _core.in_python(str(self.data["message"]))
+
+    @property
+    def warnings(self) -> list[str]:
+        """What must be known before the numbers are used, a clause each."""
+        return [_core.in_python(one) for one in self.data.get("warnings", [])]
+
+    @property
+    def remedies(self) -> list[dict[str, Any]]:
+        """What the message recommends to try, as arguments: wj.identify(log, **estimate.remedies[0]); those that say how a file is read,
+        as scale, are for read, or for identify with a path."""
+        calls = [{name: value for name, value in call.items() if name not in ("relevance", "force")}
+                 for call in _core.calls_in(str(self.data["message"]))]
+        return [call for i, call in enumerate(calls) if call and call not in calls[:i]]
 
     @property
     def identifier(self) -> str:
@@ -77,15 +123,44 @@ class Estimate:
     @property
     def parameters(self) -> dict[str, Parameter]:
         """Each estimated parameter by its name."""
-        return {name: Parameter(name, _number(row["value"]), row["unit"], row.get("std"),
-                                tuple(row["interval95"]) if row.get("interval95") else None)
-                for name, row in self.data["parameters"].items()}
+        self._warn_of_void()
+        return self._rows()
 
     def __getitem__(self, name: str) -> Parameter:
-        found = self.parameters
+        found = self._rows()
         if name not in found:
             raise KeyError(f"'{name}' was not estimated; there are {', '.join(found) or 'no parameters: ' + self.message}")
+        self._warn_of_void()
         return found[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.data["parameters"]
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the parameters."""
+        return iter(self.data["parameters"])
+
+    @property
+    def covariance(self) -> tuple[list[str], Array] | None:
+        """Names [p] and covariance [p, p] of the parameters that have intervals, by noise alone; None where there is none."""
+        known = self.data.get("covariance")
+        return (list(known["parameters"]), np.array(known["matrix"], dtype=np.float64)) if known else None
+
+    @property
+    def residuals(self) -> Residuals:
+        """Torque less fit. Raises Rejected where there is no friction, BadInput without the log."""
+        found = _core.residuals(self.data, self._need_log("residuals")._core)
+        if found is None:
+            raise Rejected(self.message)
+        return Residuals(*found)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame of the parameters: value, std, lower, upper (95 % interval), unit."""
+        import pandas
+
+        rows = {one.name: {"value": one.value, "std": math.nan if one.std is None else one.std, "lower": (one.ci95 or (math.nan,))[0],
+                           "upper": (one.ci95 or (math.nan,))[-1], "unit": one.unit} for one in self._rows().values()}
+        return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "std", "lower", "upper", "unit"])
 
     @property
     def metrics(self) -> dict[str, float]:
@@ -121,14 +196,19 @@ class Estimate:
         half = 1.96 * self._deviation(fitted, speed, position, heat)
         return value, value - half, value + half
 
-    def temperature_rise(self, heat: npt.ArrayLike | None = None, watts_per_kelvin: float | None = None) -> Any:
-        """How warm the friction has become, at `heat` (E, N.m or N; that at the end of the log where it is left out).
+    def loss(self, heat: npt.ArrayLike | None = None) -> Any:
+        """The constant loss in W that would hold a heat E, N.m or N: E / k with the thermal gain k, since E = k W. heat: that at the end
+        of the log where it is left out."""
+        energy = self.state_end if heat is None else numbers("heat", heat)
+        return energy / self["thermal_gain"].value
 
-        E = k W, with k the thermal gain: E / k is the constant loss in W that would hold this heat. Over the joint's
-        thermal conductance, watts_per_kelvin, that is the rise in K; without it the loss itself is given."""
-        energy = self.state_end if heat is None else np.asarray(heat, dtype=np.float64)
-        loss = energy / self["thermal_gain"].value
-        return loss if watts_per_kelvin is None else loss / watts_per_kelvin
+    def temperature_rise(self, watts_per_kelvin: float, heat: npt.ArrayLike | None = None) -> Any:
+        """How much warmer the joint is than its surroundings, K, at a heat E (N.m or N; that at the end of the log where it is left out):
+        its loss over the joint's thermal conductance."""
+        conductance = number("watts_per_kelvin", watts_per_kelvin)
+        if not conductance > 0:
+            raise _core.BadInput(f"watts_per_kelvin: is {conductance:g}; it must be above 0 W/K")
+        return self.loss(heat) / conductance
 
     @property
     def state_end(self) -> float:
@@ -139,7 +219,7 @@ class Estimate:
     def predict(self, log: Log, initial: Literal["cold", "end"] | float = "cold") -> Prediction:
         """The torque along another log of the joint. initial: heat at its first sample: cold, the end of this estimate's own log, or
         the heat that sliding at a speed (rad/s or m/s) settles at. Raises BadInput where nothing can be compared."""
-        found = _core.predict(self.data, log._core, self._energies(initial))
+        found = _core.predict(self.data, log_of(log)._core, self._energies(initial))
         return Prediction(found["time"], found["torque"], found["energy"], found["compared"] > 0, found["metrics"])
 
     def figures(self) -> dict[str, dict[str, Any]]:
@@ -156,35 +236,55 @@ class Estimate:
         found = self.figures()
         name = figure or ("fit" if ax is None else "friction_curve")
         if name not in found:
-            raise _core.BadInput(f"figure: this estimate gives no '{name}'; it gives {', '.join(found)}")
+            if name in _core.figure_names() and self.log is None:
+                self._need_log(f"figure: '{name}'")
+            raise _core.BadInput(f"figure: this estimate gives no {name!a}; it gives {', '.join(found)}")
         return draw.draw(found[name], style=style, ax=ax)
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes one self-contained web page: verdict, what to do next, parameters, the log, pictures, tests and assumptions."""
         from warmjoint import draw, page
 
-        if self.log is None:
-            raise _core.BadInput("report: the estimate comes from a file; identify its log again, or use `warmjoint report`")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(page.fill("log", _core.log_page(self.data, self.log._core), draw))
+        log = self._need_log("report")
+        _core.write_text(path_of(path), page.fill("log", _core.log_page(self.data, log._core), draw))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes estimate.json, which `warmjoint attach`, scenarios and the plugin read."""
-        _core.write_estimate(self.data, os.fspath(path))
+        _core.write_estimate(self.data, path_of(path))
 
     def to_json(self) -> str:
         """The text of estimate.json."""
         return _core.estimate_to_json(self.data)
 
     def __repr__(self) -> str:
-        return "\n".join([f"<Estimate by {self.identifier}: {self.status}>", *(f"  {one!r}" for one in self.parameters.values()),
+        return "\n".join([f"<Estimate by {self.identifier}: {self.status}>", *(f"  {one!r}" for one in self._rows().values()),
                           f"  {self.message}"])
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{one.name}</th><td>{one.value:.5g}</td><td>{_interval(one)}</td><td>{one.unit}</td></tr>"
-                       for one in self.parameters.values())
+                       for one in self._rows().values())
         return (f"<p><b>{self.status}</b> ({html.escape(self.identifier)}): {html.escape(self.message)}</p>"
                 f"<table><tr><th>parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>{rows}</table>")
+
+    def _rows(self) -> dict[str, Parameter]:
+        void = self._is_void()
+        return {name: Parameter(name, math.nan if void else _number(row["value"]), row["unit"], None if void else row.get("std"),
+                                tuple(row["interval95"]) if row.get("interval95") and not void else None)
+                for name, row in self.data["parameters"].items()}
+
+    def _is_void(self) -> bool:
+        return self.status in VOID and not self.force
+
+    def _warn_of_void(self) -> None:
+        if self._is_void() and self.data["parameters"]:
+            warnings.warn(f"{self.status}: {self.message}; values are nan, force=True gives the numbers", Void, stacklevel=3)
+
+    def _need_log(self, what: str) -> Log:
+        if self.log is not None:
+            return self.log
+        files = (_core.recording(self.data) or {}).get("files")
+        why = f"its recording {', '.join(files)} is not there" if files else "it was not made of a file"
+        raise _core.BadInput(f"{what} needs the log, and {why}; give it: load(path, log=wj.read(...))")
 
     def _energies(self, initial: str | float) -> list[float]:
         if initial == "cold":
@@ -193,8 +293,8 @@ class Estimate:
             rows = self.data.get("state_end") or {}
             return [float(rows[name]["value"]) for name in ("energy", "second_energy") if name in rows]
         if isinstance(initial, str):
-            raise _core.BadInput(f"initial: is '{initial}'; it must be cold, end or a speed")
-        return settled_energies(self.data["friction"], float(initial))
+            raise _core.BadInput(f"initial: is {initial!a}; it must be cold, end or a speed")
+        return settled_energies(self.fitted.data, number("initial", initial))
 
     def _deviation(self, fitted: Friction, *place: npt.ArrayLike) -> Array:
         """Standard deviation of the friction at places: sqrt(d^T C d), d its derivatives by the parameters, C their correlations
@@ -223,22 +323,60 @@ class Estimate:
         return spread
 
 
-def identify(log: Log | Sequence[Log], method: str = "auto", *, gravity: Literal["none", "sincos", "paired"] = "none",
-             motion: Literal["chosen", "constant", "any"] = "chosen", start: Literal["cold", "unknown", "estimated"] = "cold",
-             relevance: float = 0.1, holdout: float | Log = 0.3, force: bool = False, **options: Any) -> Estimate:
+def identify(log: Log | str | os.PathLike[str] | Sequence[Any] | Any, method: str = "auto", *,
+             gravity: Literal["none", "sincos", "paired"] = "none", motion: Literal["chosen", "constant", "any"] = "chosen",
+             start: Literal["cold", "unknown", "estimated"] = "cold", relevance: float = 0.1, holdout: float | Log | Any = 0.3,
+             force: bool = False, progress: bool | Callable[[str], object] | None = None, **options: Any) -> Estimate:
     """Friction from a log, or from several of one joint, each from a cold start: what `warmjoint identify` does.
 
-    method: one of identifiers(); options: its own, as law="asymmetric". gravity, motion, start, relevance and force are the options of
-    the program. holdout: a share of the log's end, or another log, for figures on unseen data; 0: none. Mathematics that
-    fails gives a status and a message; BadInput is raised for names and values that cannot be used. Other threads run meanwhile,
-    and Ctrl-C ends it.
+    log: a Log, the path of a file, a data frame, or a list of these; of a path or a frame options may hold arguments of read, as
+    unit={"position": "deg"}. method: one of identifiers(); options: its own, as law="asymmetric". gravity, motion, start, relevance and
+    force are the options of the program. holdout: a share of the log's end, or another log, for figures on unseen data; 0: none.
+    progress: True prints to stderr what a fit tries, a function is called with it some times a second; where it is left out, fits that
+    last are told of on a terminal. Mathematics that fails gives a status and a message; BadInput is raised for names and values that
+    cannot be used. Other threads run meanwhile, and Ctrl-C ends it.
     """
-    one = log if isinstance(log, Log) else Log._of(_core.join_logs([each._core for each in log]))
+    one = log_of(log, **{name: options.pop(name) for name in READING if name in options})
     settings = {"identifier": method, "gravity": gravity, "motion": motion, "start": start, "relevance": relevance,
                 "void_numbers": "show" if force else "withhold",
-                "options": {name: _word(value) for name, value in options.items()}}
-    share, other = (0.0, holdout._core) if isinstance(holdout, Log) else (float(holdout), None)
-    return Estimate(_core.identify(one._core, settings, share, other), one)
+                "options": {name: _word(name, value) for name, value in options.items()}}
+    if isinstance(holdout, (int, float, np.number)) and not isinstance(holdout, bool):
+        share, other = number("holdout", holdout), None
+    else:
+        share, other = 0.0, log_of(holdout, "holdout")._core
+    with _Progress(progress) as told:
+        return Estimate(_core.identify(one._core, settings, share, other, told), one, bool(force))
+
+
+class _Progress:
+    """Tells what a fit tries: to a function, or on one line of stderr, which it clears in the end."""
+
+    def __init__(self, wanted: bool | Callable[[str], object] | None) -> None:
+        if wanted is not None and not isinstance(wanted, bool) and not callable(wanted):
+            raise _core.BadInput(f"progress: is {kind_of(wanted)}; give True, False or a function of a text")
+        self._function = wanted if callable(wanted) else None
+        self._is_on = bool(wanted) or (wanted is None and sys.stderr is not None and sys.stderr.isatty())
+        self._begin, self._shown, self._width = time.monotonic(), "", 0
+
+    def __enter__(self) -> Callable[[str], None] | None:
+        return self._tell if self._is_on else None
+
+    def __exit__(self, *_: object) -> None:
+        if self._width:
+            print("\r" + " " * self._width, end="\r", file=sys.stderr, flush=True)
+
+    def _tell(self, words: str) -> None:
+        seconds = time.monotonic() - self._begin
+        if self._function:
+            if words != self._shown:
+                self._function(words)
+            self._shown = words
+            return
+        # fits that last alone, and not more often than can be read
+        line = f"warmjoint: {seconds:.0f} s{', ' + words if words else ''}"[:79]
+        if seconds > 2 and line != self._shown:
+            print("\r" + line.ljust(self._width), end="", file=sys.stderr, flush=True)
+            self._shown, self._width = line, max(self._width, len(line))
 
 
 def identifiers() -> dict[str, Any]:
@@ -249,16 +387,25 @@ def identifiers() -> dict[str, Any]:
             for one in _core.identifiers()}
 
 
-def load(path: str | os.PathLike[str]) -> Estimate:
-    """Reads estimate.json. Raises BadInput."""
-    return Estimate(_core.read_estimate(os.fspath(path)))
+def load(path: str | os.PathLike[str], log: Log | Any = None, force: bool = False) -> Estimate:
+    """Reads estimate.json. log: the recording that it was identified from, for its figures; without it the files that the estimate
+    names are read where they are there. force: as of identify. Raises BadInput."""
+    data = _core.read_estimate(path_of(path))
+    return Estimate(data, None if log is None else log_of(log), force)
 
 
-def _word(value: Any) -> str:
+def _word(name: str, value: Any) -> str:
     """An option as the command line has it."""
-    if isinstance(value, (tuple, list)):
-        return ":".join(map(_word, value))
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    parts = value if isinstance(value, (tuple, list)) else [value]
+    words = []
+    for part in parts:
+        if not isinstance(part, (str, bool, int, float, np.number, np.bool_)):
+            raise _core.BadInput(f"{name}: is {kind_of(part)}; give a number or a text")
+        try:
+            words.append(str(part).lower() if isinstance(part, (bool, np.bool_)) else str(part))
+        except ValueError:  # of whole numbers with thousands of digits
+            raise _core.BadInput(f"{name}: is a whole number beyond 64 bits; give a smaller one") from None
+    return ":".join(words)
 
 
 def _number(value: float | None) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
-from warmjoint.log import Array
+from warmjoint.values import Array, number, numbers, path_of, together
 
 # heat and what joins a law, which a friction file keeps apart from the law's own parameters
 THERMAL = ("thermal_gain", "thermal_time_constant", "ambient", "second")
@@ -46,7 +46,7 @@ class Friction:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Friction:
         """Reads a friction file, or the friction of an estimate file."""
-        return cls.from_dict(_core.read_friction(os.fspath(path)))
+        return cls.from_dict(_core.read_friction(path_of(path)))
 
     @property
     def law(self) -> str:
@@ -61,16 +61,39 @@ class Friction:
                  load: npt.ArrayLike = 0.0) -> Array:
         """Friction of steady sliding, N.m or N, at speed (rad/s or m/s, signed), position (rad or m), heat E (N.m or N; 0: cold)
         and transmitted load (N.m or N). Arguments of any shapes that NumPy broadcasts; so is the result. 0 at speed 0."""
-        given = np.broadcast_arrays(*(np.asarray(one, dtype=np.float64) for one in (speed, position, heat, load)))
-        names = ("speed", "position", "energy", "load")
-        places = {name: np.ascontiguousarray(one.ravel()) for name, one in zip(names, given, strict=True)}
-        return np.asarray(_core.force(self.data, places)).reshape(given[0].shape)
+        given = together(speed=speed, position=position, energy=heat, load=load)
+        return np.asarray(_core.force(self.data, _flat(given))).reshape(given["speed"].shape)
 
-    def settled_heat(self, speed: float) -> float | None:
-        """E of a joint that has slid at `speed` (rad/s or m/s) for long, N.m or N; 0 without warming, None where the losses
-        grow for ever."""
-        energies = _core.settled_energy(self.data, speed)
-        return None if energies is None else float(sum(energies))
+    def settled_heat(self, speed: npt.ArrayLike) -> Any:
+        """E of a joint that has slid at `speed` (rad/s or m/s) for long, N.m or N; 0 without warming. Where the losses grow for ever
+        None, of an array of speeds NaN."""
+        speeds = numbers("speed", speed)
+        settled = [_core.settled_energy(self.data, float(one)) for one in speeds.reshape(-1)]
+        if speeds.ndim == 0:
+            return None if settled[0] is None else float(sum(settled[0]))
+        return np.array([np.nan if one is None else sum(one) for one in settled]).reshape(speeds.shape)
+
+    def step(self, heat: npt.ArrayLike, speed: npt.ArrayLike, dt: npt.ArrayLike, position: npt.ArrayLike = 0.0,
+             load: npt.ArrayLike = 0.0) -> Any:
+        """E, N.m or N, after dt (s) of sliding at a steady speed (rad/s or m/s), for a controller or a simulation of one's own:
+        Eq. (22), E' = E exp(-dt/tau) + k (1 - exp(-dt/tau)) W with the loss W = |F v| at the beginning. heat: E before. Arguments of any
+        shapes that NumPy broadcasts; with a second stage of warming heat has a last axis of 2, E1 and E2, and so has what is returned.
+
+            torque = friction(speed, heat=heat)
+            heat = friction.step(heat, speed, dt=0.001)
+        """
+        energies = numbers("heat", heat)
+        has_two = "second" in self.data.get("thermal", {})
+        if has_two and (energies.ndim == 0 or energies.shape[-1] != 2):
+            raise _core.BadInput("heat: this friction warms in two stages; give E1 and E2, [..., 2]")
+        first, second = (energies[..., 0], energies[..., 1]) if has_two else (energies, np.zeros_like(energies))
+        given = together(first=first, second=second, speed=speed, step=dt, position=position, load=load)
+        if not (given["step"] > 0).all():
+            raise _core.BadInput("dt: must be above 0 s")
+        after = [np.asarray(one).reshape(given["first"].shape) for one in _core.step_heat(self.data, _flat(given))]
+        if has_two:
+            return np.stack(after, axis=-1)
+        return after[0] if after[0].ndim else float(after[0])
 
     def to_json(self) -> str:
         """The text of a friction file."""
@@ -78,8 +101,7 @@ class Friction:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a friction file."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.to_json())
+        _core.write_text(path_of(path), self.to_json())
 
     def changed(self, name: str, by: float) -> Friction:
         """The same with one parameter, named as in estimates, changed by `by`."""
@@ -88,7 +110,7 @@ class Friction:
         if found is None:
             raise _core.BadInput(f"'{name}' is no parameter of this friction; it has {', '.join(data['parameters'])}")
         holder, key = found
-        holder[key] = holder.get(key, 0) + by
+        holder[key] = holder.get(key, 0) + number("by", by)
         return Friction.from_dict(data)
 
     def __eq__(self, other: object) -> bool:
@@ -110,6 +132,10 @@ def place_of(data: dict[str, Any], name: str) -> tuple[dict[str, Any], str] | No
     if name in heat:
         return heat, name
     return (data, name) if name in OPTIONS else None
+
+
+def _flat(given: dict[str, Array]) -> dict[str, Array]:
+    return {name: np.ascontiguousarray(values.reshape(-1)) for name, values in given.items()}
 
 
 def settled_energies(data: dict[str, Any], speed: float) -> list[float]:

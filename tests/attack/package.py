@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""Some 2,500 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
+
+Each call gives an answer or raises an exception that says what is wrong: BadInput, TypeError of a wrong signature, KeyError of a name,
+Rejected. A RuntimeError, an exception of the inside, a text with options of the command line, or the end of the process is a fault.
+"""
+
+import array
+import datetime
+import decimal
+import fractions
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import types
+import warnings
+
+SECONDS = 120  # of a group
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
+
+
+def samples():
+    import numpy as np
+
+    t = np.arange(600.0)
+    v = np.where(t // 20 % 2, -1.0, 1.0) * (1 + t // 40 % 3)
+    q = np.concatenate([[0], np.cumsum(v[:-1])])
+    return {"time": t, "position": q, "velocity": v, "torque": 4.5 * np.sign(v) + 0.8 * v + 0.05 * np.sin(9 * t)}
+
+
+def resident():
+    """Bytes of this process in memory."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def many(count):
+    """Bytes by which the memory grows from a tenth of `count` identifications on."""
+    import warmjoint as wj
+
+    for i in range(count):
+        wj.identify(wj.Log(**samples()), "nominal-ls")
+        if i == count // 10:
+            before = resident()
+    print("grown", resident() - before)
+
+
+def oddities():
+    """Values that are no column, no number, no name and no file, by what they are."""
+    import numpy as np
+
+    held = []
+    held.append(held)
+    of_itself = {}
+    of_itself["parameters"] = of_itself
+    twice = {}
+    twice["a"] = twice["b"] = twice
+    deep = []
+    for _ in range(100_000):
+        deep = [deep]
+    laughs = [1.0]
+    for _ in range(60):
+        laughs = [laughs, laughs]
+    return {
+        "None": None, "True": True, "text": "x", "empty text": "", "bytes": b"\xff", "surrogate": "\udcff", "null": "a\0b", "huge": 10**30,
+        "longer": 10**5000, "nan": float("nan"), "inf": float("inf"), "complex": 1j, "object": object(), "type": int, "module": os,
+        "function": len, "list": [], "tuple": (), "dict": {}, "set": {1}, "nested": [[1, [2]]], "held": held, "of itself": of_itself,
+        "twice": twice, "deep": deep, "laughs": laughs, "generator": (i for i in range(3)), "range": range(3), "memory": memoryview(b"abc"),
+        "array": array.array("d", [1, 2]), "date": datetime.date(2024, 1, 1), "decimal": decimal.Decimal("NaN"),
+        "fraction": fractions.Fraction(1, 3), "0-d": np.array(1.0), "2-d": np.zeros((3, 4)), "ragged": [[1], [1, 2]],
+        "complex array": np.zeros(600, complex), "booleans": np.zeros(600, bool), "words": np.array(["x"] * 600),
+        "dates": np.zeros(600, "M8[s]"), "empty": np.array([]), "nans": np.full(600, np.nan), "infs": np.full(600, np.inf),
+        "strided": np.arange(1200.0)[::2], "big-endian": np.arange(600.0).astype(">f8"), "half": np.arange(600).astype(np.float16),
+        "void": np.zeros(600, "V8"), "records": np.zeros(600, [("a", float)]), "tolist": types.SimpleNamespace(tolist=lambda: held),
+        "raises": types.SimpleNamespace(__array__=None, tolist=lambda: 1 / 0),
+    }
+
+
+def calls(group, folder):
+    """(name, call) of a group."""
+    import warmjoint as wj
+
+    log = wj.Log(**samples())
+    estimate = wj.identify(log, "nominal-ls")
+    saved = os.path.join(folder, "estimate.json")
+    estimate.save(saved)
+    friction = wj.Friction(viscous=1, coulomb=2, thermal_gain=-0.1, thermal_time_constant=50)
+    odd = oddities()
+    if group == "columns":
+        for name, value in odd.items():
+            for column in ("time", "position", "velocity", "torque", "load", "temperature"):
+                yield f"Log({column}={name})", lambda c=column, v=value: wj.Log(**{**samples(), c: v})
+    elif group == "settings":
+        for name, value in odd.items():
+            for setting in ("joint", "unit", "scale", "gear", "torque_constant", "wrap", "trim", "shortest_hold", "name", "rate"):
+                yield f"Log({setting}={name})", lambda s=setting, v=value: wj.Log(**samples(), **{s: v})
+    elif group == "files":
+        for name, value in odd.items():
+            for function in (wj.read, wj.load, wj.Friction.load, log.save, estimate.save, friction.save, estimate.report, wj.compare):
+                yield f"{function.__name__}({name})", lambda f=function, v=value: f(v)
+            yield f"read(map={name})", lambda v=value: wj.read(saved, map=v)
+            yield f"read(columns={name})", lambda v=value: wj.read(saved, columns=v)
+    elif group == "identify":
+        for name, value in odd.items():
+            yield f"identify({name})", lambda v=value: wj.identify(v)
+            for argument in ("method", "gravity", "motion", "start", "relevance", "holdout", "progress", "law", "torque_lag", "unit", "nonsense"):
+                yield f"identify({argument}={name})", lambda a=argument, v=value: wj.identify(log, **{"method": "nominal-ls", a: v})
+            yield f"check({name})", lambda v=value: wj.check(v)
+    elif group == "friction":
+        for name, value in odd.items():
+            yield f"Friction({name})", lambda v=value: wj.Friction(v)
+            for argument in ("coulomb", "viscous", "thermal_gain", "thermal_time_constant", "gear", "maps", "second"):
+                yield f"Friction({argument}={name})", lambda a=argument, v=value: wj.Friction(**{"viscous": 1, "coulomb": 1, a: v})
+            yield f"from_dict({name})", lambda v=value: wj.Friction.from_dict(v)
+            yield f"from_dict(maps={name})", lambda v=value: wj.Friction.from_dict({"law": "coulomb", "parameters": {"coulomb": 1}, "maps": v})
+            for method in ("__call__", "settled_heat"):
+                yield f"friction.{method}({name})", lambda m=method, v=value: getattr(friction, m)(v)
+            for argument in ("heat", "speed", "dt", "position", "load"):
+                arguments = {"heat": 0, "speed": 1, "dt": 1}
+                yield f"step({argument}={name})", lambda a=argument, v=value, g=arguments: friction.step(**{**g, a: v})
+            yield f"changed({name})", lambda v=value: friction.changed("coulomb", v)
+            yield f"changed(of {name})", lambda v=value: friction.changed(v, 1)
+    elif group == "estimate":
+        for name, value in odd.items():
+            for method in ("friction", "predict", "plot", "__getitem__", "__contains__", "temperature_rise", "loss"):
+                yield f"estimate.{method}({name})", lambda m=method, v=value: getattr(estimate, m)(v)
+            yield f"predict(initial={name})", lambda v=value: estimate.predict(log, v)
+            yield f"score({name})", lambda v=value: wj.score(estimate, v)
+            for member in ("status", "parameters", "friction", "covariance", "identifier", "recording", "trace"):
+                broken = {**estimate.data, member: value}
+                yield f"Estimate({member}={name})", lambda d=broken: wj.Estimate(d, log).to_json()
+            yield f"log[{name}]", lambda v=value: log[v]
+    else:
+        for name, value in odd.items():
+            yield f"simulate({name})", lambda v=value: wj.simulate(v)
+            for argument in ("friction", "motion", "duration", "noise", "seed", "realization"):
+                yield f"simulate({argument}={name})", lambda a=argument, v=value: wj.simulate(
+                    {"friction": {"law": "coulomb", "parameters": {"coulomb": 2}}, "motion": {"speeds": [0.5, 1], "hold": 5}, "duration": 20},
+                    **{a: v})
+            yield f"run({name})", lambda v=value: wj.run(v, os.path.join(folder, "run"), realizations=1)
+
+
+GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "engine"]
+
+
+def inside(group):
+    """Makes the calls of a group: a line with the name of each before it is made, and one with its fault."""
+    import warmjoint as wj
+
+    allowed = (wj.BadInput, wj.Rejected, TypeError, KeyError, OSError, ImportError)
+    os.chdir(tempfile.mkdtemp(prefix="attack_"))
+    warnings.simplefilter("ignore")
+    for name, call in calls(group, os.getcwd()):
+        print("call", name, flush=True)
+        try:
+            call()
+        except allowed as refusal:
+            text = str(refusal)
+            if not text.strip() or len(text) > 20_000:
+                print("fault", name, type(refusal).__name__, "says nothing, or a book")
+            elif isinstance(refusal, wj.BadInput) and OPTION.search(text):
+                print("fault", name, "speaks of options:", text[:300])
+            elif isinstance(refusal, TypeError) and "incompatible function arguments" in text:
+                print("fault", name, "a TypeError of the inside:", text[:300])
+        except BaseException as fault:
+            print("fault", name, type(fault).__name__, ascii(str(fault))[:300])
+    print("end", flush=True)
+
+
+def main():
+    if sys.argv[1:2] == ["--inside"]:
+        return inside(sys.argv[2])
+    if sys.argv[1:2] == ["--many"]:
+        return many(int(sys.argv[2]))
+    count, faults = 0, []
+    for group in GROUPS:
+        with tempfile.TemporaryDirectory(prefix="attack_") as temporary:
+            try:
+                done = subprocess.run([sys.executable, __file__, "--inside", group], env={**os.environ, "TMPDIR": temporary}, capture_output=True,
+                                      text=True, errors="replace", timeout=SECONDS, check=False)
+                status, lines = done.returncode, done.stdout.splitlines()
+            except subprocess.TimeoutExpired as late:
+                status, lines = "no end", (late.stdout or b"").decode("utf-8", "replace").splitlines()
+        made = [line for line in lines if line.startswith("call ")]
+        count += len(made)
+        faults += [line for line in lines if line.startswith("fault ")]
+        if not lines or lines[-1] != "end":
+            faults.append(f"{group}: status {status} after {made[-1:] or done.stderr[-300:]}")
+    print(f"{count} calls, {len(faults)} faults")
+    for fault in faults[:60]:
+        print(" ", fault)
+    sys.exit(1 if faults or count < 1000 else 0)
+
+
+if __name__ == "__main__":
+    main()
