@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -31,15 +32,20 @@ def test_an_example_runs(arguments, needed, said, recording, tmp_path):
     assert said in done.stdout
 
 
-@pytest.mark.parametrize("page", ["README.md", "tools/python/README.md", "tools/docs/mujoco.md", "tools/docs/training.md"])
+@pytest.mark.parametrize("page", ["README.md", "tools/python/README.md", "tools/docs/mujoco.md", "tools/docs/training.md", "tools/docs/tutorial.md"])
 def test_the_python_of_a_page_runs(page, recording, tmp_path):
-    for needed in ("mujoco.batch", "matplotlib", "jinja2"):
+    for needed in ("mujoco.batch", "matplotlib", "jinja2", "pandas"):
         pytest.importorskip(needed)
     (tmp_path / "models").symlink_to(ROOT / "models")
     (tmp_path / "runs/warm").mkdir(parents=True)
     for place in ("log.csv", "runs/warm/recording.csv"):
         (tmp_path / place).symlink_to(recording)
-    code = "\n".join(re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S))
+    frame = np.genfromtxt(recording, delimiter=",", names=True)
+    factors = {"time": ("t_ms", 1000), "position": ("q_deg", 180 / np.pi), "velocity": ("qd_deg_s", 180 / np.pi), "torque": ("tau_Nm", 1)}
+    table = np.column_stack([frame[name] * factor for name, (_, factor) in factors.items()])
+    np.savetxt(tmp_path / "runs/log.csv", table, "%.9g", ",", header=",".join(name for name, _ in factors.values()), comments="")
+    blocks = re.findall(r"^(<!-- not run[^\n]*-->\n)?```python\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S)
+    code = "\n".join(block for marked, block in blocks if not marked)
     assert code
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -29,6 +29,7 @@ class TreeMaker {
  private:
   /// Make of a list, a map or what tells how to become one.
   Tree MakeInside(nb::handle value, const std::string& name);
+  static nb::object Called(nb::handle value, const char* method, const std::string& name);
   static Tree Whole(nb::handle value, const std::string& name);
 
   std::vector<PyObject*> around_;  // what is being made, from the outside in
@@ -79,10 +80,20 @@ Tree TreeMaker::MakeInside(nb::handle value, const std::string& name) {
 
   // what tells how to become one of these: NumPy's arrays and numbers, paths
   for (const char* method : {"tolist", "__fspath__"}) {
-    if (nb::hasattr(value, method)) return Make(value.attr(method)(), name);
+    if (nb::hasattr(value, method)) return Make(Called(value, method, name), name);
   }
   Refuse({name}, "is a {}; give numbers, texts, lists and dicts",
          nb::cast<std::string>(value.type().attr("__name__")));
+}
+
+nb::object TreeMaker::Called(nb::handle value, const char* method, const std::string& name) {
+  try {
+    return value.attr(method)();
+  } catch (const nb::python_error& raised) {
+    if (!raised.matches(PyExc_Exception)) throw;  // Ctrl-C
+    Refuse({name}, "cannot be read: its {} raises {}", method,
+           nb::cast<std::string>(raised.type().attr("__name__")));
+  }
 }
 
 Tree TreeMaker::Whole(nb::handle value, const std::string& name) {

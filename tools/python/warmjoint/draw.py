@@ -22,6 +22,7 @@ import re
 from typing import Any
 
 import matplotlib
+import matplotlib.axes
 import matplotlib.figure
 import matplotlib.image
 import numpy as np
@@ -68,10 +69,17 @@ MARKERS = {"circle": "o", "square": "s", "diamond": "D", "up": "^", "down": "v",
 
 
 def style_of(style):
-    """A style by its name, or as a dictionary of changes to the one called `base` (screen)."""
+    """A style by its name, or as a dictionary of changes to the one called `base` (screen). Raises ValueError where there is none."""
+    name = style.get("base", "screen") if isinstance(style, dict) else style
+    if not isinstance(name, str) or name not in STYLES:
+        given = ascii(name) if isinstance(name, str) else f"of the type {type(name).__name__}"
+        raise ValueError(f"style: is {given}; it must be one of {', '.join(STYLES)}, or a dict of changes to one")
+    base = STYLES[name]
     if isinstance(style, str):
-        return STYLES[style]
-    base = STYLES[style.get("base", "screen")]
+        return base
+    unknown = set(style) - {"base", *base}
+    if unknown:
+        raise ValueError(f"style: has no {min(unknown, key=str)!a}; it has {', '.join(base)}")
     return {**base, **{k: v for k, v in style.items() if k != "base"}, "hues": {**base["hues"], **style.get("hues", {})}}
 
 
@@ -337,6 +345,8 @@ def _draw_into(ax, figure, look):
     plots = [panel["content"] for panel in figure["panels"] if panel["content"]["kind"] == "plot"]
     if len(plots) != 1:
         raise ValueError(f"'{figure['name']}' has {len(plots)} plots, and axes take one; leave ax out")
+    if not isinstance(ax, matplotlib.axes.Axes):
+        raise ValueError(f"ax: is a value of the type {type(ax).__name__}; give axes of matplotlib")
     box = ax.get_window_extent().transformed(ax.figure.dpi_scale_trans.inverted())
     fill(ax, plots[0], look)
     set_ticks(ax, plots[0], 72 * box.width / look["scale"], 72 * box.height / look["scale"])

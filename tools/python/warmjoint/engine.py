@@ -18,7 +18,7 @@ import numpy as np
 from warmjoint import _core
 from warmjoint.estimate import Estimate
 from warmjoint.log import Log
-from warmjoint.values import kind_of, path_of
+from warmjoint.values import kind_of, path_of, whole
 
 if TYPE_CHECKING:
     import pandas
@@ -55,7 +55,7 @@ def simulate(scenario: str | os.PathLike[str] | Mapping[str, Any], *, seed: int 
     """
     set_ = [(key, _core.to_json(value, key)) for key, value in changes.items()]
     with _file_of(scenario, "scenario") as path:
-        arguments, truth = _engine().simulate(path, set_, seed, realization)
+        arguments, truth = _engine().simulate(path, set_, None if seed is None else whole("seed", seed), whole("realization", realization))
     for name in ("velocity", "force", "loss", "energy"):
         truth[name] = np.asarray(truth[name], dtype=np.float64)
     return Simulated(Log(**arguments, name="simulation"), truth)

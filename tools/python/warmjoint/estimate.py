@@ -18,7 +18,7 @@ import numpy.typing as npt
 from warmjoint import _core
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
-from warmjoint.values import Array, kind_of, number, numbers, path_of
+from warmjoint.values import Array, kind_of, number, numbers, path_of, shown
 
 if TYPE_CHECKING:
     import pandas
@@ -129,7 +129,7 @@ class Estimate:
     def __getitem__(self, name: str) -> Parameter:
         found = self._rows()
         if name not in found:
-            raise KeyError(f"'{name}' was not estimated; there are {', '.join(found) or 'no parameters: ' + self.message}")
+            raise KeyError(f"{shown(name)} was not estimated; there are {', '.join(found) or 'no parameters: ' + self.message}")
         self._warn_of_void()
         return found[name]
 
@@ -238,7 +238,7 @@ class Estimate:
         if name not in found:
             if name in _core.figure_names() and self.log is None:
                 self._need_log(f"figure: '{name}'")
-            raise _core.BadInput(f"figure: this estimate gives no {name!a}; it gives {', '.join(found)}")
+            raise _core.BadInput(f"figure: this estimate gives no {shown(name)}; it gives {', '.join(found)}")
         return draw.draw(found[name], style=style, ax=ax)
 
     def report(self, path: str | os.PathLike[str]) -> None:
@@ -287,13 +287,13 @@ class Estimate:
         raise _core.BadInput(f"{what} needs the log, and {why}; give it: load(path, log=wj.read(...))")
 
     def _energies(self, initial: str | float) -> list[float]:
-        if initial == "cold":
-            return []
-        if initial == "end":
-            rows = self.data.get("state_end") or {}
-            return [float(rows[name]["value"]) for name in ("energy", "second_energy") if name in rows]
         if isinstance(initial, str):
-            raise _core.BadInput(f"initial: is {initial!a}; it must be cold, end or a speed")
+            if initial == "cold":
+                return []
+            if initial == "end":
+                rows = self.data.get("state_end") or {}
+                return [float(rows[name]["value"]) for name in ("energy", "second_energy") if name in rows]
+            raise _core.BadInput(f"initial: is {shown(initial)}; it must be cold, end or a speed")
         return settled_energies(self.fitted.data, number("initial", initial))
 
     def _deviation(self, fitted: Friction, *place: npt.ArrayLike) -> Array:

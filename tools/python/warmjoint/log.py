@@ -240,6 +240,22 @@ def check(log: Log | Any, **reading: Any) -> Check:
 
 def log_of(given: Any, argument: str = "log", **reading: Any) -> Log:
     """A log as it is; what a path, a data frame, or several of these of one joint give. reading: arguments of read or Log.from_frame."""
+    one = _one_log(given, reading)
+    if one is not None:
+        return one
+    logs = []
+    for each in _list(given, argument, "give a Log, a path, a data frame, or a list of these"):
+        part = _one_log(each, reading)
+        if part is None:
+            raise _core.BadInput(f"{argument}: holds {kind_of(each)}; give Logs, paths or data frames")
+        logs.append(part._core)
+    if not logs:
+        raise _core.BadInput(f"{argument}: is an empty list; give at least one")
+    return Log._of(_core.join_logs(logs))
+
+
+def _one_log(given: Any, reading: dict[str, Any]) -> Log | None:
+    """The log that a log, a path or a frame gives; None of what is none of these."""
     if isinstance(given, Log):
         if reading:
             raise _core.BadInput(f"{next(iter(reading))}: says how a file or a frame is read, and the log is read already; give it to read "
@@ -247,12 +263,7 @@ def log_of(given: Any, argument: str = "log", **reading: Any) -> Log:
         return given
     if isinstance(given, (str, bytes, os.PathLike)):
         return read(given, **reading)
-    if columns_of(given) is not None:
-        return Log.from_frame(given, **reading)
-    logs = [log_of(one, argument, **reading)._core for one in _list(given, argument, "give a Log, a path, a data frame, or a list of these")]
-    if not logs:
-        raise _core.BadInput(f"{argument}: is an empty list; give at least one")
-    return Log._of(_core.join_logs(logs))
+    return Log.from_frame(given, **reading) if columns_of(given) is not None else None
 
 
 def _list(given: Any, argument: str, remedy: str) -> list[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import datetime
+import operator
 import os
 from collections.abc import Mapping
 from typing import Any
@@ -105,6 +106,17 @@ def number(argument: str, value: Any) -> float:
     return float(found.reshape(-1)[0])
 
 
+def whole(argument: str, value: Any) -> int:
+    """A whole number from 0 to 2^64 - 1, as seeds are. Raises BadInput for what is none."""
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise _core.BadInput(f"{argument}: is {shown(value)}; give a whole number") from None
+    if not 0 <= found < 2**64:
+        raise _core.BadInput(f"{argument}: is {shown(found)}; it must be from 0 to 2^64 - 1")
+    return found
+
+
 def path_of(path: Any, argument: str = "path") -> str:
     """A path as text. Raises BadInput for what is none, and for names that are no UTF-8."""
     try:
@@ -124,10 +136,21 @@ def kind_of(value: Any) -> str:
     return "None" if value is None else f"a value of the type {type(value).__name__}"
 
 
+def shown(value: Any) -> str:
+    """A value in few words, for messages."""
+    try:
+        return ascii(value)[:60]
+    except (ValueError, RecursionError):  # of numbers with thousands of digits, and lists as deep
+        return kind_of(value)
+
+
 def text_of(name: Any) -> str:
     """A name as text that files could hold; levels of several have a stroke between."""
     parts = name if isinstance(name, tuple) else (name,)
-    return "/".join(str(part) for part in parts if str(part)).encode("utf-8", "replace").decode()
+    try:
+        return "/".join(str(part) for part in parts if str(part)).encode("utf-8", "replace").decode()
+    except (ValueError, RecursionError):
+        return shown(name)
 
 
 def _column_of(name: Any, values: Any) -> Column:
@@ -150,7 +173,8 @@ def _of_index(index: Any, taken: set[str]) -> list[Column]:
 def _without_unit(values: Any) -> tuple[Any, str]:
     """Numbers, and the name of the unit that they carry as an object, of Pint or Astropy, or as an attribute, of xarray."""
     if hasattr(values, "magnitude") and hasattr(values, "units"):
-        return values.magnitude, f"{values.units:~C}".replace("*", ".")
+        # Pint has the factors of a product by the alphabet: m*N
+        return values.magnitude, ".".join(sorted(f"{values.units:~C}".split("*"), key=lambda factor: not factor.endswith("N")))
     if hasattr(values, "to_value") and hasattr(values, "unit"):
         return values.value, str(values.unit)
     return values, _column_of("", values).unit
@@ -158,6 +182,8 @@ def _without_unit(values: Any) -> tuple[Any, str]:
 
 def _array(values: Any) -> npt.NDArray[Any]:
     """An array of NumPy, with NaN, NaT or None where there is nothing: hidden by a mask, null, or missing."""
+    if isinstance(values, (list, tuple)) and any(isinstance(inside, (list, tuple)) for one in values if isinstance(one, (list, tuple)) for inside in one):
+        raise ValueError("lists within lists within lists")
     if isinstance(values, np.ma.MaskedArray):
         kind = values.dtype.kind
         if kind in "mM":
@@ -206,7 +232,7 @@ def _of_objects(name: str, found: npt.NDArray[Any], unit: str, label: str) -> tu
             else:
                 numbers[i] = float(one)
         except (TypeError, ValueError, OverflowError, AttributeError):
-            raise _core.BadInput(f"{label}: sample {i + 1} is {ascii(one)[:60]}, which is no real number; give real numbers, [N]") from None
+            raise _core.BadInput(f"{label}: sample {i + 1} is {shown(one)}, which is no real number; give real numbers, [N]") from None
     return numbers, "s" if is_time else unit
 
 
