@@ -37,9 +37,10 @@ std::string Listing(const std::vector<FileObject>& objects, const Place& place) 
   }
   return (shown.empty() ? "no array of numbers" : ExcerptOfList(shown)) +
          (all ? ""
-              : fmt::format("; cells, arrays of structs and compounds are read by tools/convert {} "
-                            "-o log.h5",
-                            place.file));
+              : fmt::format(
+                    "; cells, arrays of structs and compounds are read by warmjoint convert {} "
+                    "-o log.h5",
+                    place.file));
 }
 
 }  // namespace
@@ -73,8 +74,9 @@ FileContent TakeColumns(FileContent content, const std::vector<FileObject>& obje
   }
 
   // values of those that are asked for
+  const ReadSettings asked = WithClock(content.columns, WithJointOf(content, layout), place);
   for (const ColumnSource& source :
-       FindColumns(content.columns, WithJointOf(content, layout), place, Listing(objects, place))) {
+       FindColumns(content.columns, asked, place, Listing(objects, place))) {
     const auto& [object, column] = arrays[source.index];
     FileColumn& into = content.columns[source.index];
     if (column.count > kMostSamples) {

@@ -14,6 +14,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/recording/measurements.h"
 #include "models/recording/mend.h"
+#include "models/recording/one_clock.h"
 
 namespace warmjoint {
 namespace {
@@ -189,11 +190,11 @@ void LeaveOutRows(RawColumns& raw) {
   if (lacking.empty()) return;
   const auto left_out = std::ranges::count(keep, false);
   if (left_out == static_cast<std::ptrdiff_t>(keep.size())) {
-    Refuse(
-        {raw.file},
-        "has no row with a number for each of {}; where each column has a clock of its own, first: "
-        "tools/convert {} -o log.h5",
-        fmt::join(lacking, ", "), raw.file);
+    Refuse({raw.file},
+           "has no row with a number for each of {}, and too few numbers to put them on one clock; "
+           "record "
+           "longer, or --map columns that hold numbers",
+           fmt::join(lacking, ", "));
   }
   raw.notes.push_back(fmt::format("{} of {} rows lack a number ({}) and are left out", left_out,
                                   keep.size(), fmt::join(lacking, ", ")));
@@ -266,6 +267,7 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
 
   // the samples that have all numbers, and their time
   NoteUnits(layout, raw);
+  JoinRows(raw);
   LeaveOutColumns(raw);
   if (layout.rate > 0) {
     const Eigen::Index n = raw.columns.front().values.size();
@@ -300,6 +302,7 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
 
   // all of it at once: at least three samples, in order, with a torque that changes
   std::ranges::move(raw.notes, std::back_inserter(measurements.notes));
+  std::ranges::move(raw.doubts, std::back_inserter(measurements.doubts));
   CheckSamples(raw, is_assumed, measurements);
   if (measurements.position.size() == 0 && measurements.velocity.size() == 0) {
     Refuse({raw.file}, "has neither a position nor a velocity with numbers; one is needed");
@@ -320,11 +323,38 @@ ReadSettings WithJointOf(const FileContent& content, ReadSettings layout) {
   return layout;
 }
 
-Measurements AssembleContent(FileContent content, const std::string& path,
-                             const ReadSettings& given) {
+ReadSettings WithClock(const std::vector<FileColumn>& columns, ReadSettings layout,
+                       const Place& place) {
+  // any rate: MakeHolds makes the time
+  if (IsTableOfSpeeds(columns, layout, place)) layout.rate = 1;
+  return layout;
+}
+
+Measurements OnlyOne(std::vector<Measurements> recordings) {
+  if (recordings.size() == 1) return std::move(recordings.front());
+  Refuse({recordings.front().source}, "holds {} episodes where one recording is needed; split it",
+         recordings.size());
+}
+
+std::vector<Measurements> AssembleRecordings(RawColumns raw, const std::vector<FileColumn>& columns,
+                                             const ReadSettings& layout) {
+  const bool is_timed = raw.columns.front().column->name == RecordingColumns().front().name;
+  if (!is_timed && layout.rate == 0) MakeHolds(raw);
+  std::vector<Measurements> recordings;
+  for (RawColumns& episode : Episodes(std::move(raw), columns)) {
+    recordings.push_back(AssembleMeasurements(std::move(episode), layout));
+  }
+  return recordings;
+}
+
+std::vector<Measurements> AssembleContent(FileContent content, const std::string& path,
+                                          const ReadSettings& given) {
   const ReadSettings layout = WithJointOf(content, given);
   // the columns that are asked for, all of one length
-  RawColumns raw{path, FindColumns(content.columns, layout, {path})};
+  RawColumns raw{path,
+                 FindColumns(content.columns, WithClock(content.columns, layout, {path}), {path})};
+  raw.notes = content.notes;
+  raw.doubts = content.doubts;
   const auto& first = content.columns[raw.columns.front().index];
   for (ColumnSource& one : raw.columns) {
     const auto& [name, unit, values] = content.columns[one.index];
@@ -333,7 +363,7 @@ Measurements AssembleContent(FileContent content, const std::string& path,
     Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length", name,
            values.size(), first.name, first.values.size());
   }
-  return AssembleMeasurements(std::move(raw), layout);
+  return AssembleRecordings(std::move(raw), content.columns, layout);
 }
 
 }  // namespace warmjoint

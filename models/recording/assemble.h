@@ -17,6 +17,7 @@ struct RawColumns {
   std::vector<int> line{};            // [N] of each sample; empty for files without lines
   bool stamps = false;                // time stands in words, which were read as s
   std::vector<std::string> notes{};   // what reading made of the file
+  std::vector<std::string> doubts{};  // what the file itself says of its units
 
   /// Where sample i stands.
   Place At(Eigen::Index i) const {
@@ -34,14 +35,27 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout);
 struct FileContent {
   std::string joint{};           // "rotary" or "linear"; empty where the file does not say
   std::optional<double> gear{};  // the same
+  std::vector<std::string> notes{}, doubts{};  // what was made of it when it was written
   std::vector<FileColumn> columns{};
 };
 
 /// The layout, completed by what the file says of the joint where nobody says otherwise.
 ReadSettings WithJointOf(const FileContent& content, ReadSettings layout);
 
-/// The recording. Throws BadInput as ReadCsv does, and for columns of different lengths.
-Measurements AssembleContent(FileContent content, const std::string& path,
-                             const ReadSettings& layout);
+/// The recordings in columns that were read: one, or one for each episode, where the clock begins anew and a column of the
+/// file counts episodes. columns: all of the file. Throws BadInput as AssembleMeasurements does.
+std::vector<Measurements> AssembleRecordings(RawColumns raw, const std::vector<FileColumn>& columns,
+                                             const ReadSettings& layout);
+
+/// The same of a file's content. Throws BadInput as ReadCsv does, and for columns of different lengths.
+std::vector<Measurements> AssembleContent(FileContent content, const std::string& path,
+                                          const ReadSettings& layout);
+
+/// The recording of a file that may hold one alone. Throws BadInput.
+Measurements OnlyOne(std::vector<Measurements> recordings);
+
+/// The layout, with the rate that a table of speeds and torques without a clock gets: each of its rows stands for a hold.
+ReadSettings WithClock(const std::vector<FileColumn>& columns, ReadSettings layout,
+                       const Place& place);
 
 }  // namespace warmjoint

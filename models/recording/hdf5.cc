@@ -1,8 +1,12 @@
 #include <H5Cpp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 
+#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/recording/arrays.h"
 #include "models/recording/read_recording.h"
@@ -10,6 +14,8 @@
 
 namespace warmjoint {
 namespace {
+
+constexpr const char *kNotes = "notes", *kDoubts = "doubts";  // attributes of the root
 
 const H5::StrType& Text() {
   static const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
@@ -48,13 +54,37 @@ void WriteObjects(const Measurements& measurements, H5::H5File& file) {
   }
 }
 
-/// The bytes of the file, made in memory: the library never opens a name on disk.
-std::string Image(const Measurements& measurements) {
+/// What was made of a log, one sentence a line.
+void WriteSaid(const std::vector<std::string>& notes, const std::vector<std::string>& doubts,
+               H5::H5File& file) {
+  H5::Group root = file.openGroup("/");
+  const auto join = [](const std::vector<std::string>& lines) {
+    return fmt::format("{}", fmt::join(lines, "\n"));
+  };
+  if (!notes.empty()) WriteAttribute(root, kNotes, join(notes));
+  if (!doubts.empty()) WriteAttribute(root, kDoubts, join(doubts));
+}
+
+/// Adds a dataset, and the groups that its name states.
+void WriteColumn(const FileColumn& column, H5::H5File& file) {
+  const auto timeless = WithoutTimes<H5::DSetCreatPropList>();
+  const auto size = static_cast<hsize_t>(column.values.size());
+  H5::LinkCreatPropList with_groups;
+  with_groups.setCreateIntermediateGroup(true);
+  H5::DataSet data(H5Dcreate2(file.getId(), column.name.c_str(),
+                              H5::PredType::NATIVE_DOUBLE.getId(), H5::DataSpace(1, &size).getId(),
+                              with_groups.getId(), timeless.getId(), H5P_DEFAULT));
+  data.write(column.values.data(), H5::PredType::NATIVE_DOUBLE);
+  if (!column.unit.empty()) WriteAttribute(data, "unit", column.unit);
+}
+
+/// The bytes of a file, made in memory: the library never opens a name on disk. write: fills it.
+std::string Image(const std::function<void(H5::H5File&)>& write) {
   constexpr std::size_t kGrowth = 1 << 20;  // bytes
   H5::FileAccPropList in_memory;
   in_memory.setCore(kGrowth, false);
   H5::H5File file("recording.h5", H5F_ACC_TRUNC, WithoutTimes<H5::FileCreatPropList>(), in_memory);
-  WriteObjects(measurements, file);
+  write(file);
   file.flush(H5F_SCOPE_GLOBAL);
 
   // first how many bytes there are, then the bytes
@@ -74,6 +104,50 @@ std::string ReadTextAttribute(const H5::H5Object& object, const std::string& nam
   std::string value;
   attribute.read(attribute.getDataType(), value);
   return value.substr(0, value.find('\0'));
+}
+
+/// The lines of such an attribute.
+std::vector<std::string> ReadLines(const H5::H5Object& object, const std::string& name) {
+  std::vector<std::string> lines;
+  std::string_view text;
+  const std::string all = ReadTextAttribute(object, name);
+  for (text = all; !text.empty();) {
+    const std::size_t end = text.find('\n');
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return lines;
+}
+
+/// What leads out of a file.
+struct OtherFile {
+  std::string path;  // of the object; empty: none was found
+  std::string what;
+  std::size_t left = kMostObjects;
+};
+
+/// Looks at one link: a member of H5Lvisit. 0: goes on.
+herr_t LookForOtherFile(hid_t group, const char* name, const H5L_info_t* link, void* found) {
+  auto& other = *static_cast<OtherFile*>(found);
+  const auto end = [&](const char* what) {
+    other.path = name;
+    other.what = what;
+    return 1;
+  };
+  if (link->type == H5L_TYPE_EXTERNAL) return end("is a link to another file");
+  if (other.left-- == 0) return end("is one object of too many");
+  if (link->type != H5L_TYPE_HARD) return 0;
+  const hid_t object = H5Oopen(group, name, H5P_DEFAULT);
+  if (object < 0) return 0;
+  herr_t result = 0;
+  if (H5Iget_type(object) == H5I_DATASET) {
+    const hid_t made = H5Dget_create_plist(object);
+    if (H5Pget_external_count(made) > 0) result = end("has its numbers in another file");
+    if (H5Pget_layout(made) == H5D_VIRTUAL) result = end("is made of other datasets");
+    H5Pclose(made);
+  }
+  H5Oclose(object);
+  return result;
 }
 
 /// One column, without the rest of its array.
@@ -122,15 +196,44 @@ void AddGroup(const H5::Group& group, const std::string& path, int depth, std::s
   }
 }
 
+/// The bytes of a file, one at a time: the library serves one thread.
+std::string Written(const std::function<void(H5::H5File&)>& write) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  H5::Exception::dontPrint();
+  try {
+    return Image(write);
+  } catch (const H5::Exception& error) {
+    Refuse({"recording"}, "cannot be written as HDF5: {}", error.getDetailMsg());
+  }
+}
+
 }  // namespace
 
+void RefuseOtherFiles(const std::string& path) {
+  H5::Exception::dontPrint();
+  // filters of other programs are not loaded either
+  H5PLset_loading_state(0);
+  OtherFile other;
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return;  // no HDF5: its reader says so
+  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, LookForOtherFile, &other);
+  H5Fclose(file);
+  if (other.path.empty()) return;
+  Refuse({path}, "{} {}; a recording is one file: copy its datasets into it", Excerpt(other.path),
+         other.what);
+}
+
 FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout) {
+  RefuseOtherFiles(path);
   H5::Exception::dontPrint();
   try {
     const H5::H5File file(path, H5F_ACC_RDONLY);
     const H5::Group root = file.openGroup("/");
     // what the file says of itself, without any values yet
-    FileContent content{.joint = ReadTextAttribute(root, "joint")};
+    FileContent content{.joint = ReadTextAttribute(root, "joint"),
+                        .notes = ReadLines(root, kNotes),
+                        .doubts = ReadLines(root, kDoubts)};
     if (root.attrExists("gear")) {
       root.openAttribute("gear").read(H5::PredType::NATIVE_DOUBLE, &content.gear.emplace());
     }
@@ -144,14 +247,25 @@ FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout)
 }
 
 std::string RecordingToHdf5(const Measurements& measurements) {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
-  H5::Exception::dontPrint();
-  try {
-    return Image(measurements);
-  } catch (const H5::Exception& error) {
-    Refuse({"recording"}, "cannot be written as HDF5: {}", error.getDetailMsg());
-  }
+  return Written([&](H5::H5File& file) {
+    WriteObjects(measurements, file);
+    WriteSaid(measurements.notes, measurements.doubts, file);
+  });
+}
+
+std::string ColumnsToHdf5(const FileContent& content) {
+  return Written([&](H5::H5File& file) {
+    for (const FileColumn& column : content.columns) {
+      try {
+        WriteColumn(column, file);
+      } catch (const H5::Exception&) {
+        Refuse({"convert"},
+               "HDF5 cannot hold a column '{}' beside the others; write .csv, or --map it",
+               Excerpt(column.name));
+      }
+    }
+    WriteSaid(content.notes, content.doubts, file);
+  });
 }
 
 }  // namespace warmjoint

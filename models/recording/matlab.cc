@@ -1,3 +1,4 @@
+#include <hdf5.h>
 #include <matio.h>
 
 #include <algorithm>
@@ -139,6 +140,8 @@ void TakeUnits(mat_t* file, std::vector<FileObject>& objects) {
 }  // namespace
 
 FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout) {
+  // those of version 7.3 are HDF5
+  if (H5Fis_hdf5(path.c_str()) > 0) RefuseOtherFiles(path);
   const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {
     Refuse({path}, "cannot be read as a MATLAB file: it is damaged, or of another format");

@@ -84,6 +84,10 @@ void Exchange(End& end, FileContent& content) {
   if (content.gear) gear.push_back(*content.gear);
   end.Put(gear, 1);
   if (!gear.empty()) content.gear = gear[0];
+  for (std::vector<std::string>* lines : {&content.notes, &content.doubts}) {
+    lines->resize(end.Size(lines->size(), kMostColumns));
+    for (std::string& line : *lines) end.Put(line, kLongestText);
+  }
   content.columns.resize(end.Size(content.columns.size(), kMostColumns));
   for (FileColumn& column : content.columns) {
     end.Put(column.name, kLongestText);

@@ -21,16 +21,23 @@ namespace {
 /// A format of recordings.
 struct Format {
   std::string_view extension;
-  FileFormat library;                                      // that reads it; CSV needs none
-  std::string (*write)(const Measurements& measurements);  // its bytes; none: it is not written
+  FileFormat library;  // that reads it; CSV needs none
+  // its bytes; none: it is not written
+  std::string (*write)(const Measurements& measurements) = nullptr;
+  std::string (*write_columns)(const FileContent& content) = nullptr;
 };
 
 constexpr Format kFormats[] = {
-    {".csv", {}, RecordingToCsv},
-    {".h5", {"HDF5", ReadHdf5Content}, RecordingToHdf5},
-    {".hdf5", {"HDF5", ReadHdf5Content}, RecordingToHdf5},
-    {".mat", {"a MATLAB file", ReadMatlabContent}, nullptr},
+    {".csv", {}, RecordingToCsv, ColumnsToCsv},
+    {".h5", {"HDF5", ReadHdf5Content}, RecordingToHdf5, ColumnsToHdf5},
+    {".hdf5", {"HDF5", ReadHdf5Content}, RecordingToHdf5, ColumnsToHdf5},
+    {".mat", {"a MATLAB file", ReadMatlabContent}},
 };
+
+// formats of other tools, which Python reads
+constexpr std::string_view kOtherFormats[] = {".db3",  ".mcap", ".bag",   ".parquet",
+                                              ".npz",  ".npy",  ".xlsx",  ".xls",
+                                              ".xlsm", ".json", ".jsonl", ".ndjson"};
 
 std::string Extension(const std::string& path) {
   return std::filesystem::path(path).extension().string();
@@ -42,14 +49,12 @@ Format FormatOf(const std::string& path) {
   return found == std::end(kFormats) ? Format{} : *found;
 }
 
-/// Refuses what tools/convert makes readable.
+/// Refuses what `warmjoint convert` makes readable.
 void RefuseUnreadable(const std::string& path) {
-  const std::string extension = Extension(path);
-  // formats of other tools, by their extension
-  for (const char* other : {".db3", ".mcap", ".bag", ".parquet", ".npz", ".npy"}) {
-    if (extension != other) continue;
-    Refuse({path}, "{} is not read here; first: tools/convert {} -o log.h5", other, path);
-  }
+  if (!IsOtherFormat(path)) return;
+  const bool is_folder = std::filesystem::is_directory(path);
+  Refuse({path}, "{} is not read here; first: warmjoint convert {} -o log.h5",
+         is_folder ? "a folder" : Extension(path), path);
 }
 
 /// Makes torque of a current, by the motor's constant seen at the joint, where one is given.
@@ -68,6 +73,15 @@ void TakeTorqueConstant(double constant, Measurements& log) {
   log.torque *= constant;
   log.torque_unit = unit;
   log.notes.push_back(fmt::format("torque: current times {:.6g} {}/A", constant, unit));
+}
+
+/// The recordings of a file: one, or one for each episode.
+std::vector<Measurements> ReadFile(const std::string& path, const ReadSettings& layout,
+                                   double patience = kPatience) {
+  RefuseUnreadable(path);
+  const FileFormat library = FormatOf(path).library;
+  if (!library.read) return ParseRecordings(ReadWholeFile(path), InputName(path), layout);
+  return AssembleContent(ReadApart(library, path, layout, patience), path, layout);
 }
 
 }  // namespace
@@ -112,16 +126,28 @@ void CheckReadSettings(const ReadSettings& settings) {
 
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout,
                                double patience) {
-  RefuseUnreadable(path);
-  const FileFormat library = FormatOf(path).library;
-  if (!library.read) return ReadCsv(path, layout);
-  return AssembleContent(ReadApart(library, path, layout, patience), path, layout);
+  return OnlyOne(ReadFile(path, layout, patience));
+}
+
+bool IsOtherFormat(const std::string& path) {
+  return std::ranges::find(kOtherFormats, Lowercase(Extension(path))) != std::end(kOtherFormats) ||
+         std::filesystem::is_directory(path);
+}
+
+void RequireWritable(const std::filesystem::path& path) {
+  if (FormatOf(path).write) return;
+  Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
+         Extension(path));
 }
 
 void WriteRecording(const Measurements& measurements, const std::filesystem::path& path) {
-  if (const auto write = FormatOf(path).write) return WriteWholeFile(path, write(measurements));
-  Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
-         Extension(path));
+  RequireWritable(path);
+  WriteWholeFile(path, FormatOf(path).write(measurements));
+}
+
+void WriteColumns(const FileContent& content, const std::filesystem::path& path) {
+  RequireWritable(path);
+  WriteWholeFile(path, FormatOf(path).write_columns(content));
 }
 
 std::vector<Measurements> ReadRecordings(const RecordingSource& source) {
@@ -129,8 +155,10 @@ std::vector<Measurements> ReadRecordings(const RecordingSource& source) {
   CheckReadSettings(source.read);
   std::vector<Measurements> recordings;
   for (const std::string& path : source.files) {
-    recordings.push_back(ReadRecordingFile(path, source.read));
-    TakeTorqueConstant(source.read.torque_constant, recordings.back());
+    for (Measurements& one : ReadFile(path, source.read)) {
+      TakeTorqueConstant(source.read.torque_constant, one);
+      recordings.push_back(std::move(one));
+    }
   }
   return recordings;
 }
@@ -148,7 +176,7 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
 
 Measurements MakeRecording(FileContent content, const ReadSettings& settings,
                            const std::string& name) {
-  Measurements made = AssembleContent(std::move(content), name, settings);
+  Measurements made = OnlyOne(AssembleContent(std::move(content), name, settings));
   TakeTorqueConstant(settings.torque_constant, made);
   return made;
 }

@@ -3,24 +3,41 @@
 
 #include <warmjoint/recording.h>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "models/recording/assemble.h"
 
 namespace warmjoint {
 
+/// Seconds that a library may take for a small file.
+inline constexpr double kPatience = 30;
+
+/// Whether a file, by its name, or a folder is of a format that `warmjoint convert` reads and this room does not.
+bool IsOtherFormat(const std::string& path);
+
 /// Reads .h5 and .hdf5 as HDF5, .mat as MATLAB files, anything else as CSV, as ReadCsv does; attributes of a file count
 /// where the layout has its defaults. For a process with one thread, as programs are at first. patience: as of ReadApart.
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout = {},
-                               double patience = 30);
+                               double patience = kPatience);
 
 /// Reads columns time, position, velocity, torque and optional motor_position, load, temperature of a table of text in any of
 /// the forms that FindTable knows. A missing velocity stays empty. Throws BadInput with file:line as FindTable, FindColumns
 /// and AssembleMeasurements do, for a row that lacks fields and for text in a number.
 Measurements ReadCsv(const std::string& path, const ReadSettings& layout = {});
 
-/// The same for text in memory; `name` stands for the file in messages.
+/// The recordings of a text in memory: one, or one for each episode (AssembleRecordings). `name` stands for the file in messages.
+std::vector<Measurements> ParseRecordings(std::string_view text, const std::string& name,
+                                          const ReadSettings& layout = {});
+
+/// All columns of numbers or stamps (s) of a table of text, by their own names and with their units, on one clock
+/// (OnOneClock). Notes name those that hold texts, which are left out. names: of all columns, in place of a header.
+FileContent ParseTable(std::string_view text, const std::string& name,
+                       const std::vector<std::string>& names = {});
+
+/// The same as ParseRecordings for a text that holds one recording.
 Measurements ParseCsv(std::string_view text, const std::string& name,
                       const ReadSettings& layout = {});
 
@@ -35,6 +52,20 @@ FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout)
 /// The bytes of a file with the columns that are present, SI, with those attributes. Safe to call from many threads,
 /// which wait for each other: the library serves one at a time.
 std::string RecordingToHdf5(const Measurements& measurements);
+
+/// Refuses a file whose numbers lie in other files: links, external storage and virtual datasets of HDF5. Throws BadInput.
+void RefuseOtherFiles(const std::string& path);
+
+/// The text, or the bytes, of a file with these columns by their own names, with their units and what is said of them. Throws
+/// BadInput for names that the format cannot hold.
+std::string ColumnsToCsv(const FileContent& content);
+std::string ColumnsToHdf5(const FileContent& content);
+
+/// Throws BadInput for a name that does not end in .h5, .hdf5 or .csv.
+void RequireWritable(const std::filesystem::path& path);
+
+/// Writes columns as RequireWritable takes names. Throws BadInput, and OutputFailed; nothing half-written stays.
+void WriteColumns(const FileContent& content, const std::filesystem::path& path);
 
 /// Vectors of real numbers, as far as the layout asks for them. Those of a struct are named with a dot,
 /// log.time; names without one may leave out the struct where the file holds one alone. A variable

@@ -313,4 +313,22 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
   return sources;
 }
 
+bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings& layout,
+                     const Place& place) {
+  if (layout.rate > 0) return false;
+  Header header{columns, layout, place};
+  for (const FileColumn& one : columns) header.names.push_back(one.name);
+  // what there is, by name or by what looks like it
+  bool has_speed = false, has_torque = false, has_more = false;
+  for (const RecordingColumn& column : RecordingColumns()) {
+    const bool is_there = !Find(header, column).empty();
+    if (column.name == "velocity") has_speed = is_there;
+    if (column.name == "torque") has_torque = is_there;
+    if (column.name != "time" && column.name != kPosition) continue;
+    has_more = has_more || is_there || layout.map.contains(column.name) ||
+               LikelyName(column, header.names);
+  }
+  return has_speed && has_torque && !has_more;
+}
+
 }  // namespace warmjoint

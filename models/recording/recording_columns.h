@@ -72,4 +72,8 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
                                       const ReadSettings& layout, const Place& place,
                                       const std::string& there = "");
 
+/// Whether the columns are speeds and torques without a clock or a position: a table of points of a friction curve.
+bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings& layout,
+                     const Place& place);
+
 }  // namespace warmjoint

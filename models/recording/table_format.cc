@@ -218,6 +218,21 @@ void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::str
   }
 }
 
+/// Takes the names of channels that TwinCAT writes above rows of their properties, "Name;position;Name;torque"; false where there are none.
+bool TakeChannels(const std::vector<Line>& lines, const Look& look, TableFormat& table) {
+  for (std::size_t i = look.first; i-- > 0;) {
+    auto fields = FieldsAbove(lines[i].text, table, false);
+    const auto is_name = [](const std::string& field) { return EqualIgnoringCase(field, "name"); };
+    if (!fields || !is_name(fields->front()) || std::ranges::count_if(*fields, is_name) < 2)
+      continue;
+    table.header = lines[i].text;
+    table.header_line = lines[i].number;
+    table.names = std::move(*fields);
+    return true;
+  }
+  return false;
+}
+
 /// Refuses a decimal comma for which nothing speaks: behind it stand three digits in all numbers, as between thousands.
 void CheckDecimalComma(const std::vector<Line>& lines, const Look& look, const std::string& file) {
   std::string doubtful;
@@ -357,7 +372,7 @@ TableFormat FindTable(std::string_view text, const std::string& file, bool is_na
   if (has_rows() && look.mark == ',') CheckDecimalComma(lines, look, file);
 
   // what stands above them; the first of them may be a header of names that are numbers, too
-  TakeHeader(lines, look, file, is_named, table);
+  if (!TakeChannels(lines, look, table)) TakeHeader(lines, look, file, is_named, table);
   if (table.names.empty() && look.first + 1 < lines.size() &&
       IsHeader(first.text, lines[look.first + 1].text, look)) {
     ++look.first;

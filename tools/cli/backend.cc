@@ -1,60 +1,17 @@
 #include "tools/cli/backend.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <warmjoint/errors.h>
 
-#include <cerrno>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
-#include "tools/suite/run_command.h"
-#include "tools/terminal/shell_words.h"
+#include "tools/cli/python_child.h"
 
 namespace warmjoint {
-namespace {
-
 namespace fs = std::filesystem;
-
-/// How a child ended, and what it wrote.
-struct Ended {
-  bool well = false;
-  std::string out;
-  std::string err;
-};
-
-Ended Call(std::vector<std::string> words, std::string_view input) {
-  // three files in memory in place of pipes, which could wait for each other
-  MemoryFile in("picture"), out("picture"), err("picture");
-  in.Fill(input);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  const int files[] = {in.descriptor(), out.descriptor(), err.descriptor()};
-  for (int i = 0; i < 3; ++i) posix_spawn_file_actions_adddup2(&actions, files[i], i);
-  const std::vector<char*> arguments = ExecWords(words);
-
-  pid_t child = 0;
-  const int failed =
-      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed) return {};
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, out.Tail(), err.Tail()};
-}
-
-/// The last line that says something: of a Python that failed, the error itself.
-std::string LastLine(std::string text) {
-  text.erase(text.find_last_not_of(" \n") + 1);
-  return text.substr(text.find_last_of('\n') + 1);
-}
-
-}  // namespace
 
 PictureFormat PictureFormatOf(const std::string& path) {
   const std::string end = fs::path(path).extension().string();
@@ -65,14 +22,13 @@ PictureFormat PictureFormatOf(const std::string& path) {
 }
 
 Backend::Backend() : script_(DataFolder() / "tools/python/warmjoint/draw.py") {
-  std::vector<std::string> candidates{"python3", "/usr/bin/python3"};
-  if (const char* named = std::getenv("WARMJOINT_PYTHON"); named && *named) candidates = {named};
+  const std::vector<std::string> candidates = Pythons();
   // looked for and not imported, which would take half a second
   const char* const has =
       "import importlib.util as u, sys; sys.exit(not all(map(u.find_spec, ('matplotlib', "
       "'jinja2'))))";
   for (const std::string& python : candidates) {
-    if (!Call({python, "-c", has}, "").well) continue;
+    if (!CallPython({python, "-c", has}, "").well) continue;
     python_ = python;
     return;
   }
@@ -83,7 +39,7 @@ Backend::Backend() : script_(DataFolder() / "tools/python/warmjoint/draw.py") {
 }
 
 std::string Backend::Ask(const Tree& request) const {
-  const Ended ended = Call({python_, "-B", script_.string()}, request.dump());
+  const Ended ended = CallPython({python_, "-B", script_.string()}, request.dump());
   if (!ended.well) {
     throw OutputFailed(
         fmt::format("{} {} failed: {}", python_, script_.string(), LastLine(ended.err)));

@@ -30,6 +30,7 @@ ExitStatus RunProgram(int argc, const char* const* argv);
 Command AddListCommand(CLI::App& program);
 Command AddNewCommand(CLI::App& program);
 Command AddSimulateCommand(CLI::App& program);
+Command AddConvertCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
 Command AddPredictCommand(CLI::App& program);

@@ -23,11 +23,11 @@ constexpr const char* kFooter =
 /// Adds all subcommands to the program's command line.
 std::vector<Command> AddCommands(CLI::App& program) {
   return {
-      AddListCommand(program),   AddNewCommand(program),      AddSimulateCommand(program),
-      AddCheckCommand(program),  AddIdentifyCommand(program), AddPredictCommand(program),
-      AddAttachCommand(program), AddRunCommand(program),      AddStatusCommand(program),
-      AddMergeCommand(program),  AddCompareCommand(program),  AddPlotCommand(program),
-      AddReportCommand(program),
+      AddListCommand(program),    AddNewCommand(program),    AddSimulateCommand(program),
+      AddConvertCommand(program), AddCheckCommand(program),  AddIdentifyCommand(program),
+      AddPredictCommand(program), AddAttachCommand(program), AddRunCommand(program),
+      AddStatusCommand(program),  AddMergeCommand(program),  AddCompareCommand(program),
+      AddPlotCommand(program),    AddReportCommand(program),
   };
 }
 

@@ -166,7 +166,7 @@ TEST(ReadCsv, RefusesWhatIsNoRecordingAtItsPlace) {
       {"time,position,torque\n0,0,1\n1e-300,1,2\n2e-300,2,3\n", "log.csv", "--unit time="},
       {"time,position,torque\n1,0,1\n2e7,1,2\n4e7,2,3\n", "log.csv", "--unit time="},
       {"time,position,torque\n03/04/2024 10:00:00,0,1\n03/04/2024 10:00:01,1,2\n",
-       "log.csv:2: ", "tools/convert"},
+       "log.csv:2: ", "--rate"},
       {header + "0,0,1,7\n1,1,1,7\n2,2,1,7\n", "log.csv", "torque is 7 N.m"},
   };
   test::ExpectRefused(rows, [](const std::string& text) { ParseCsv(text, "log.csv"); });

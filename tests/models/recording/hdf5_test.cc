@@ -1,10 +1,12 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <hdf5.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
 #include "models/foundation/atomic_file.h"
@@ -153,6 +155,44 @@ TEST(ReadApart, EndsInTimeWhateverTheReaderSends) {
         ReadApart({"trickle", &Trickle}, "absent", {}, 0.3);
       },
       testing::ThrowsMessage<BadInput>(testing::HasSubstr("within 0.3 s")));
+}
+
+/// A file with a dataset whose numbers lie elsewhere. make: fills it
+std::string RefusalOfOther(const std::function<void(hid_t file)>& make) {
+  const TemporaryFile path("log.h5");
+  const hid_t file = H5Fcreate(path.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  make(file);
+  H5Fclose(file);
+  return Refusal(path.path());
+}
+
+TEST(Hdf5, ReadsNoOtherFile) {
+  EXPECT_THAT(RefusalOfOther([](hid_t file) {
+                const hsize_t size = 8;
+                const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+                H5Pset_external(made, "/etc/passwd", 0, 64);
+                const hid_t space = H5Screate_simple(1, &size, nullptr);
+                H5Dclose(H5Dcreate2(file, "position", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, made,
+                                    H5P_DEFAULT));
+                H5Sclose(space);
+                H5Pclose(made);
+              }),
+              HasSubstr("position has its numbers in another file"));
+  EXPECT_THAT(RefusalOfOther([](hid_t file) {
+                H5Lcreate_external("other.h5", "/time", file, "time", H5P_DEFAULT, H5P_DEFAULT);
+              }),
+              HasSubstr("time is a link to another file"));
+}
+
+TEST(Hdf5, SaysWhatWasMadeOfALog) {
+  Measurements log = Example();
+  log.notes = {"one", "two"};
+  log.doubts = {"two"};
+  const TemporaryFile file("log.h5");
+  WriteRecording(log, file.path());
+  const Measurements copy = ReadRecordingFile(file.path());
+  EXPECT_EQ(copy.notes, log.notes);
+  EXPECT_EQ(copy.doubts, log.doubts);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ TEST(Matlab, RefusesFilesThatAreCutOrChanged) {
 }
 
 TEST(Matlab, NamesTheConverterForOtherFormats) {
-  EXPECT_THAT(Refusal("log.mcap"), HasSubstr("tools/convert log.mcap -o log.h5"));
+  EXPECT_THAT(Refusal("log.mcap"), HasSubstr("warmjoint convert log.mcap -o log.h5"));
 }
 
 }  // namespace

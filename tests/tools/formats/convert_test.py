@@ -1,10 +1,13 @@
-"""tools/convert on small logs of every format, written here with the formats' own libraries.
+"""`warmjoint convert` on small logs of every format, written here with the formats' own libraries.
 
-    convert_test.py ROOT [WARMJOINT]     PYTHONPATH: the packages of tools/formats/requirements.txt
+    convert_test.py WARMJOINT     PYTHONPATH: the packages of tools/python/warmjoint/formats/requirements.txt
 
-With the program, each HDF5 that comes out is also read by `warmjoint check`. Exits 77 where the packages are not there.
+Each HDF5 that comes out is also read by `warmjoint check`. Exits 77 where the packages are not there.
 """
 
+import datetime
+import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -14,7 +17,7 @@ import unittest
 try:
     import h5py
     import numpy
-    import pandas
+    import openpyxl
     import pyarrow
     import pyarrow.parquet
     import scipy.io
@@ -24,8 +27,7 @@ except ImportError as error:
     print(f"skipped: {error}; tools/convert fetches the packages")
     sys.exit(77)
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else None
+PROGRAM = sys.argv.pop(1)
 COUNT = 200
 TIME = numpy.arange(COUNT) * 0.05  # s
 SPEED = numpy.where(numpy.arange(COUNT) // 40 % 2 == 0, 0.5, -0.5)  # rad/s
@@ -36,8 +38,8 @@ EPOCH = 1_700_000_000
 
 
 def convert(log, output, *options):
-    return subprocess.run([sys.executable, ROOT / "tools/formats/convert.py", log, "-o", output, *options],
-                          capture_output=True, text=True, check=False)
+    return subprocess.run([PROGRAM, "convert", log, "-o", output, *options], capture_output=True, text=True, check=False,
+                          env={**os.environ, "WARMJOINT_PYTHON": sys.executable})
 
 
 def stamp(i):
@@ -80,9 +82,9 @@ class Convert(unittest.TestCase):
     def columns(self, log, *options):
         done = convert(log, self.output, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
-        if PROGRAM:
-            checked = subprocess.run([PROGRAM, "check", self.output], capture_output=True, text=True, check=False)
-            self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.said = done.stderr
+        checked = subprocess.run([PROGRAM, "check", self.output], capture_output=True, text=True, check=False)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
         with h5py.File(self.output) as file:
             return {name: file[name][:] for name in file}
 
@@ -197,20 +199,116 @@ class Convert(unittest.TestCase):
                             "***End_of_Header***\t\t", "X_Value\tposition\tX_Value\ttorque\tComment"], [TIME, POSITION, late, TORQUE], "\t", end="\t")
         table("ni.csv", ["Time - a,position,Time - b,torque"], [TIME, POSITION, late, TORQUE], ",")
         table("units.txt", ["Drive log 2026", "time\tposition\ttorque", "[s]\t[deg]\t[Nm]"], [TIME, POSITION, TORQUE], "\t")
-        sheet = pandas.DataFrame({"time": pandas.Timestamp("2026-11-26") + pandas.to_timedelta(TIME, unit="s"), "position": POSITION, "torque": TORQUE})
-        sheet.to_excel(self.folder / "log.xlsx", startrow=3, index=False)
+        book = openpyxl.Workbook()
+        for row in ([], ["Drive log"], [], ["time", "position", "torque", "remark"]):
+            book.active.append(row)
+        for time, position, torque in zip(TIME, POSITION, TORQUE, strict=True):
+            book.active.append([datetime.datetime(2026, 11, 26) + datetime.timedelta(seconds=time), position, torque, "fine"])
+        book.create_sheet("notes")
+        book.save(self.folder / "log.xlsx")
         for name in ("scope.csv", "german.csv", "multi.lvm", "ni.csv", "log.xlsx", "units.txt"):
             with self.subTest(name):
-                found = self.columns(self.folder / name, *(["--map", "time=time [s],position=position [deg],torque=torque [Nm]"] if name == "units.txt" else []))
+                found = self.columns(self.folder / name)
+                found["time"] -= found["time"][0] if name == "log.xlsx" else 0
                 # as far as both clocks reach; a step between two samples is a line
                 inside = (0.01 if "torque" in found and len(found["time"]) < COUNT else 0) <= TIME
                 numpy.testing.assert_allclose(found["time"], TIME[inside], atol=2e-6)
-                numpy.testing.assert_allclose(found["position"], POSITION[inside], atol=1e-8)
+                position = POSITION * numpy.pi / 180 if name == "units.txt" else POSITION
+                numpy.testing.assert_allclose(found["position"], position[inside], atol=1e-8)
                 shift = 0 if name in {"log.xlsx", "units.txt"} else 0.01
                 numpy.testing.assert_allclose(found["torque"], numpy.interp(TIME[inside] - shift, TIME, TORQUE), atol=1e-5)
         self.output.unlink()
         (self.folder / "words.csv").write_text("hello\nworld\n")
-        self.assertIn("holds no table", self.refusal(self.folder / "words.csv"))
+        self.assertIn("has no column 'time'", self.refusal(self.folder / "words.csv"))
+
+    def test_what_is_left_out_is_said(self):
+        """Sheets and columns of texts, complex numbers and what is no column."""
+        book = openpyxl.Workbook()
+        book.active.append(["time", "position", "torque", "state"])
+        for i in range(5):
+            book.active.append([0.1 * i, POSITION[i], TORQUE[i], "OVF" if i == 3 else i])
+        book.create_sheet("second")
+        book.save(self.folder / "log.xlsx")
+        self.columns(self.folder / "log.xlsx")
+        for words in ("second", "column 'state'", "'OVF'"):
+            self.assertIn(words, self.said)
+        numpy.savez(self.folder / "log.npz", time=TIME, position=POSITION, torque=TORQUE, phase=1j * TIME, note=numpy.array(["a"] * COUNT), other=TIME[:9])
+        self.assertIn("has 9 samples", self.refusal(self.folder / "log.npz", "--map", "time=time,position=other,torque=torque"))
+
+    def test_numbers_as_text_follow_the_rule_of_tables(self):
+        book = openpyxl.Workbook()
+        book.active.append(["time", "position", "torque"])
+        for i in range(5):
+            book.active.append([0.1 * i, POSITION[i], f"16,{250 + i}"])
+        book.save(self.folder / "log.xlsx")
+        done = convert(self.folder / "log.xlsx", self.output)
+        self.assertIn("column 'torque' is left out", done.stderr)
+
+    def test_json(self):
+        """Records, one a line or in a list, and an object of arrays; a field that a record lacks is an empty cell."""
+        records = [{"t": TIME[i], "q": [0.0, POSITION[i]], "drive": {"tau": TORQUE[i]}} for i in range(COUNT)]
+        lines, whole, arrays = (self.folder / name for name in ("log.jsonl", "log.json", "arrays.json"))
+        lines.write_text("\n".join(map(json.dumps, records)))
+        whole.write_text(json.dumps({"robot": "arm", "entries": records}))
+        arrays.write_text(json.dumps({"t": TIME.tolist(), "q": [[0.0, one] for one in POSITION], "drive": {"tau": TORQUE.tolist()}}))
+        for log in (lines, whole, arrays):
+            found = self.columns(log, "--map", "time=t,position=q[1],torque=drive.tau")
+            self.is_the_log(found, ("time", "position", "torque"))
+        self.output.unlink()
+        lines.write_text(json.dumps(records[0]) + "\n{")
+        self.assertIn("log.jsonl:2: is no record", self.refusal(lines))
+        self.assertIn("did you mean 'drive.tau'?", self.refusal(whole, "--map", "torque=drive.tua"))
+
+    def test_a_folder_of_parquet_is_a_set_of_episodes(self):
+        (self.folder / "set").mkdir()
+        for k in range(3):
+            pyarrow.parquet.write_table(pyarrow.table({"time": TIME, "position": POSITION, "torque": TORQUE}), self.folder / f"set/{k}.parquet")
+        done = convert(self.folder / "set", self.output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        checked = subprocess.run([PROGRAM, "identify", self.output, "-o", self.folder / "e.json"], capture_output=True, text=True, check=False)
+        self.assertIn("3 episodes", checked.stdout + checked.stderr)
+
+    def test_bags_whose_publishers_differ(self):
+        """A gripper's message first, and a publisher without velocity and effort."""
+        kind = "sensor_msgs/msg/JointState"
+        state, header = STORE.types[kind], STORE.types["std_msgs/msg/Header"]
+        with Writer(self.folder / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+            topic = writer.add_connection("/joint_states", kind, typestore=STORE)
+            empty = numpy.array([])
+            for i in range(COUNT):
+                when = EPOCH * 10**9 + round(TIME[i] * 1e9)
+                gripper = state(header=header(stamp=stamp(i), frame_id=""), name=["finger"], position=numpy.array([0.1]), velocity=empty, effort=empty)
+                bare = state(header=header(stamp=stamp(i), frame_id=""), name=["elbow"], position=numpy.array([0.1]), velocity=empty, effort=empty)
+                for message in (gripper, joint_state(i), bare):
+                    writer.write(topic, when, STORE.serialize_cdr(message, kind))
+        self.is_the_log(self.columns(self.folder / "bag", "--joint", "elbow"))
+        self.assertIn("200 of 400 messages of elbow", self.said)
+        self.output.unlink()
+        self.assertIn("one of finger, shoulder, elbow", self.refusal(self.folder / "bag"))
+        self.assertIn("no effort of finger", self.refusal(self.folder / "bag", "--joint", "finger"))
+
+    def test_hostile_files(self):
+        """Sizes that a head states, groups that hold themselves, other files, pipes, and names that act on a terminal."""
+        head = b"{'descr': [('time','<f8')], 'fortran_order': False, 'shape': (1000000000000,), }".ljust(117) + b"\n"
+        (self.folder / "big.npy").write_bytes(b"\x93NUMPY\x01\x00v\x00" + head)
+        self.assertIn("states an array", self.refusal(self.folder / "big.npy"))
+        os.mkfifo(self.folder / "pipe.npz")
+        self.assertIn("neither a file nor a folder", self.refusal(self.folder / "pipe.npz"))
+        with h5py.File(self.folder / "self.h5", "w") as file:
+            file["log"] = numpy.rec.fromarrays([TIME, POSITION, TORQUE], names=["time", "position", "torque"])
+            for k in range(10):
+                file[f"again{k}"] = file["/"]
+        self.is_the_log(self.columns(self.folder / "self.h5"), ("time", "position", "torque"))
+        self.output.unlink()
+        with h5py.File(self.folder / "outside.h5", "w") as file:
+            file.create_dataset("position", (8,), dtype="f8", external=[("/etc/passwd", 0, 64)])
+        self.assertIn("in another file", self.refusal(self.folder / "outside.h5"))
+        with h5py.File(self.folder / "link.h5", "w") as file:
+            file["time"] = h5py.ExternalLink("outside.h5", "position")
+        self.assertIn("link to another file", self.refusal(self.folder / "link.h5"))
+        numpy.savez(self.folder / "names.npz", **{"\x1b[31mred": numpy.array(["a", "b"]), "time": TIME})
+        said = convert(self.folder / "names.npz", self.output)
+        self.assertNotIn("\x1b", said.stdout + said.stderr)
 
     def test_objects_are_not_unpickled(self):
         log = self.folder / "log.npz"
@@ -224,9 +322,7 @@ class Convert(unittest.TestCase):
         self.assertIn("does not exist", self.refusal(self.folder / "none.npz"))
         numpy.savez(self.folder / "log.npz", time=TIME, position=POSITION[:9])
         self.assertIn("position has 9 samples where time has 200", self.refusal(self.folder / "log.npz"))
-        (self.folder / "log.doc").touch()
-        self.assertIn("is none of", self.refusal(self.folder / "log.doc"))
-        numpy.savez(self.folder / "good.npz", time=TIME)
+                numpy.savez(self.folder / "good.npz", time=TIME)
         self.assertIn("choose one of them", self.refusal(self.folder / "good.npz", output=self.folder / "log.xlsx"))
 
     def test_csv_reads_back_bit_for_bit(self):

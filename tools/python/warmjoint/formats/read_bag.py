@@ -1,7 +1,7 @@
 """Columns of one topic of a rosbag: a joint of sensor_msgs/JointState, or fields of any message."""
 
 import numpy
-from columns import Refusal, nearest, split
+from columns import MOST_NUMBERS, Refusal, first_line, nearest, split
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -57,35 +57,56 @@ def field_of(place, message, field):
         raise Refusal(f"{place}: {field} is no number; give an index or a field of it") from None
 
 
-def joint_index(place, message, joint):
-    if not joint and len(message.name) != 1:
-        raise Refusal(f"{place}: give --joint, one of {', '.join(message.name)}")
-    if joint and joint not in message.name:
-        raise Refusal(f"{place}: has no joint '{joint}'; {nearest(joint, message.name)}")
-    return list(message.name).index(joint) if joint else 0
+def joint_of(place, names, joint):
+    """The joint that is asked for; the only one where none is. names: {joint: messages that hold it}"""
+    if joint and joint not in names:
+        raise Refusal(f"{place}: has no joint '{joint}'; {nearest(joint, names)}")
+    if not joint and len(names) != 1:
+        raise Refusal(f"{place}: give --joint, one of {', '.join(names)}")
+    return joint or next(iter(names))
 
 
-def of_joint_state(place, messages, joint):
-    """time, position, velocity and torque of one joint; messages that leave the joint out are skipped."""
-    rows = []
+def require_count(place, messages):
+    """Messages one by one; refuses more than a log may have."""
+    for count, message in enumerate(messages, 1):
+        if count > MOST_NUMBERS // 8:
+            raise Refusal(f"{place}: holds more than {count - 1} messages; cut the bag")
+        yield message
+
+
+def of_joint_state(place, messages, joint, notes):
+    """time, position, velocity and torque of one joint.
+
+    Messages that leave the joint out, as a gripper's, are skipped, and so are those of a publisher without efforts. Of a velocity that some
+    lack nothing is kept: positions tell it.
+    """
+    rows, names = [], {}
     for stamp, message in messages:
-        if joint and rows and joint not in message.name:
-            continue
-        i = joint_index(place, message, joint)
-        lists = (message.position, message.velocity, message.effort)
-        rows.append((stamp, *(values[i] if len(values) > i else numpy.nan for values in lists)))
-    if not rows:
+        for i, name in enumerate(message.name):
+            names[name] = names.get(name, 0) + 1
+            if joint and name != joint:
+                continue
+            lists = (message.position, message.velocity, message.effort)
+            rows.append((name, stamp, *(values[i] if len(values) > i else numpy.nan for values in lists)))
+    if not names:
         return {}
-    stamps = numpy.array([row[0] for row in rows], dtype=numpy.int64)
-    found = {"time": (stamps - stamps[0]) * 1e-9}
-    for k, name in enumerate(("position", "velocity", "torque"), 1):
-        values = numpy.array([row[k] for row in rows])
-        if numpy.isfinite(values).all():
-            found[name] = values
-        elif numpy.isfinite(values).any():
-            raise Refusal(f"{place}: {name} of the joint is missing in {int((~numpy.isfinite(values)).sum())} messages")
-    if "torque" not in found:
-        raise Refusal(f"{place}: its JointState has no effort; take a topic that has it, with --topic and --map")
+    joint = joint_of(place, names, joint)
+    stamps = numpy.array([row[1] for row in rows], dtype=numpy.int64)
+    values = {name: numpy.array([row[k] for row in rows]) for k, name in enumerate(("position", "velocity", "torque"), 2)}
+    there = {name: numpy.isfinite(one) for name, one in values.items()}
+    if not there["torque"].any():
+        raise Refusal(f"{place}: its JointState has no effort of {joint}; take a topic that has it, with --topic and --map")
+    whole = there["torque"] & (there["position"] if there["position"].any() else there["velocity"])
+    if not whole.any():
+        raise Refusal(f"{place}: no message has both an effort and a position of {joint}; take topics apart, with --topic and --map")
+    if not whole.all():
+        notes.append(f"{int((~whole).sum())} of {len(whole)} messages of {joint} lack its effort or position and are left out")
+    found = {"time": (stamps[whole] - stamps[whole][0]) * 1e-9}
+    for name, one in values.items():
+        if there[name][whole].all():
+            found[name] = one[whole]
+        elif there[name].any():
+            notes.append(f"the {name} is left out: {int((~there[name][whole]).sum())} of {int(whole.sum())} messages lack it")
     return found
 
 
@@ -101,7 +122,8 @@ def of_fields(place, messages, fields):
     return {**found, **{name: numpy.array(values) for name, values in rows.items()}}
 
 
-def columns(path, topic, joint, fields):
+def columns(path, topic, joint, fields, notes):
+    """{column: (unit, [N])} in order of time."""
     if joint and fields:
         raise Refusal(f"{path}: give --joint or --map, not both")
     try:
@@ -109,14 +131,13 @@ def columns(path, topic, joint, fields):
             connections = topic_of(path, reader, topic, fields)
             place = f"{path}: {connections[0].topic}"
             messages = ((stamp, reader.deserialize(raw, one.msgtype)) for one, stamp, raw in reader.messages(connections))
-            timed = ((seconds_of(message, stamp), message) for stamp, message in messages)
-            found = of_fields(place, timed, fields) if fields else of_joint_state(place, timed, joint)
-    except Refusal:
+            timed = ((seconds_of(message, stamp), message) for stamp, message in require_count(place, messages))
+            found = of_fields(place, timed, fields) if fields else of_joint_state(place, timed, joint, notes)
+    except (Refusal, MemoryError):
         raise
     except Exception as error:  # a damaged file breaks any part of the parsers
-        words = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise Refusal(f"{path}: cannot be read as a rosbag: {words}") from None
+        raise Refusal(f"{path}: cannot be read as a rosbag: {first_line(error)}") from None
     if not found:
         raise Refusal(f"{path}: its topic holds no message")
     order = numpy.argsort(found["time"], kind="stable")
-    return {name: values[order] for name, values in found.items()}
+    return {name: ("s" if name == "time" else "", numpy.ascontiguousarray(values[order], dtype=float)) for name, values in found.items()}
