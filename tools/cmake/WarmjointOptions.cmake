@@ -7,7 +7,7 @@ option(WARMJOINT_PYTHON "build the Python package's modules; needs nanobind and 
 
 # pip builds with what is there: say at once what lacks. The package holds a plugin for each version of MuJoCo
 if(SKBUILD)
-  set(WARMJOINT_PLUGIN_MUJOCOS 3.11.0 3.17.0)
+  set(WARMJOINT_PLUGIN_MUJOCOS 3.11.0 3.12.0 3.13.0 3.14.0 3.15.0 3.16.0 3.17.0)
   set(setup ${PROJECT_SOURCE_DIR}/tools/setup)
   foreach(command "packages;--no-install;--without-tests" "fetch;${PROJECT_BINARY_DIR}/deps;${WARMJOINT_PLUGIN_MUJOCOS}")
     # the system's own pip, which the one that builds hides

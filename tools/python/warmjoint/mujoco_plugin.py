@@ -1,6 +1,6 @@
 """The MuJoCo plugin `warmjoint.friction` for the MuJoCo of this Python, loaded when this module is imported.
 
-Each version of MuJoCo has a library of its own: VERSION/libwarmjoint_friction.so in the package's folder `plugins`, in
+Each minor version of MuJoCo has a library of its own: VERSION/libwarmjoint_friction.so in the package's folder `plugins`, in
 build/plugins of a source tree, or in the folder that WARMJOINT_PLUGINS names.
 """
 
@@ -16,35 +16,35 @@ from typing import Any
 
 import mujoco
 
+from warmjoint import mujoco_library
 from warmjoint._core import BadInput
-
-VERSIONS = ("3.11.0", "3.17.0", "4.0.0")
 
 _HERE = pathlib.Path(__file__).resolve().parent
 _NAME = "libwarmjoint_friction.so"
 
 
+def _minor(version: str) -> str:
+    return ".".join(version.split(".")[:2])
+
+
 def library_path(version: str) -> pathlib.Path:
-    """The plugin's library for a version of MuJoCo, "4.0.0". Raises ImportError where there is none."""
-    if version not in VERSIONS:
-        raise ImportError(
-            f"warmjoint's friction works with MuJoCo {', '.join(VERSIONS[:-1])} and {VERSIONS[-1]}, and this Python has "
-            f"{version}: pip install mujoco=={VERSIONS[-1]}"
-        )
+    """The plugin's library for a version of MuJoCo, "4.0.1": that of its minor version. Raises ImportError where there is none."""
     given = os.environ.get("WARMJOINT_PLUGINS")
     folders = [pathlib.Path(given)] if given else [_HERE / "plugins", *(up / "build/plugins" for up in _HERE.parents[2:3])]
-    for folder in folders:
-        if (folder / version / _NAME).exists():
-            return folder / version / _NAME
-    raise ImportError(
-        f"there is no {_NAME} for MuJoCo {version} in {' or '.join(map(str, folders))}; in a source tree build it: "
-        f'tools/build -DWARMJOINT_PLUGIN_MUJOCOS="{version}"'
-    )
+    built = {_minor(path.parent.name): path for folder in reversed(folders) for path in sorted(folder.glob(f"*/{_NAME}"))}
+    if _minor(version) in built:
+        return built[_minor(version)]
+    if not built:
+        raise ImportError(f"there is no {_NAME} in {' or '.join(map(str, folders))}; in a source tree build it: tools/build")
+    known = sorted(built, key=lambda minor: [int(part) for part in minor.split(".")])
+    raise ImportError(f"warmjoint's friction works with MuJoCo {', '.join(known)}, and this Python has {version}: pip install 'mujoco=={known[-1]}.*'; "
+                      f'in a source tree another version is built by tools/build -DWARMJOINT_PLUGIN_MUJOCOS="{version}"')
 
 
 def _load() -> ctypes.CDLL:
     path = library_path(mujoco.__version__)
     # MuJoCo loads it, which registers the plugin; then its functions are at hand
+    mujoco_library.share()
     mujoco.mj_loadPluginLibrary(str(path))
     library = ctypes.CDLL(str(path))
     for function, takes in (
