@@ -17,6 +17,9 @@ constexpr double kSettled = 0.005;    // of the speed: to which a start must set
 constexpr double kDriftOfBand = 0.6;  // a hold that drifts by more leaves its band
 constexpr double kSlowly = 0.01;      // of the steepest acceleration: a hold that drifts, no ramp
 
+// of the band; why: a sine whose peaks leave the band has four times its amplitude, noise at most a little more than the band
+constexpr double kRipples = 2;
+
 // a jump from one speed to the next
 constexpr double kJumpDeviations = 8;   // of the noise
 constexpr double kJumpOverBeside = 10;  // times the changes before and behind it
@@ -131,14 +134,15 @@ void CutOutwards(Segment& run, const IsInside& is_inside) {
   run = {begin, end, run.velocity};
 }
 
+/// Robust deviation, as that of a normal distribution: median distance from a level over 0.6745. strays: distances
+double SpreadOfStrays(Eigen::VectorXd strays) { return MedianInPlace(strays) / 0.6745; }
+
 /// Sets the level of a run to its median and cuts its ends where the speed still settles: to within
 /// the noise and the ripple of the load, both of which spread the samples. A handful of samples shows no ripple.
 void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
-  // robust deviation, as that of a normal distribution: median distance from the median over 0.6745
-  values = (values.array() - run.velocity).abs();
-  const double spread = MedianInPlace(values) / 0.6745;
+  const double spread = SpreadOfStrays((values.array() - run.velocity).abs());
   // how far a settled speed may stray: by its ripple, noise, level or resolution
   const double allowed =
       std::max({VelocityScale::kFar * spread, VelocityScale::kNear * scale.noise,
@@ -326,10 +330,13 @@ ConstantSpeed FindConstantSpeed(const Measurements& measurements) {
     }
     Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
 
-    // outliers within a segment are not kept
+    // outliers within a segment are not kept, the peaks of a ripple of the load are
     const auto values = v.segment(segment.begin, Length(segment)).array();
-    selection.keep.segment(segment.begin, Length(segment)) =
-        (values - segment.velocity).abs() <= scale.Band(segment.velocity);
+    const Eigen::ArrayXd strays = (values - segment.velocity).abs();
+    const double band = scale.Band(segment.velocity);
+    const double rippling = VelocityScale::kFar * SpreadOfStrays(strays);
+    const bool ripples = Length(segment) >= kHandful && rippling > kRipples * band;
+    selection.keep.segment(segment.begin, Length(segment)) = strays <= (ripples ? rippling : band);
     segment.velocity = values.mean();
     selection.segments.push_back(segment);
   }
