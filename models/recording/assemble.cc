@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "models/foundation/excerpt.h"
+#include "models/recording/clock.h"
 #include "models/recording/measurements.h"
 #include "models/recording/mend.h"
 #include "models/recording/one_clock.h"
@@ -21,11 +22,11 @@ namespace {
 
 constexpr double kLargest = 1e30;       // of any value; beyond it squares and products overflow
 constexpr double kShortestStep = 1e-9;  // s, on average
-// where nobody says the unit of time: no drive samples faster than every 10 us, and no friction shows at a sample in 100 s
-constexpr double kFastest = 1e-5, kSlowest = 100;  // s
-constexpr double kSlow = 2;                        // s, from which milliseconds are likelier
 constexpr double kFast =
     30;  // rad/s on average: no joint of a robot turns so fast, in degrees many do
+
+constexpr const char* kOfVoltage =
+    "torque is a voltage, which drives the motor against its back-EMF, too: viscous holds that";
 
 void CheckValues(const RawColumns& raw) {
   for (const ColumnSource& one : raw.columns) {
@@ -41,13 +42,9 @@ void CheckValues(const RawColumns& raw) {
   }
 }
 
-/// Notes that a unit may be another one.
-void Doubt(std::string sentence, Measurements& measurements) {
-  measurements.notes.push_back(sentence);
-  measurements.doubts.push_back(std::move(sentence));
-}
-
-void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurements) {
+/// assumed: where nobody says the unit of time
+void CheckTime(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
+               Measurements& measurements) {
   const Eigen::VectorXd& time = measurements.time;
   // stamps increase from sample to sample
   for (Eigen::Index i = 1; i < time.size(); ++i) {
@@ -64,20 +61,15 @@ void CheckTime(const RawColumns& raw, bool is_assumed, Measurements& measurement
            "it by time",
            i + 1, time[i], time[i - 1]);
   }
-  // steps that are far too short or too long tell of another unit
+  if (assumed) return CheckAssumedUnit(*assumed, {raw.file}, measurements);
+  // steps that are far too short tell of another unit
   const Eigen::Index n = time.size();
   const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
-  if (step < (is_assumed ? kFastest : kShortestStep) || (is_assumed && step > kSlowest)) {
-    Refuse({raw.file},
-           "samples are {:.4g} s apart if time is in s; give its unit: --unit time=ns, us, ms, s, "
-           "min, h "
-           "or d",
-           step);
-  }
-  if (is_assumed && step > kSlow) {
-    Doubt(fmt::format("samples are {:.4g} s apart; if time is in ms give --unit time=ms", step),
-          measurements);
-  }
+  if (step >= kShortestStep) return;
+  Refuse(
+      {raw.file},
+      "samples are {:.4g} s apart; give the unit of time: --unit time=ns, us, ms, s, min, h or d",
+      step);
 }
 
 /// Says that a joint turns as one does whose degrees were taken for radians.
@@ -87,11 +79,12 @@ void NoteSpeed(Measurements& measurements) {
   const double travelled = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
   const double speed = travelled / (time[n - 1] - time[0]);
   if (speed <= kFast) return;
-  Doubt(fmt::format(
-            "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "
-            "position=deg,velocity=deg/s",
-            speed * 30 / std::numbers::pi),
-        measurements);
+  AddDoubt(
+      fmt::format(
+          "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "
+          "position=deg,velocity=deg/s",
+          speed * 30 / std::numbers::pi),
+      measurements);
 }
 
 void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
@@ -102,8 +95,9 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
          torque[0], measurements.torque_unit, torque.size());
 }
 
-/// Number of samples, time and torque. is_assumed: nobody says the unit of time.
-void CheckSamples(const RawColumns& raw, bool is_assumed, Measurements& measurements) {
+/// Number of samples, time and torque. assumed: where nobody says the unit of time
+void CheckSamples(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
+                  Measurements& measurements) {
   const Eigen::Index n = measurements.size();
   if (n < 3) {
     const std::string left_out = fmt::format("{}", fmt::join(measurements.notes, "; "));
@@ -114,7 +108,7 @@ void CheckSamples(const RawColumns& raw, bool is_assumed, Measurements& measurem
     Refuse({raw.file}, "has {} samples; {} at most are read: cut it, or lower its rate", n,
            kMostSamples);
   }
-  CheckTime(raw, is_assumed, measurements);
+  CheckTime(raw, assumed, measurements);
   CheckTorque(raw, measurements);
 }
 
@@ -201,40 +195,60 @@ void LeaveOutRows(RawColumns& raw) {
   Keep(keep, raw);
 }
 
-/// Makes the first source the time in s, of a rate or of one or two columns. Whether nobody says its unit.
-bool TakeTime(const ReadSettings& layout, RawColumns& raw) {
+/// Makes the sum of the first two sources the first, in s.
+void AddSecond(RawColumns& raw) {
   ColumnSource& first = raw.columns.front();
-  bool is_assumed =
-      first.unit_from == UnitFrom::nobody && !raw.stamps && !layout.scale.contains("time");
-  // stamps were read as s
-  for (ColumnSource& one : raw.columns) {
-    if (one.column == first.column && !raw.stamps) one.values *= one.unit.factor;
+  const auto second = raw.columns.begin() + 1;
+  if (second->unit_from == UnitFrom::nobody && !raw.stamps) {
+    Refuse(
+        {raw.file},
+        "--map time=A+B: the name of the second column must tell its unit, as nsecs or stamp_ns");
   }
+  const auto factor = [&](const ColumnSource& one) { return raw.stamps ? 1 : one.unit.factor; };
+  first.values = factor(first) * first.values + factor(*second) * second->values;
   first.unit = *MeantUnit("s");
-  if (const auto second = raw.columns.begin() + 1; second->is_added) {
-    if (second->unit_from == UnitFrom::nobody && !raw.stamps) {
-      Refuse(
-          {raw.file},
-          "--map time=A+B: the name of the second column must tell its unit, as nsecs or stamp_ns");
-    }
-    first.values += second->values;
-    raw.columns.erase(second);
-    is_assumed = false;
-  }
-  const auto unit = is_assumed ? EpochUnit(first.values) : std::nullopt;
-  if (!unit) return is_assumed;
-  first.values *= unit->factor;
-  if (unit->name != "s") {
-    raw.notes.push_back(fmt::format("time counts {} since 1970 by its size", unit->name));
-  }
-  return false;
+  raw.columns.erase(second);
+}
+
+/// Leaves out rows at either end that are not on the clock.
+void LeaveOutStrayRows(RawColumns& raw) {
+  const Eigen::VectorXd& time = raw.columns.front().values;
+  const StrayRows stray = FindStrayRows(time);
+  if (stray.note.empty()) return;
+  std::vector<bool> keep(static_cast<std::size_t>(time.size()), true);
+  keep.front() = !stray.first;
+  keep.back() = !stray.last;
+  raw.notes.push_back(stray.note);
+  Keep(keep, raw);
+}
+
+/// Makes the first source the time in s, of a rate or of one or two columns. Its unit, where nobody says that.
+std::optional<AssumedUnit> TakeTime(const ReadSettings& layout, RawColumns& raw) {
+  ColumnSource& first = raw.columns.front();
+  const bool is_sum = raw.columns[1].is_added;
+  const bool is_assumed = first.unit_from == UnitFrom::nobody && !raw.stamps && !is_sum &&
+                          !layout.scale.contains("time");
+  // a clock that goes on, and what is on it
+  if (is_sum) AddSecond(raw);
+  const std::string restarts = raw.stamps || is_sum ? std::string() : UndoRestarts(first.values);
+  if (!restarts.empty()) raw.notes.push_back(restarts);
+  if (raw.stamps) GoOnAtMidnight(first.values);
+  LeaveOutStrayRows(raw);
+
+  // stamps were read as s
+  std::optional<AssumedUnit> assumed;
+  if (is_assumed) assumed = AssumeUnit(first.values);
+  if (assumed) first.unit = assumed->unit;
+  if (!raw.stamps) first.values *= first.unit.factor;
+  first.unit = *MeantUnit("s");
+  return assumed;
 }
 
 /// Makes time increase where the clock is coarse or made a slip.
 void TakeClock(RawColumns& raw) {
   const ColumnSource* const position = SourceOf(raw, "position");
-  const MendedClock mended = MendClock(position ? position->values : Eigen::VectorXd(), raw.stamps,
-                                       raw.columns.front().values);
+  const MendedClock mended =
+      MendClock(position ? position->values : Eigen::VectorXd(), raw.columns.front().values);
   if (!mended.note.empty()) raw.notes.push_back(mended.note);
   if (!mended.keep.empty()) Keep(mended.keep, raw);
 }
@@ -278,7 +292,7 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
   }
   LeaveOutRows(raw);
   CheckValues(raw);
-  const bool is_assumed = TakeTime(layout, raw);
+  const std::optional<AssumedUnit> assumed = TakeTime(layout, raw);
   TakeClock(raw);
 
   // to SI
@@ -293,6 +307,7 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
     // the range of the sensor, in the unit of the position
     if (name == "position") range = std::abs(factor) * layout.wrap;
     if (name == "torque") measurements.torque_unit = one.unit.base;
+    if (name == "position") measurements.other_joints = std::move(one.of_other_joints);
     one.column->set(measurements, std::move(one.values));
     if (!one.found_as.empty()) {
       measurements.notes.push_back(
@@ -303,7 +318,8 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
   // all of it at once: at least three samples, in order, with a torque that changes
   std::ranges::move(raw.notes, std::back_inserter(measurements.notes));
   std::ranges::move(raw.doubts, std::back_inserter(measurements.doubts));
-  CheckSamples(raw, is_assumed, measurements);
+  CheckSamples(raw, assumed, measurements);
+  if (measurements.torque_unit == "V") measurements.notes.emplace_back(kOfVoltage);
   if (measurements.position.size() == 0 && measurements.velocity.size() == 0) {
     Refuse({raw.file}, "has neither a position nor a velocity with numbers; one is needed");
   }

@@ -9,7 +9,6 @@
 
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
-#include "models/recording/units.h"
 
 namespace warmjoint {
 namespace {
@@ -105,15 +104,8 @@ Undone Undo(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double
 
 }  // namespace
 
-MendedClock MendClock(const Eigen::VectorXd& position, bool is_stamp, Eigen::VectorXd& time) {
+MendedClock MendClock(const Eigen::VectorXd& position, Eigen::VectorXd& time) {
   const Eigen::Index n = time.size();
-  // a time of day begins again at midnight
-  double midnight = 0;  // s
-  for (Eigen::Index i = 1; is_stamp && i < n; ++i) {
-    const double back = time[i] + midnight - time[i - 1];
-    if (back < -kDay / 2 && back > -kDay) midnight += kDay;
-    time[i] += midnight;
-  }
   if (n < 2 || (time.tail(n - 1).array() > time.head(n - 1).array()).all()) return {};
 
   // samples that are no later than one before them

@@ -15,10 +15,10 @@ struct MendedClock {
 };
 
 /// Makes time increase where a clock is coarse or made a slip. Stamps that repeat more often than once in 100 samples are ticks,
-/// within which samples are spread evenly; fewer that repeat or step back are to be left out. Times of day go on behind midnight.
-/// Leaves all other clocks as they are. time: [N] s, changed in place; position: [N], by which rows of several joints at one stamp
+/// within which samples are spread evenly; fewer that repeat or step back are to be left out. Leaves all other clocks as they
+/// are. time: [N] s, changed in place; position: [N], by which rows of several joints at one stamp
 /// are told from ticks.
-MendedClock MendClock(const Eigen::VectorXd& position, bool is_time_of_day, Eigen::VectorXd& time);
+MendedClock MendClock(const Eigen::VectorXd& position, Eigen::VectorXd& time);
 
 /// Undoes the jumps in a position whose sensor starts again after `range`, rad or m, and returns their number. A range
 /// that is given counts however far the positions reach: each jump of more than half of it is one. range 0: after a

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -18,6 +21,7 @@ using Values = Eigen::VectorXd;
 
 constexpr const char* kTemperature = "temperature";
 constexpr const char* kPosition = "position";
+constexpr const char* kTorque = "torque";
 
 /// Parts of the names that foreign files give to columns, in lower case, the likeliest first.
 const std::map<std::string, std::vector<std::string>> kHints{
@@ -25,11 +29,35 @@ const std::map<std::string, std::vector<std::string>> kHints{
     {"position", {"pos", "angle", "winkel", "q", "theta"}},
     {"velocity", {"vel", "speed", "drehzahl", "geschwindigkeit", "qd", "dq"}},
     {"torque",
-     {"torque", "tau", "force", "effort", "moment", "current", "strom", "trq", "load", "i"}},
+     {"torque", "tau", "force", "effort", "moment", "current", "strom", "trq", "load", "iq", "pwm",
+      "duty", "volt", "i"}},
     {"motor_position", {"motor"}},
     {"load", {"load"}},
     {"temperature", {"temp"}},
 };
+
+/// A quantity that stands for a torque by its name.
+struct StandIn {
+  const char* name;   // with its article
+  const char* units;  // of --unit, the likeliest first
+  std::vector<std::string_view>
+      parts;  // of a name's words; of three letters or fewer: a whole word
+
+  /// The likeliest of the units.
+  std::string Unit() const {
+    const std::string_view all = units;
+    return std::string(all.substr(0, all.find_first_of(", ")));
+  }
+};
+
+const std::vector<StandIn>& StandIns() {
+  static const std::vector<StandIn> all{
+      {"a current", "A, mA or raw", {"current", "strom", "curr", "cur", "amp", "iq", "i"}},
+      {"a voltage", "V, mV or raw", {"volt", "spannung"}},
+      {"a duty cycle", "% or raw", {"duty", "pwm"}},
+      {"a load", "%, raw or N.m", {"load", "auslastung"}}};
+  return all;
+}
 
 template <auto member>
 const Values* Get(const Measurements& measurements) {
@@ -79,14 +107,67 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
   return std::nullopt;
 }
 
+/// The words of a name in small letters, as position, est of "PositionEst2"; digits and signs part them.
+std::vector<std::string> WordsIn(std::string_view name) {
+  std::vector<std::string> words;
+  bool joins = false;  // whether the next letter goes on with the last word
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto c = static_cast<unsigned char>(name[i]);
+    const bool is_letter = std::isalpha(c) || c >= 0x80;
+    const bool begins =
+        std::isupper(c) && i > 0 && std::islower(static_cast<unsigned char>(name[i - 1]));
+    if (is_letter && (!joins || begins)) words.emplace_back();
+    if (is_letter) words.back() += Lowercase(name.substr(i, 1));
+    joins = is_letter;
+  }
+  return words;
+}
+
+/// What a name says that its column is in place of a torque; nullptr where it says nothing of the kind, or speaks of a torque
+/// last, as load_torque does, and current_torque.
+const StandIn* StandInOf(const std::string& name) {
+  const auto is_in = [](std::string_view part, const std::string& word) {
+    return part.size() > 3 ? word.find(part) != std::string::npos : word == part;
+  };
+  const auto is_torque = [&](const std::string& word) {
+    return std::ranges::any_of(std::array{"torque", "moment", "trq", "tau", "effort", "force"},
+                               [&](std::string_view part) { return is_in(part, word); });
+  };
+  const StandIn* found = nullptr;
+  bool of_torque =
+      false;  // whether a torque was named before: of that a letter is an index, as in tau_i
+  for (const std::string& word : WordsIn(name)) {
+    if (is_torque(word)) {
+      found = nullptr;
+      of_torque = true;
+      continue;
+    }
+    for (const StandIn& one : StandIns()) {
+      const bool is_one = std::ranges::any_of(one.parts, [&](std::string_view part) {
+        const bool is_vague = part == "i" || part == "load";
+        return !(is_vague && of_torque) && is_in(part, word);
+      });
+      if (is_one && !found) found = &one;
+    }
+  }
+  return found;
+}
+
+/// names: of all columns; free: of those that no other column of ours has
 [[noreturn]] void RefuseMissing(const std::vector<const RecordingColumn*>& missing,
-                                const std::vector<std::string>& names, const Place& place,
+                                const std::vector<std::string>& names,
+                                const std::vector<std::string>& free, const Place& place,
                                 const std::string& there) {
   // what is lacking, and which names may be meant
   std::vector<std::string> lacking, remedy;
+  std::string unit;  // of a torque that is something else
   for (const RecordingColumn* column : missing) {
+    const std::string likely = LikelyName(*column, free).value_or("NAME");
     lacking.push_back(fmt::format("'{}'", column->name));
-    remedy.push_back(column->name + "=" + LikelyName(*column, names).value_or("NAME"));
+    remedy.push_back(column->name + "=" + likely);
+    const StandIn* const stand_in = column->name == kTorque ? StandInOf(likely) : nullptr;
+    if (stand_in && !SplitUnit(likely).unit)
+      unit = fmt::format(" --unit torque={}", stand_in->Unit());
   }
   // for a shell, which must not split names
   std::string pairs = fmt::format("{}", fmt::join(remedy, ","));
@@ -94,8 +175,8 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
   const auto lacks = [&](std::string_view name) {
     return std::ranges::find(missing, name, &RecordingColumn::name) != missing.end();
   };
-  Refuse(place, "has no column {}; it has: {}. Name them: --map {}{}{}",
-         fmt::join(lacking, " and no "), there.empty() ? ExcerptOfList(names) : there, pairs,
+  Refuse(place, "has no column {}; it has: {}. Name them: --map {}{}{}{}",
+         fmt::join(lacking, " and no "), there.empty() ? ExcerptOfList(names) : there, pairs, unit,
          lacks("time") ? ", or give --rate HZ where none is time" : "",
          lacks(kPosition) ? "; where only a velocity was logged, --map position=" : "");
 }
@@ -123,6 +204,7 @@ struct Header {
   const ReadSettings& layout;
   const Place& place;
   std::vector<std::string> names{};  // of the columns, without groups that all lie in
+  std::vector<bool> given{};         // whether `map` gives the column to one of ours
 };
 
 /// Indices of the columns for which `fits` holds.
@@ -137,7 +219,7 @@ std::vector<std::size_t> Where(const Header& header, Fits&& fits) {
 
 /// The column that a user calls so, or none.
 std::vector<std::size_t> Named(const Header& header, const std::string& name) {
-  const auto& [columns, layout, place, names] = header;
+  const auto& [columns, layout, place, names, given] = header;
   const auto exact =
       Where(header, [&](std::size_t i) { return names[i] == name || columns[i].name == name; });
   if (exact.size() > 1) Refuse(place, "has column '{}' twice; rename one", Excerpt(name));
@@ -180,21 +262,54 @@ std::vector<std::size_t> FindMapped(const Header& header, const std::string& col
          Suggestion(theirs, header.names));
 }
 
+/// Marks the columns that `map` gives to one of ours: none is found for another, and none is given twice.
+void MarkGiven(Header& header) {
+  header.given.assign(header.names.size(), false);
+  for (const RecordingColumn& column : RecordingColumns()) {
+    const auto mapped = header.layout.map.find(column.name);
+    if (mapped == header.layout.map.end()) continue;
+    for (const std::size_t i : FindMapped(header, column.name, mapped->second)) {
+      if (header.given[i]) {
+        Refuse(header.place, "--map gives '{}' to {} and to another column; give it to one",
+               Excerpt(header.names[i]), column.name);
+      }
+      header.given[i] = true;
+    }
+  }
+}
+
 /// The columns of a file that are one of ours.
 std::vector<std::size_t> Find(const Header& header, const RecordingColumn& column) {
   const auto mapped = header.layout.map.find(column.name);
   if (mapped != header.layout.map.end()) return FindMapped(header, column.name, mapped->second);
   std::vector<std::size_t> found = Named(header, column.name);
+  std::erase_if(found, [&](std::size_t i) { return header.given[i]; });
   if (!found.empty()) return found;
   // our name in other letters or with a unit; a temperature by its unit alone
-  const auto split = [&](std::size_t i) {
-    return Split(column, header.names[i], header.layout.joint);
+  const auto where = [&](auto&& fits) {
+    return Where(header, [&](std::size_t i) {
+      return !header.given[i] && fits(Split(column, header.names[i], header.layout.joint));
+    });
   };
-  found = Where(header, [&](std::size_t i) { return Lowercase(split(i).stem) == column.name; });
+  found = where([&](const NameAndUnit& split) { return Lowercase(split.stem) == column.name; });
   if (found.size() != 1 && column.name == kTemperature) {
-    found = Where(header, [&](std::size_t i) { return split(i).unit.has_value(); });
+    found = where([](const NameAndUnit& split) { return split.unit.has_value(); });
   }
   return found.size() == 1 ? found : std::vector<std::size_t>();
+}
+
+/// Refuses a torque of which nobody says the unit, and whose name says that it is something else. A factor makes it a torque,
+/// other than one that turns it.
+void AskForUnit(const Header& header, const RecordingColumn& column, const std::string& name) {
+  const auto scale = header.layout.scale.find(column.name);
+  const bool is_scaled = scale != header.layout.scale.end() && std::abs(scale->second) != 1;
+  const StandIn* const stand_in = column.name != kTorque || is_scaled ? nullptr : StandInOf(name);
+  if (!stand_in || name == column.name) return;
+  const std::string torque = column.Units(header.layout.joint).front();
+  Refuse(header.place,
+         "torque from '{}', by its name {}, and nobody says its unit: --unit torque={} ({}); "
+         "--unit torque={} where it is a torque",
+         Excerpt(name), stand_in->name, stand_in->Unit(), stand_in->units, torque);
 }
 
 /// The unit of a column, and who says so: an option, the file beside the name, or the name.
@@ -219,11 +334,35 @@ void TakeUnit(const Header& header, ColumnSource& source) {
     take(in_name ? in_name->name : any.unit->name, UnitFrom::name);
   } else {
     take(bases.front(), UnitFrom::nobody);
+    AskForUnit(header, column, name);
   }
   // a count is of no size by itself
   if (!source.unit.name.starts_with("counts") || header.layout.scale.contains(column.name)) return;
   Refuse(header.place, "{} in counts needs the {} of one: --scale {}=FACTOR", column.name,
          bases.front(), column.name);
+}
+
+/// The same quantity of other joints: names that differ in one number, as q[1] from q[3].
+std::vector<std::string> OfOtherJoints(const std::string& name,
+                                       const std::vector<std::string>& names) {
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  std::vector<std::string> others;
+  for (const std::string& other : names) {
+    // what differs between a common beginning and a common end, with all digits of a number
+    auto [from, other_from] = std::ranges::mismatch(name, other);
+    while (from != name.begin() && is_digit(*std::prev(from))) --from, --other_from;
+    auto end = name.end(), other_end = other.end();
+    while (end != from && other_end != other_from && *std::prev(end) == *std::prev(other_end) &&
+           !is_digit(*std::prev(end))) {
+      --end, --other_end;
+    }
+    const bool differ = from != end && other_from != other_end && name != other;
+    if (differ && std::all_of(from, end, is_digit) &&
+        std::all_of(other_from, other_end, is_digit)) {
+      others.push_back(other);
+    }
+  }
+  return others;
 }
 
 /// Whether a log does without positions: its velocity tells them, and no other column may be meant, or none is wanted.
@@ -282,6 +421,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
   Header header{columns, layout, place};
   const std::size_t groups = LengthOfGroups(columns);
   for (const FileColumn& one : columns) header.names.push_back(one.name.substr(groups));
+  MarkGiven(header);
 
   std::vector<ColumnSource> sources;
   std::vector<const RecordingColumn*> missing;
@@ -293,6 +433,9 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
       const bool is_added = !sources.empty() && sources.back().column == &column;
       sources.push_back({.column = &column, .index = index, .is_added = is_added});
       TakeUnit(header, sources.back());
+      if (column.name == kPosition) {
+        sources.back().of_other_joints = OfOtherJoints(header.names[index], header.names);
+      }
       const bool is_found = column.name == kTemperature && !layout.map.contains(column.name);
       if (is_found && header.names[index] != column.name) {
         sources.back().found_as = header.names[index];
@@ -309,8 +452,12 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
   std::erase_if(missing, [&](const RecordingColumn* column) {
     return column->name == kPosition && DoWithout(header, *column, sources);
   });
-  if (!missing.empty()) RefuseMissing(missing, header.names, place, there);
-  return sources;
+  if (missing.empty()) return sources;
+  std::vector<std::string> free;
+  for (std::size_t i = 0; i < header.names.size(); ++i) {
+    if (!header.given[i]) free.push_back(header.names[i]);
+  }
+  RefuseMissing(missing, header.names, free, place, there);
 }
 
 bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings& layout,

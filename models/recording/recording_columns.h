@@ -58,6 +58,8 @@ struct ColumnSource {
   UnitFrom unit_from = UnitFrom::nobody;
   std::string
       found_as{};  // its name in the file, where the unit in that told what it is; else empty
+  std::vector<std::string>
+      of_other_joints{};     // of the position: names of other joints' in the file
   bool is_added = false;     // to the source before it: the nanoseconds of secs+nsecs
   Eigen::VectorXd values{};  // [N] as they stand in the file, once they are read; NaN: no number
 };
@@ -65,7 +67,8 @@ struct ColumnSource {
 /// Finds our columns in a file: the one that `map` names, the one of our name, or of our name and a unit, as "Position [deg]".
 /// Groups that all columns lie in may be left out, and '.' and '/' separate alike. Throws BadInput for a missing column (naming
 /// what is there and the --map that would help), one that stands there twice, and unknown names
-/// and units in the layout, and a unit of another quantity. A temperature that nothing names is found by its unit. Time, which --rate
+/// and units in the layout, a unit of another quantity, and a torque without a unit that is a current, a voltage, a duty cycle or
+/// a load by its name. A column that `map` gives to one of ours is found for no other. A temperature that nothing names is found by its unit. Time, which --rate
 /// makes needless, comes first; `time=secs+nsecs` gives two sources, whose sum it is.
 /// place: of the header. there: what the file has, for messages; by default the names.
 std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,

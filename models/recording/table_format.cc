@@ -155,8 +155,11 @@ std::string Utf8(std::string_view name) {
 /// separator at its end, or have one more, and may be split by other separators than the rows.
 std::optional<std::vector<std::string>> FieldsAbove(std::string_view line, const TableFormat& table,
                                                     bool rows_end_empty) {
-  // without the mark of a comment
-  if (IsComment(line)) line = line.substr(line.find_first_of("#%") + 1);
+  // without the marks of a comment
+  if (IsComment(line)) {
+    line.remove_prefix(line.find_first_of("#%"));
+    line.remove_prefix(std::min(line.find_first_not_of("#%"), line.size()));
+  }
   std::vector<std::string_view> fields;
   for (const char separator : {table.separator, '\t', ';', ',', '|', ' '}) {
     if (SplitLine(line, separator, fields) > kMostFields) continue;

@@ -89,12 +89,15 @@ constexpr const char* kStamps[]{"%Y-%m-%dT%H:%M:%S", "%Y-%m-%d %H:%M:%S", "%Y/%m
                                 "%d.%m.%Y %H:%M:%S", "%Y%m%dT%H%M%S",     "%Y-%m-%d_%H:%M:%S",
                                 "%Y-%m-%d",          "%d.%m.%Y",          "%H:%M:%S"};
 
-/// The text behind what `format` reads of a stamp; nullptr where it does not.
+constexpr int kFirstYear = 0;  // since 1900; why: a year of two digits may be a day or a month
+
+/// The text behind what `format` reads of a stamp; nullptr where it does not, and where the year has two digits.
 const char* Behind(const char* text, const char* format, std::tm* time) {
   *time = {};
   time->tm_year = 70;
   time->tm_mday = 1;
-  return strptime(text, format, time);
+  const char* const behind = strptime(text, format, time);
+  return time->tm_year < kFirstYear ? nullptr : behind;
 }
 
 }  // namespace
@@ -278,20 +281,6 @@ std::optional<double> ReadStamp(std::string_view text) {
     rest = behind;
   }
   return *rest ? std::nullopt : std::optional(seconds);
-}
-
-std::optional<Unit> EpochUnit(const Eigen::VectorXd& time) {
-  constexpr double first = 978307200, last = 4102444800;  // s, of 2001 and 2100
-  constexpr double longest = 100;                         // s between samples
-  const Eigen::Index n = time.size();
-  if (n < 2) return std::nullopt;
-  const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
-  for (const char* name : {"s", "ms", "us", "ns"}) {
-    const Unit unit = *MeantUnit(name, {"s"});
-    const double seconds = unit.factor * time[0];
-    if (seconds >= first && seconds < last && std::abs(step) * unit.factor <= longest) return unit;
-  }
-  return std::nullopt;
 }
 
 }  // namespace warmjoint

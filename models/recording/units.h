@@ -1,7 +1,6 @@
 // Units that logs use, and how they become SI; times in words and as counts.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,11 +43,7 @@ inline constexpr double kDay = 86400;  // s
 
 /// The seconds of a stamp: since 1970 of a date with or without a time, as 2024-03-01T12:00:00.123+01:00 or "01.03.2024 12:00:00";
 /// since midnight of a time, as 12:00:00.123, 12:00:00:123, "1:00:00 PM" or 59:59.9; of a duration, as "0.02 sec", "20 ms" or
-/// "0 days 00:00:01.5". Nothing for other texts, plain numbers, and dates of which no one knows the month, as 03/04/2024.
+/// "0 days 00:00:01.5". Nothing for other texts, plain numbers, and dates of which no one knows the month, as 03/04/2024, or the year, as 24-03-04.
 std::optional<double> ReadStamp(std::string_view text);
-
-/// The part of a second that a plain count is in, where its size is that of a time since 1970: "s", "ms", "us" or "ns" of years
-/// from 2001 to 2100 at more than a sample in 100 s. Nothing for other counts. time: [N]
-std::optional<Unit> EpochUnit(const Eigen::VectorXd& time);
 
 }  // namespace warmjoint

@@ -50,6 +50,8 @@ struct Measurements {
   std::optional<Eigen::VectorXd> motor_position;  // [N] rad
   std::optional<Eigen::VectorXd> load;            // [N] N.m or N
   std::optional<Eigen::VectorXd> temperature;     // [N] degC
+  /// Columns of the file that hold the positions of other joints by their names, as q1 beside q3.
+  std::vector<std::string> other_joints;
   /// Whether the positions are the integral of the velocity from 0, in a log that has none.
   bool position_integrated = false;
   /// Where a unit may be another one than it was taken for: one sentence each, which notes hold, too. Warnings of an estimate.
@@ -194,7 +196,8 @@ std::vector<Measurements> ReadRecordings(const RecordingSource& source);
 
 /// Makes a recording of vectors, with the conversions and checks of a file. columns: values by the names that a file would
 /// have in its header, all of one length. name: of the recording in messages. Throws BadInput.
-///   MakeRecording({{"time", t}, {"position", q}, {"velocity", v}, {"current", i}}, {.map = {{"torque", "current"}}})
+///   MakeRecording({{"time", t}, {"position", q}, {"current", i}},
+///                 {.map = {{"torque", "current"}}, .unit = {{"torque", "A"}}})
 Measurements MakeRecording(const std::map<std::string, std::vector<double>>& columns,
                            const ReadSettings& settings = {},
                            const std::string& name = "recording");

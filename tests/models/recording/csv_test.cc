@@ -16,6 +16,7 @@ namespace warmjoint {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 const char* const kPlain =
@@ -103,8 +104,7 @@ TEST(ReadCsv, UnwrapsARotaryPosition) {
   layout.unit = {{"position", "deg"}};
   const Measurements log = Read(text, layout);
   EXPECT_NEAR(log.position[99], 693 * std::numbers::pi / 180, 1e-12);
-  ASSERT_EQ(log.notes.size(), 1U);
-  EXPECT_EQ(log.notes[0], "position jumps by a turn 1 times; unwrapped");
+  EXPECT_THAT(log.notes, Contains("position jumps by a turn 1 times; unwrapped"));
 }
 
 TEST(ReadCsv, MultipliesColumnsByFactors) {
@@ -188,6 +188,64 @@ TEST(ReadCsv, RefusesColumnsAndUnitsThatAreNone) {
   EXPECT_THAT(refusal(unit, {{"temperature", "K"}}), HasSubstr("temperature"));
 }
 
+TEST(ReadCsv, FindsAMappedColumnForNothingElse) {
+  ReadSettings layout;
+  layout.map = {{"torque", "load"}};
+  layout.unit = {{"torque", "raw"}};
+  const std::string rows = "0,0,1\n0.1,0.1,2\n0.2,0.2,1\n";
+  EXPECT_FALSE(Read("time,position,load\n" + rows, layout).load);
+  layout.map = {{"torque", "temp_C"}};
+  EXPECT_FALSE(Read("time,position,temp_C\n" + rows, layout).temperature);
+  layout.map = {{"torque", "load"}, {"load", "load"}};
+  EXPECT_THAT(Refusal("time,position,load\n" + rows, layout), HasSubstr("'load'"));
+}
+
+TEST(ReadCsv, AsksForTheUnitOfWhatIsNoTorqueByItsName) {
+  const auto read = [](const std::string& name, const ReadSettings& more = {}) {
+    ReadSettings layout = more;
+    layout.map["torque"] = name;
+    return Refusal("time,position," + name + "\n0,0,1\n0.1,0.1,2\n0.2,0.2,1\n", layout);
+  };
+  for (const auto& [name, unit] :
+       std::vector<std::pair<std::string, std::string>>{{"current", "A"},
+                                                        {"motorCurrent", "A"},
+                                                        {"actual_current_3", "A"},
+                                                        {"Iq_measured", "A"},
+                                                        {"torque_current", "A"},
+                                                        {"i", "A"},
+                                                        {"Strom", "A"},
+                                                        {"Motorstrom", "A"},
+                                                        {"voltage", "V"},
+                                                        {"Spannung", "V"},
+                                                        {"pwm", "%"},
+                                                        {"duty_cycle", "%"},
+                                                        {"Present_Load", "%"}}) {
+    EXPECT_THAT(read(name), HasSubstr("--unit torque=" + unit)) << name;
+    ReadSettings layout;
+    layout.unit = {{"torque", unit}};
+    EXPECT_EQ(read(name, layout), "accepted") << name;
+  }
+  ReadSettings scaled;
+  scaled.scale = {{"torque", 0.07}};
+  EXPECT_EQ(read("Iq_measured", scaled), "accepted");
+  for (const char* name : {"tau", "tau_i", "current_torque", "load_torque", "effort", "force",
+                           "i_A", "m", "Drehmoment", "motor_voltage_mV"}) {
+    EXPECT_EQ(read(name), "accepted") << name;
+  }
+}
+
+TEST(ReadCsv, KnowsTheOtherJointsOfARobot) {
+  const std::string rows = "0,0,9,1\n0.1,0.1,9,2\n0.2,0.2,9,1\n";
+  ReadSettings layout;
+  layout.map = {{"position", "q_1"}};
+  EXPECT_THAT(Read("time,q_1,q_10,torque\n" + rows, layout).other_joints,
+              testing::ElementsAre("q_10"));
+  EXPECT_THAT(Read("time,q_1,dq_1,torque\n" + rows, layout).other_joints, testing::IsEmpty());
+  layout.map = {{"position", "state.q[3]"}};
+  EXPECT_THAT(Read("time,state.q[3],state.q[0],torque\n" + rows, layout).other_joints,
+              testing::ElementsAre("state.q[0]"));
+}
+
 TEST(Units, AreKnownInTheirSpellings) {
   const std::vector<std::string> any;
   for (const auto& [text, name] :
@@ -250,8 +308,8 @@ TEST(ReadStamp, GivesSeconds) {
     const auto stamp = ReadStamp(text);
     EXPECT_NEAR(stamp.value_or(-1), seconds, 1e-9) << text;
   }
-  for (const char* text :
-       {"", "12", "12:34", "03/04/2024 10:00:00", "2024-13-01", "10:00:00x", "x", "5 deg"}) {
+  for (const char* text : {"", "12", "12:34", "03/04/2024 10:00:00", "03/04/24 10:00:00",
+                           "03.04.24", "24-04-03", "2024-13-01", "10:00:00x", "x", "5 deg"}) {
     EXPECT_FALSE(ReadStamp(text)) << text;
   }
 }
