@@ -23,8 +23,9 @@ bool IdentifyCommand::Sets(std::string_view key) const {
 std::string IdentifyCommand::Text() const {
   std::string text = identifier;
   for (const auto& [key, value] : settings) {
-    text += key == "gravity" ? fmt::format(" --gravity {}", value)
-                             : fmt::format(" --set {}={}", key, value);
+    // options of the command line by themselves
+    const bool is_own = key == "gravity" || key == "gear";
+    text += is_own ? fmt::format(" --{} {}", key, value) : fmt::format(" --set {}={}", key, value);
   }
   return text;
 }

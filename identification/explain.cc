@@ -94,7 +94,11 @@ constexpr AssumptionWords kAssumptions[] = {
      "late"},
     {Source::dead_band,
      "the torque's sensor has no dead band, though one of {:.2g} {} would stay unseen"},
-    {Source::degrees, "positions and speeds are in radians, not both in degrees"},
+    {Source::offset,
+     "the torque has no offset and holds no load, though the one direction of the log would not "
+     "show "
+     "{:.2g} {}"},
+    {Source::degrees, "positions and speeds are in radians, not both in degrees or revolutions"},
     {Source::clock, "the clock of the log is right, not off by 1 %"},
 };
 
@@ -228,11 +232,13 @@ std::string ExplainImitated(const std::vector<std::string>& names) {
       fmt::join(names, ", "), names.size() == 1 ? "this number" : "these numbers");
 }
 
-std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements) {
+std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements,
+                                   const Fit& fit) {
   return fmt::format(
-      "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; does the torque hold gravity "
-      "(--gravity sincos), or is its sign reversed (--scale torque=-1)?",
-      at.speed, kVelocityUnit.For(measurements.joint), at.value, measurements.torque_unit);
+      "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; {} its sign reversed (--scale "
+      "torque=-1)?",
+      at.speed, kVelocityUnit.For(measurements.joint), at.value, measurements.torque_unit,
+      fit.gravity ? "is" : "does the torque hold gravity (--gravity sincos), or is");
 }
 
 std::string ExplainHoles(const std::vector<std::string>& holes) {
@@ -294,12 +300,12 @@ std::string ExplainWidened(double largest) {
 }
 
 std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
-                              const MovedParameter& moved) {
+                              const MovedParameter& moved, std::string_view remedy) {
   return fmt::format(
       "the residual may depend on {}: one test alone would call that found, among many it may be "
-      "chance; intervals were widened to cover it, that of {} by {:.2g} {}; a longer recording "
-      "tells",
-      fmt::join(quantities, ", or on "), moved.parameter.name, moved.change, moved.parameter.unit);
+      "chance; intervals were widened to cover it, that of {} by {:.2g} {}{}",
+      fmt::join(quantities, ", or on "), moved.parameter.name, moved.change, moved.parameter.unit,
+      remedy);
 }
 
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
@@ -322,11 +328,11 @@ std::string ExplainFewSamples(double used, double moving, double fewest, double 
       used, moving, fewest, 100 * least_share, motion == MotionKind::any ? "constant" : "any");
 }
 
-std::string ExplainWorseThanMean(double fit_share) {
+std::string ExplainWorseThanMean(double fit_share, const Fit& fit) {
   return fmt::format(
-      "the torque's mean follows it better than the friction does (Fit {:.3g} %): is there gravity "
-      "(--gravity sincos), or a wrong sign or unit?",
-      fit_share);
+      "the torque's mean follows it better than the friction does (Fit {:.3g} %): is there {}a "
+      "wrong sign or unit?",
+      fit_share, fit.gravity ? "" : "gravity (--gravity sincos), or ");
 }
 
 std::string ExplainOwnLaw(const MovedParameter& moved) {

@@ -91,8 +91,9 @@ inline constexpr const char* kMotorTurnsWithJoint =
 inline constexpr const char* kWithoutWarming = "without warming: ";  // why not
 /// Of parameters, by their names, that maps can imitate.
 std::string ExplainImitated(const std::vector<std::string>& names);
-/// Of friction below 0 at a speed.
-std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements);
+/// Of friction below 0 at a speed, beside the gravity that the fit has.
+std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements,
+                                   const Fit& fit);
 /// Of places without data (NameHoles).
 std::string ExplainHoles(const std::vector<std::string>& holes);
 /// Of a motor's ripple. harmonics: how often a turn, and amplitude in `unit`
@@ -120,16 +121,17 @@ std::string ExplainTooMuchTogether(double share, double most);
 std::string ExplainWidened(double largest);
 inline constexpr const char* kAbsorbedByWarming =
     ", and the parameters of warming have none, since they may have absorbed part of it";
-/// Of findings by tests that reject before adjustment alone, and the parameter that they move farthest.
+inline constexpr const char* kLongerTells = "; a longer recording tells";
+/// Of findings by tests that reject before adjustment alone, and the parameter that they move farthest. remedy: a clause
 std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
-                              const MovedParameter& moved);
+                              const MovedParameter& moved, std::string_view remedy);
 /// Of a torque in steps, whose effect was taken off (shift) or hides. step: in `unit`
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
                             Action action);
 /// Of a fit to few samples, and of one that the torque's mean beats. motion: of the fit; fit_share: Fit, %
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
                               MotionKind motion);
-std::string ExplainWorseThanMean(double fit_share);
+std::string ExplainWorseThanMean(double fit_share, const Fit& fit);
 /// Of an estimate of others whose own law fits its log better. moved: the parameter that is farthest off
 std::string ExplainOwnLaw(const MovedParameter& moved);
 

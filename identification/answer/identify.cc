@@ -44,7 +44,7 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   return Cause{.source = Source::worse_than_mean,
                .action = Action::refuse,
                .status = Status::inadequate_model,
-               .sentence = ExplainWorseThanMean(100 * (1 - std::sqrt(left / by_mean)))};
+               .sentence = ExplainWorseThanMean(100 * (1 - std::sqrt(left / by_mean)), fit)};
 }
 
 /// The first row of the law that is a slope over speed; nullptr where there is none.

@@ -35,6 +35,7 @@ enum class Source {
   open_curve,
   open_memory,
   dead_band,
+  offset,
   degrees,
   clock,
   // what the log leaves open
@@ -57,22 +58,16 @@ enum class Source {
 /// Names in estimate.json, of assumptions and of what makes intervals reach farther.
 inline std::span<const Word<Source>> WordsOf(Source) {
   using enum Source;
-  static constexpr std::array words{Word{"cold_start", cold_start},
-                                    Word{"open_start", open_start},
-                                    Word{"no_slow_drift", slow_drift},
-                                    Word{"open_drift", open_drift},
-                                    Word{"open_curve", open_curve},
-                                    Word{"open_memory", open_memory},
-                                    Word{"no_dead_band", dead_band},
-                                    Word{"angles_in_radians", degrees},
-                                    Word{"true_clock", clock},
-                                    Word{"held_losses", held_losses},
-                                    Word{"gaps", gaps},
-                                    Word{"hidden_steps", hidden_steps},
-                                    Word{"findings", findings},
-                                    Word{"hidden_means", hidden_means},
-                                    Word{"unadjusted_findings", unadjusted_findings},
-                                    Word{"velocity_noise", velocity_noise}};
+  static constexpr std::array words{
+      Word{"cold_start", cold_start},        Word{"open_start", open_start},
+      Word{"no_slow_drift", slow_drift},     Word{"open_drift", open_drift},
+      Word{"open_curve", open_curve},        Word{"open_memory", open_memory},
+      Word{"no_dead_band", dead_band},       Word{"no_offset", offset},
+      Word{"angles_in_radians", degrees},    Word{"true_clock", clock},
+      Word{"held_losses", held_losses},      Word{"gaps", gaps},
+      Word{"hidden_steps", hidden_steps},    Word{"findings", findings},
+      Word{"hidden_means", hidden_means},    Word{"unadjusted_findings", unadjusted_findings},
+      Word{"velocity_noise", velocity_noise}};
   return words;
 }
 

@@ -23,6 +23,8 @@ using Eigen::VectorXd;
 constexpr double kWarmStart =
     0.1;                         // of the warmth that the joint reaches; why: cold_start asks that
 constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
+constexpr double kOffset =
+    0.1;  // of the friction; why: a sensor is trimmed to some per cent of what it reads
 constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
 constexpr double kSureMove = 3;  // deviations from which a move is there; why 3: 1 in 370
 constexpr double kFadesAfter = 1.0 / 3;  // of the log: time constant of a drift that dies away
@@ -66,7 +68,7 @@ MatrixXd Drifts(const Bins& bins) {
   return drifts;
 }
 
-/// cold_start, slow_drift, dead_band, gaps
+/// cold_start, slow_drift, dead_band, offset, gaps
 void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
   const auto& [model, m, bins, derivatives, beside, known] = over;
   // starts that were not cold, all alike
@@ -84,6 +86,13 @@ void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
   const double band = known.torque.cwiseAbs().minCoeff();
   const VectorXd swallowed = -band * bins.velocity.array().sign();
   examination.Add(Source::dead_band, Action::note, beside.MovesBy(swallowed), band);
+
+  // an offset, which in one direction looks like friction
+  if (bins.velocity.minCoeff() > 0 || bins.velocity.maxCoeff() < 0) {
+    const double offset = kOffset * examination.friction;
+    examination.Add(Source::offset, Action::widen,
+                    beside.MovesBy(VectorXd::Constant(bins.size(), offset)), offset);
+  }
 
   // heat that came or went in gaps of the log
   const Index jumps = model.jump_spread.size(), p = std::ssize(examination.rows);
@@ -226,7 +235,7 @@ void AddOpen(const OverBins& over, Examination& examination) {
                   Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors)));
 }
 
-constexpr double kDegree = std::numbers::pi / 180;  // rad
+constexpr double kTurn = 2 * std::numbers::pi, kDegree = kTurn / 360;  // rad
 constexpr double kClock = 1.01;  // as fast as it should be; why: the slip that is asked about
 
 /// The most that an end of each interval moves. [p]
@@ -249,8 +258,10 @@ Eigen::VectorXd FarthestMoves(double displacement, double time, const Fit& fit,
 void AddOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
                    Examination& examination) {
   if (joint == JointKind::rotary) {
+    const VectorXd degrees = FarthestMoves(kDegree, 1, fit, inference, examination.rows),
+                   turns = FarthestMoves(kTurn, 1, fit, inference, examination.rows);
     examination.Add(Source::degrees, Action::note,
-                    FarthestMoves(kDegree, 1, fit, inference, examination.rows));
+                    (degrees.cwiseAbs().array() < turns.cwiseAbs().array()).select(turns, degrees));
   }
   examination.Add(Source::clock, Action::note,
                   FarthestMoves(1, kClock, fit, inference, examination.rows));

@@ -123,7 +123,8 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
 
   // what helps against the largest, and which changes the friction most
   const std::vector<const Finding*> found = examination.Found();
-  row->remedy = found[0]->test->remedy({*found[0], of.identifier, of.input, of.fit});
+  const Advice advice{*found[0], of.identifier, of.input, of.fit};
+  row->remedy = WithoutWhatWasDone(advice, found[0]->test->remedy(advice));
   const Finding& worst =
       **std::ranges::max_element(found, {}, [](const Finding* one) { return Counted(*one); });
   const auto explain = [&](const std::string& effect) {
@@ -171,6 +172,11 @@ void ActOnStart(const Examined& of, StartBelief start, Examination& examination)
   }
 }
 
+/// Whether a longer recording shows more of what a test looks for: not of what happens once.
+bool Recurs(const LackOfFitTest& test) {
+  return test.warming != HeatRelation::starts && &test != FindLackOfFitTest("step");
+}
+
 /// Sentences of what the log leaves open, in the order in which they are read; of steps and unadjusted findings only where they
 /// leave an interval.
 void ExplainLog(const Examined& of, Examination& examination) {
@@ -193,10 +199,12 @@ void ExplainLog(const Examined& of, Examination& examination) {
   const auto moved = row ? FarthestBeyond(*row, of) : std::nullopt;
   if (!moved) return;
   std::vector<std::string> quantities;
+  bool recurs = true;
   for (const Finding* one : examination.FoundUnadjusted()) {
     quantities.push_back(QuantityOf(*one, of));
+    recurs = recurs && Recurs(*one->test);
   }
-  row->sentence = ExplainUnadjusted(quantities, *moved);
+  row->sentence = ExplainUnadjusted(quantities, *moved, recurs ? kLongerTells : "");
 }
 
 }  // namespace

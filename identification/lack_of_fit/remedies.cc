@@ -10,8 +10,10 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/initial_energy.h"
+#include "models/foundation/excerpt.h"
 #include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
@@ -20,6 +22,10 @@ constexpr double kSettledAfter = 3;       // time constants; why 3: 5 % are left
 constexpr size_t kMostKernels = 128;      // of a map over position; why: most that the options take
 constexpr size_t kMostSpeedKernels = 64;  // for each direction; why: most that the options take
 constexpr size_t kKernelsAPeriod = 3;     // why: a wave has two coefficients, and kernels overlap
+constexpr double kOfAMotor =
+    20;  // waves a turn; why: bearings and cams make fewer, gears of 10 and more as many
+constexpr double kOfAMultiple =
+    0.25;  // of the gear, between a wave and a multiple; why: half of what separates two
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HasMap(const Advice& advice, MapQuantity quantity) {
@@ -87,7 +93,38 @@ bool MayBeGravity(const Advice& advice) {
   return advice.input.measurements.joint == JointKind::rotary && slow && !advice.fit.gravity;
 }
 
+/// The gear of a motor whose ripple a test over the position found: the whole number of which all its waves a turn of the joint
+/// are multiples, the strongest by 2, as strain wave gears make it. One below it holds its multiples, too. 0: of no motor.
+int GearOf(const Advice& advice) {
+  const LogSamples& m = advice.input.measurements;
+  const auto waves = [](double period) { return 2 * std::numbers::pi / period; };
+  const double strongest = waves(advice.finding.period);
+  if (m.joint != JointKind::rotary || KnowsMotorAngle(m) || strongest < kOfAMotor) return 0;
+  // by least squares of multiple * gear - waves, from the strongest on
+  double products = 2 * strongest, squares = 4;
+  for (const double period : advice.finding.periods) {
+    const double gear = products / squares, multiple = std::round(waves(period) / gear);
+    if (period == advice.finding.period || multiple < 1) continue;
+    if (std::abs(waves(period) - multiple * gear) > kOfAMultiple * gear) continue;
+    products += multiple * waves(period);
+    squares += multiple * multiple;
+  }
+  return static_cast<int>(std::lround(products / squares));
+}
+
 }  // namespace
+
+Remedy WithoutWhatWasDone(const Advice& advice, Remedy remedy) {
+  const std::optional<IdentifyCommand>& command = remedy.command;
+  if (!command || command->identifier != advice.fit.identifier) return remedy;
+  const std::vector<OptionInfo> options = advice.input.options.List();
+  const bool done = std::ranges::all_of(command->settings, [&](const auto& setting) {
+    const auto option = std::ranges::find(options, setting.first, &OptionInfo::name);
+    return option != options.end() && option->value == setting.second;
+  });
+  if (!done) return remedy;
+  return {"the model has that already, and friction follows it in another way"};
+}
 
 std::string RemedyForWarmStart(const Identifier& identifier) {
   if (identifier.options.Find<InitialEnergyOptions>()) return "try --start estimated";
@@ -223,9 +260,16 @@ Remedy RemedyForHolds(const Advice&) {
       "beginning of each hold, or log what changes as load"};
 }
 
-Remedy RemedyForPeriod(const Advice&) {
-  return {
-      "something acts on the joint in a rhythm of its own: log it as load, or record without it"};
+Remedy RemedyForPeriod(const Advice& advice) {
+  const std::vector<std::string>& others = advice.input.measurements.other_joints;
+  if (others.empty()) {
+    return {
+        "something acts on the joint in a rhythm of its own: log it as load, or record without it"};
+  }
+  return {fmt::format(
+      "something acts on the joint in a rhythm of its own, perhaps other joints of the robot ({}): "
+      "record this joint while they rest, or log their force on it as load",
+      ExcerptOfList(others))};
 }
 
 Remedy RemedyForLag(const Advice& advice) {
@@ -261,6 +305,15 @@ Remedy RemedyForPosition(const Advice& advice) {
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
   constexpr size_t most = kMostKernels / kKernelsAPeriod;
+
+  // ripple of a motor that the log does not know
+  if (const int gear = GearOf(advice)) {
+    return Try(
+        advice, WithMap(advice, MapQuantity::motor_position).With("gear", std::to_string(gear)),
+        fmt::format("{}it may be the motor's, twice a turn, with a gear of {} (or as its data "
+                    "sheet says): ",
+                    how, gear));
+  }
 
   // ripple that returns more often than a map has kernels for
   if (periods > most) {

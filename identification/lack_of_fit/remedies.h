@@ -11,6 +11,9 @@ namespace warmjoint {
 /// What to do where a start that was taken to be cold may have been warm.
 std::string RemedyForWarmStart(const Identifier& identifier);
 
+/// The remedy, or words where it tries what the fit has done already.
+Remedy WithoutWhatWasDone(const Advice& advice, Remedy remedy);
+
 Remedy RemedyForWarming(const Advice& advice);
 Remedy RemedyForStart(const Advice& advice);
 Remedy RemedyForSpeed(const Advice& advice);

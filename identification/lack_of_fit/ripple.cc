@@ -278,6 +278,7 @@ std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
     if (frequency == 0) break;
     Ripple ripple = FitRipple(axis, frequency, binned, totals);
     const bool rejects = level.WouldReject(ripple.finding);
+    const double period = ripple.finding.period;
     if (!strongest) {
       strongest = std::move(ripple.finding);
     } else if (rejects) {
@@ -285,6 +286,7 @@ std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
       strongest->explained += ripple.finding.explained;
     }
     if (!rejects) break;
+    strongest->periods.push_back(period);
     binned.TakeOff(ripple.waves);
   }
   if (!strongest || !level.Rejects(*strongest)) return strongest;

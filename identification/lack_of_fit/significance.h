@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 namespace warmjoint {
 
@@ -22,8 +23,9 @@ struct Finding {
   /// Of a ripple, in the unit of the angle; of what is periodic in time, or the time constant of a
   /// memory, s; 0: none.
   double period = 0;
-  double lag = 0;         // of the torque behind the velocity, s; 0: none
-  double alike = 0;       // share of an angle's part that acts alike in both directions
+  std::vector<double> periods{};  // of a ripple: of all waves that were found, the strongest first
+  double lag = 0;                 // of the torque behind the velocity, s; 0: none
+  double alike = 0;               // share of an angle's part that acts alike in both directions
   Eigen::VectorXd moves;  // [p] change of the fit's parameters when the features join it; or empty
   Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`
   double harm =

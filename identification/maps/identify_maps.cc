@@ -113,7 +113,7 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
       friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
   if (drives != friction_at_speeds.end()) {
     fit.causes.push_back(
-        Voids(Status::inadequate_model, ExplainDrivingFriction(*drives, input.measurements)));
+        Voids(Status::inadequate_model, ExplainDrivingFriction(*drives, input.measurements, fit)));
   }
   if (shares) fit.friction_at_speeds = std::move(friction_at_speeds);
 }

@@ -29,7 +29,8 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
 
 /// Positions that jump back by one and the same way, more than half of their range: those of a
 /// sensor that starts again after a range of its own (turns are undone while reading, UndoJumps). Two
-/// jumps are needed, equal to 1 %, each more than four times what the speed beside it allows.
+/// jumps are needed, equal to 1 %, each more than four times what the speed beside it allows. Where they run back behind most jumps, a bit is
+/// their sign.
 std::optional<std::string> WrappedPosition(const Measurements& measurements,
                                            const Selection& selection);
 
@@ -38,6 +39,10 @@ std::optional<std::string> WrappedPosition(const Measurements& measurements,
 /// the directions agree in size, or differ by a power of two of its steps.
 std::optional<std::string> TorqueDirections(const Measurements& measurements,
                                             const Selection& selection);
+
+/// Torque that stays small over one and the same way behind most reversals, whatever time that takes, and then jumps to its level,
+/// in one per cent or more of what a fit takes: all that moves, or what is kept in a log that holds speeds. Eight reversals are needed.
+std::optional<std::string> Backlash(const Measurements& measurements, const Selection& selection);
 
 /// Torque that stops at a largest or smallest value: ten samples have it, 0.5 % of all, and five
 /// times as many as have the value next to it. Torque must be noisy and take 50 values or more:

@@ -47,7 +47,9 @@ std::string AssumptionOf(const std::string& name) {
   if (name == "open_memory")
     return "Friction follows the speed at once, as far as the log itself says";
   if (name == "no_dead_band") return "The torque's sensor has no dead band";
-  if (name == "angles_in_radians") return "Positions and speeds are in radians, not in degrees";
+  if (name == "no_offset") return "The torque has no offset, which one direction alone cannot show";
+  if (name == "angles_in_radians")
+    return "Positions and speeds are in radians, not in degrees or revolutions";
   if (name == "true_clock") return "The clock of the log is right to 1 %";
   return name;
 }
