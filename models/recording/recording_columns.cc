@@ -465,6 +465,7 @@ bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings&
   if (layout.rate > 0) return false;
   Header header{columns, layout, place};
   for (const FileColumn& one : columns) header.names.push_back(one.name);
+  MarkGiven(header);
   // what there is, by name or by what looks like it
   bool has_speed = false, has_torque = false, has_more = false;
   for (const RecordingColumn& column : RecordingColumns()) {

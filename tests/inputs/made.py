@@ -336,3 +336,21 @@ def make_ringing(folder):
         v[begin + 1:begin + 5] *= (.969, .991, .983, 1.005)
         torque[begin - 2:begin + 4] += np.sign(v[begin + 4]) * np.array([-10, 5, 12, 5.8, -1.4, .8])
     write_csv(folder / "ringing.csv", time=np.arange(len(v)) * .05, position=np.cumsum(v) * .05, velocity=v, torque=torque)
+
+
+def make_names(folder):
+    """A torque in a column `load`, one direction with an offset of the sensor, dates with years of two digits over midnight, and factors below the header."""
+    place = folder / "names"
+    place.mkdir()
+    log = holds(10)
+    write_csv(place / "load.csv", time=log["time"], position=log["position"], velocity=log["velocity"], load=log["torque"])
+    speed = np.repeat([.2, .5, 1, .3, .8, .1], 500)
+    time, noise = .02 * np.arange(len(speed)), .1 * np.random.default_rng(11).standard_normal(len(speed))
+    columns = {"position": np.cumsum(speed) * .02, "velocity": speed, "torque": .8 * speed + 4.5 + .5 + noise}
+    write_csv(place / "one_way.csv", time=time, **columns)
+    rows = (place / "one_way.csv").read_text().splitlines()
+    (place / "factors.csv").write_text("\n".join([rows[0], "1700000000,0.001,0.01,0.1", *rows[1:]]) + "\n")
+    for name, form in {"dmy": "{:02}/04/24 ", "mdy": "04/{:02}/24 "}.items():
+        stamps = [form.format(3 + (k >= 500)) + ("23:59:%05.2f" % (50 + .02 * k) if k < 500 else "00:00:%05.2f" % (.02 * (k - 500))) for k in range(1000)]
+        body = [",".join([stamp, *row.split(",")[1:]]) for stamp, row in zip(stamps, rows[1:])]
+        (place / f"dates_{name}.csv").write_text("\n".join([rows[0], *body]) + "\n")
