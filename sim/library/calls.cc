@@ -2,6 +2,7 @@
 // both JSON.
 //
 // Each answer is an object; {"error": "..."} where the request is refused. It stays until the thread's next call.
+#include <fmt/ranges.h>
 #include <link.h>
 #include <mujoco/mujoco.h>
 #include <warmjoint/attach.h>
@@ -11,11 +12,13 @@
 #include <exception>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
@@ -32,6 +35,8 @@ struct AttachRequest {
   std::vector<FrictionForJoint> frictions;  // each for the joints that a name or pattern means
   AttachOptions options;
   std::map<std::string, double> armatures;
+  std::optional<std::string> integrator;
+  std::map<std::string, std::map<std::string, std::string>> units;  // of estimates' parameters
 
   template <class A>
   void Serialize(A* a) {
@@ -42,6 +47,9 @@ struct AttachRequest {
     a->Field("numbers", &options.numbers);
     a->Field("armatures", &armatures, {.unit = "kg.m^2"});
     a->Field("timestep", &options.timestep, {.unit = "s"});
+    a->Field("integrator", &integrator);
+    a->Field("stiffest_drive", &options.stiffest_drive, {.unit = "1"});
+    a->Field("units", &units);
   }
 };
 
@@ -51,6 +59,21 @@ Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
   for (const FrictionForJoint& one : frictions) RefuseAmperes(one.friction, {one.joint});
   for (const auto& [joints, armature] : request.armatures) {
     request.options.armatures.push_back({joints, armature});
+  }
+  // choices by their names
+  if (request.integrator) {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : Integrators()) names.push_back(name);
+    const auto known = Integrators().find(*request.integrator);
+    if (known == Integrators().end()) {
+      Refuse({"integrator"}, "is '{}'; it must be one of {}", Excerpt(*request.integrator),
+             fmt::join(names, ", "));
+    }
+    request.options.integrator = known->second;
+  }
+  for (const auto& [joint, units] : request.units) {
+    const auto kind = KindOfUnits(units);
+    if (kind) request.options.kinds.emplace(joint, *kind);
   }
   // a copy goes first, so that what is refused leaves the model as it was
   const SpecPtr copy(mj_copySpec(&spec));
@@ -69,20 +92,30 @@ Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
   return {{"joints", joints}, {"notices", attached.notices}};
 }
 
-/// The numbers of one joint that may change at run time, by their names: where each stands in numeric_data,
-/// and what it may be.
+/// A number of a joint that may change at run time: in which field of the model it stands, where, and what it may be.
+Tree NumberAt(const char* field, int place, const Bounds& bounds) {
+  return {{"field", field},
+          {"place", place},
+          {"least", WriteValue(bounds.at_least)},
+          {"above", WriteValue(bounds.above)},
+          {"most", WriteValue(bounds.at_most)},
+          {"words", bounds.Words()}};
+}
+
+/// Those of one joint by their names.
 Tree NumbersOf(const BoundJoints& bound, size_t joint, const std::string& instance) {
   Tree numbers = Tree::object();
   for (const NumberArray& array : bound.numbers()) {
     if (!array.places[joint]) continue;
     const Bounds bounds =
         array.stage ? Bounds() : bound.joints()[joint].friction.NumberBounds(*array.places[joint]);
-    numbers[array.name.substr(instance.size() + 1)] = {
-        {"place", array.address + static_cast<int>(joint)},
-        {"least", WriteValue(bounds.at_least)},
-        {"above", WriteValue(bounds.above)},
-        {"most", WriteValue(bounds.at_most)},
-        {"words", bounds.Words()}};
+    numbers[array.name.substr(instance.size() + 1)] =
+        NumberAt("numeric_data", array.address + static_cast<int>(joint), bounds);
+  }
+  const BoundJoint& of = bound.joints()[joint];
+  if (of.viscous == Viscous::by_damping) {
+    const size_t place = *of.friction.FindNumber(kViscousName);
+    numbers[kViscousName] = NumberAt("dof_damping", of.dof, of.friction.NumberBounds(place));
   }
   return numbers;
 }
@@ -121,6 +154,11 @@ Tree Describe(const mjModel* m) {
                         {"report", m->plugin_stateadr[instance]},
                         {"sensor", SensorOf(m, bound, i)},
                         {"numbers", NumbersOf(bound, i, name)},
+                        {"inertia", EffectiveInertia(m, bound.joints()[i].dof)},
+                        {"drive", bound.joints()[i].drive},
+                        {"instances", bound.joints()[i].instances},
+                        {"damping", bound.joints()[i].viscous == Viscous::by_damping},
+                        {"initial_energy", bound.joints()[i].initial_energy},
                         {"friction", FrictionToTree(acting[i].prepared->description)}});
     }
   }
@@ -171,7 +209,11 @@ mjPLUGIN_LIB_INIT(warmjoint_friction) {
                  mjVERSION_HEADER % 1000, engines.paths.c_str());
     return;
   }
-  warmjoint::RegisterFrictionPlugin();
+  try {
+    warmjoint::RegisterFrictionPlugin();
+  } catch (const warmjoint::BadInput& refused) {
+    std::fprintf(stderr, "%s\n", refused.what());
+  }
 }
 
 extern "C" {
@@ -179,7 +221,7 @@ extern "C" {
 /// Puts friction on joints of a spec (AttachFriction); a spec that is refused stays as it was.
 /// files: meshes and textures in memory, or null. request: {model: name for messages, frictions: [{joint: name
 /// or pattern, friction: as in a friction file, initial_energy: [E1, E2]}], form, sensors, numbers, armatures:
-/// {joint: number}, timestep}. Answer: {joints: [{name, given: place in
+/// {joint: number}, timestep, integrator, stiffest_drive, units: {joint: {parameter: unit}} of estimates}. Answer: {joints: [{name, given: place in
 /// frictions}], notices: [sentence]}.
 [[gnu::visibility("default")]] const char* warmjoint_attach(mjSpec* spec, const mjVFS* files,
                                                             const char* request) {
@@ -188,8 +230,10 @@ extern "C" {
 
 /// The joints with friction of a model, in the order of instances and their joints. Answer: {joints: [{name,
 /// instance, form, linear, state: first place in act (actuator) or plugin_state (passive), states: [name], report:
-/// of the instance's entries in plugin_state, sensor: place in sensordata or null, numbers: {name: {place in
-/// numeric_data, least, above, most, words}}, friction}]}.
+/// of the instance's entries in plugin_state, sensor: place in sensordata or null, numbers: {name: {field: numeric_data or
+/// dof_damping, place there, least, above, most, words}}, inertia: effective at the reference pose, kg.m^2 or kg, drive:
+/// StiffestDrives of its tree, instances: on its tree, damping: whether the joint's damping is its viscous, initial_energy: [E1,
+/// E2], friction}]}.
 [[gnu::visibility("default")]] const char* warmjoint_joints(const mjModel* model) {
   return warmjoint::Answer([&] { return warmjoint::Describe(model); });
 }

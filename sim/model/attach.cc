@@ -1,5 +1,6 @@
 #include <fmt/ranges.h>
 #include <warmjoint/attach.h>
+#include <warmjoint/friction_model.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,10 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "sim/model/earlier_friction.h"
 #include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
+#include "sim/model/make_room.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
@@ -40,59 +43,49 @@ bool HasFiles(mjSpec& spec) {
   return false;
 }
 
-/// Gives an actuator the range of its joint, in the actuator's own force, cut to what it had.
-void LimitForce(mjsActuator& motor, const double range[2]) {
-  // a negative gear turns the range round
-  const double gear = motor.gear[0];
-  const double lower = std::min(range[0] / gear, range[1] / gear);
-  const double upper = std::max(range[0] / gear, range[1] / gear);
-
-  // a range that the actuator had already stays, where it is narrower
-  const bool limited =
-      motor.forcelimited == mjLIMITED_TRUE ||
-      (motor.forcelimited == mjLIMITED_AUTO && motor.forcerange[0] < motor.forcerange[1]);
-  motor.forcerange[0] = limited ? std::max(motor.forcerange[0], lower) : lower;
-  motor.forcerange[1] = limited ? std::min(motor.forcerange[1], upper) : upper;
-  motor.forcelimited = mjLIMITED_TRUE;
+JointKind KindOf(const mjsJoint& joint) {
+  return joint.type == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary;
 }
 
-bool Drives(const mjsActuator& motor, const std::string& joint) {
-  const bool by_joint = motor.trntype == mjTRN_JOINT || motor.trntype == mjTRN_JOINTINPARENT;
-  return by_joint && motor.gear[0] != 0 && mjs_getString(motor.target) == joint;
+std::string_view Called(JointKind kind) {
+  return kind == JointKind::linear ? "slides (m, N)" : "hinges (rad, N.m)";
 }
 
-/// Number of actuators that took the joint's limit.
-int LimitMotors(mjSpec& spec, const std::string& joint, const double range[2]) {
-  int motors = 0;
-  for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
-    mjsActuator* motor = mjs_asActuator(element);
-    if (!Drives(*motor, joint)) continue;
-    LimitForce(*motor, range);
-    ++motors;
+/// The joints that a name or pattern means, without those of another kind than its friction's. Of a pattern they are
+/// left out with a notice; a name, or a pattern that means no other, is refused.
+std::vector<std::string> MatchKind(mjSpec& spec, const std::string& pattern,
+                                   const AttachOptions& options, const Place& place,
+                                   std::vector<std::string>& notices) {
+  std::vector<std::string> joints = MatchJoints(spec, pattern, place), others;
+  const auto known = options.kinds.find(pattern);
+  if (known == options.kinds.end()) return joints;
+  const JointKind kind = known->second;
+  std::erase_if(joints, [&](const std::string& joint) {
+    const bool other = KindOf(*FindJoint(spec, joint, place)) != kind;
+    if (other) others.push_back(joint);
+    return other;
+  });
+  if (others.empty()) return joints;
+  if (!joints.empty()) {
+    notices.push_back(fmt::format("{}: left out; the friction of '{}' is of {}",
+                                  fmt::join(others, ", "), pattern, Called(kind)));
+    return joints;
   }
-  return motors;
-}
-
-bool Limited(const mjsJoint& joint) {
-  if (joint.actfrclimited != mjLIMITED_AUTO) return joint.actfrclimited == mjLIMITED_TRUE;
-  return joint.actfrcrange[0] < joint.actfrcrange[1];
-}
-
-void Note(const std::vector<std::string>& joints, const char* sentence,
-          std::vector<std::string>& notices) {
-  if (joints.empty()) return;
-  notices.push_back(fmt::format("{}: {}", fmt::join(joints, ", "), sentence));
+  const JointKind other = kind == JointKind::linear ? JointKind::rotary : JointKind::linear;
+  Refuse(place, "{} of '{}' are {}, and its friction is of {}; give a friction of their kind",
+         ExcerptOfList(others), Excerpt(pattern), Called(other), Called(kind));
 }
 
 /// One friction for each joint, in the order of the command; a joint that two of them mean is
 /// refused.
 std::vector<FrictionForJoint> Expand(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                                     const Place& place) {
+                                     const AttachOptions& options, const Place& place,
+                                     std::vector<std::string>& notices) {
   // the pattern that gave each joint its friction, for those that two of them mean
   std::vector<FrictionForJoint> expanded;
   std::map<std::string, std::string> given;
   for (const FrictionForJoint& friction : frictions) {
-    for (const std::string& joint : MatchJoints(spec, friction.joint, place)) {
+    for (const std::string& joint : MatchKind(spec, friction.joint, options, place, notices)) {
       const auto [before, added] = given.emplace(joint, friction.joint);
       if (!added) {
         Refuse(place, "joint '{}' is given friction twice, by '{}' and by '{}'; give it one",
@@ -116,6 +109,16 @@ void NoteNameless(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
   notices.push_back(fmt::format(
       "{} of the model's hinges and slides have no name and so no friction; name them to give it",
       nameless));
+}
+
+void CheckOptions(const AttachOptions& options) {
+  const double drive = options.stiffest_drive;
+  if (drive >= 0 && drive <= kStiffestDrive) return;
+  Refuse({"--stiffest-drive"},
+         "is {}; h^2 kp + 2 h kv over the inertia of your servo must be 0 to {}: take a shorter "
+         "timestep or "
+         "more armature",
+         drive, kStiffestDrive);
 }
 
 /// Armatures, integrator and step as the options have them.
@@ -149,56 +152,6 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
   spec.option.timestep = *options.timestep;
 }
 
-/// Moves the effort limits (actuatorfrcrange, effort in URDF) of the named joints to the actuators
-/// that drive them, cut to what these had: a joint's limit clips the sum of its actuators, and
-/// would clip a friction that is one of them. A limit R of the joint is R / gear of an actuator.
-/// Of a joint that no actuator drives by itself the limit is taken away, and nothing added.
-/// Notes what was done, one sentence each.
-void MoveEffortLimits(mjSpec& spec, const std::vector<std::string>& joints, const Place& place,
-                      std::vector<std::string>& notices) {
-  std::vector<std::string> moved, shared, dropped;
-  // motors take the joint's limit over, so that it clips them and not friction
-  for (const std::string& name : joints) {
-    mjsJoint* joint = FindJoint(spec, name, place);
-    if (!Limited(*joint)) continue;
-    const int motors = LimitMotors(spec, name, joint->actfrcrange);
-    if (motors == 0) {
-      dropped.push_back(
-          fmt::format("{} ({} to {})", name, joint->actfrcrange[0], joint->actfrcrange[1]));
-    } else {
-      (motors == 1 ? moved : shared).push_back(name);
-    }
-    joint->actfrclimited = mjLIMITED_FALSE;
-  }
-  Note(moved, "the joint's effort limit now limits its actuator alone; it would clip friction too",
-       notices);
-  Note(shared,
-       "the joint's effort limit now limits each of its actuators by itself and no longer their "
-       "sum; it would clip friction too",
-       notices);
-  Note(dropped,
-       "the joint's effort limit was taken away, since it would clip friction and no actuator "
-       "drives the joint; give this range to the actuator that you add, as its forcerange",
-       notices);
-}
-
-/// Takes away what the friction replaces and what would clip it.
-void MakeRoom(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, FrictionForm form,
-              const Place& place, std::vector<std::string>& notices) {
-  // the joints' own damping and dry friction
-  std::vector<std::string> joints, replaced;
-  for (const FrictionForJoint& friction : frictions) {
-    joints.push_back(friction.joint);
-    if (ClearOwnFriction(*FindJoint(spec, friction.joint, place))) {
-      replaced.push_back(friction.joint);
-    }
-  }
-  Note(replaced, "damping and frictionloss of the model were removed; the friction replaces them",
-       notices);
-  // passive forces are not clipped by limits on actuators
-  if (form == FrictionForm::actuator) MoveEffortLimits(spec, joints, place, notices);
-}
-
 /// Refuses joints on which friction acts before any is attached.
 void RefuseSecond(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
                   const Place& place) {
@@ -216,33 +169,65 @@ void RefuseSecond(const mjModel* m, const std::vector<FrictionForJoint>& frictio
 
 }  // namespace
 
+const std::map<std::string, mjtIntegrator>& Integrators() {
+  static const std::map<std::string, mjtIntegrator> integrators {
+    {"Euler", mjINT_EULER}, {"RK4", mjINT_RK4}, {"implicit", mjINT_IMPLICIT},
+        {"implicitfast", mjINT_IMPLICITFAST},
+#if mjVERSION_HEADER >= 3017000
+        {"discrete", mjINT_DISCRETE},
+#endif
+  };
+  return integrators;
+}
+
+std::optional<JointKind> KindOfUnits(const std::map<std::string, std::string>& units) {
+  for (const Law& law : Laws()) {
+    for (const ParameterInfo& info : law.parameters) {
+      const auto given = units.find(std::string(info.name));
+      if (given == units.end() || info.unit.rotary == info.unit.linear) continue;
+      if (given->second == info.unit.rotary) return JointKind::rotary;
+      if (given->second == info.unit.linear) return JointKind::linear;
+    }
+  }
+  return std::nullopt;
+}
+
 Attached AttachFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                        const AttachOptions& options, const std::string& name, const mjVFS* files) {
+                        const AttachOptions& given, const std::string& name, const mjVFS* files) {
   // a friction for each joint that is meant
   const Place place{name};
-  std::vector<FrictionForJoint> each = Expand(spec, frictions, place);
   Attached attached;
-  NoteNameless(spec, frictions, attached.notices);
+  std::vector<std::string>& notices = attached.notices;
+  std::vector<FrictionForJoint> each = Expand(spec, frictions, given, place, notices);
+  NoteNameless(spec, frictions, notices);
+  CheckJoints(spec, each, place);
+  for (const FrictionForJoint& friction : each) attached.joints.push_back(friction.joint);
 
   // what changes of the model besides friction
-  Change(spec, options, place, attached.notices);
-  MakeRoom(spec, each, options.form, place, attached.notices);
+  AttachOptions options = given;
+  CheckOptions(options);
+  Change(spec, options, place, notices);
+  MakeRoom(spec, each, options.form, place, notices);
 
   // what cannot carry its friction is told with its remedy before the plugin sees it
-  CheckJoints(spec, each, place);
   const ModelPtr before = CompileModel(spec, place, files);
   RefuseSecond(before.get(), each, place);
+  const std::vector<FrictionForJoint> earlier = TakeEarlier(spec, before.get(), options);
+  each.insert(each.begin(), earlier.begin(), earlier.end());
   RefuseLightJoints(before.get(), each, place);
-  std::ranges::move(NoticesOfHolding(before.get(), each), std::back_inserter(attached.notices));
+  std::ranges::move(NoticesOfHolding(before.get(), each, options.stiffest_drive),
+                    std::back_inserter(notices));
+  std::ranges::move(NoticesOfOthers(before.get(), each), std::back_inserter(notices));
   // an instance that acts by itself has its joints in the order of the model
+  const auto place_of = [&](const std::string& joint) {
+    return mj_name2id(before.get(), mjOBJ_JOINT, joint.c_str());
+  };
   if (options.form == FrictionForm::passive) {
-    std::ranges::sort(each, {}, [&](const FrictionForJoint& friction) {
-      return mj_name2id(before.get(), mjOBJ_JOINT, friction.joint.c_str());
-    });
+    std::ranges::sort(each, {}, [&](const FrictionForJoint& one) { return place_of(one.joint); });
+    std::ranges::sort(attached.joints, {}, place_of);
   }
-  AddFriction(spec, each, place, options);
+  AddFriction(spec, each, place, options, Viscous::by_damping);
   CompileModel(spec, place, files);
-  for (const FrictionForJoint& friction : each) attached.joints.push_back(friction.joint);
   return attached;
 }
 

@@ -56,10 +56,10 @@ void TakeAttributes(mjsPlugin& instance, const mjsPlugin& source) {
 
 /// The named instance that holds the friction of all joints.
 mjsPlugin* AddInstance(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                       const Place& place, const AttachOptions& options) {
+                       const Place& place, const AttachOptions& options, Viscous viscous) {
   const std::string name = FreeName(spec, mjOBJ_PLUGIN, "friction");
   mjsPlugin* instance = AddPlugin(spec);
-  const SpecPtr source = ParseSection(InstanceSection(name, frictions, options), place);
+  const SpecPtr source = ParseSection(InstanceSection(name, frictions, options, viscous), place);
   TakeAttributes(*instance, *mjs_asPlugin(mjs_firstElement(source.get(), mjOBJ_PLUGIN)));
   // as the element's name it is found, as the instance's it is written
   mjs_setName(instance->element, name.c_str());
@@ -68,9 +68,10 @@ mjsPlugin* AddInstance(mjSpec& spec, const std::vector<FrictionForJoint>& fricti
 }
 
 /// The nameless instance of one joint's actuator.
-mjsPlugin* AddInlineInstance(mjSpec& spec, const FrictionForJoint& friction, const Place& place) {
+mjsPlugin* AddInlineInstance(mjSpec& spec, const FrictionForJoint& friction, const Place& place,
+                             const AttachOptions& options, Viscous viscous) {
   mjsPlugin* instance = AddPlugin(spec);
-  const SpecPtr source = ParseSection(FrictionSections(friction), place);
+  const SpecPtr source = ParseSection(FrictionSections(friction, options, viscous), place);
   TakeAttributes(*instance, mjs_asActuator(mjs_firstElement(source.get(), mjOBJ_ACTUATOR))->plugin);
   return instance;
 }
@@ -128,7 +129,7 @@ void AddSensors(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
 
 /// An array for each number that a friction has, and for the heat at a reset.
 void AddNumbers(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                const std::string& instance) {
+                const std::string& instance, Viscous viscous) {
   // in the order in which the frictions bring them up
   std::vector<std::string> names;
   std::map<std::string, std::vector<double>> values;
@@ -141,6 +142,8 @@ void AddNumbers(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
     const auto& [joint, description, heat] = frictions[i];
     const JointFriction friction(description);
     for (const std::string& name : friction.NumberNames()) {
+      // which is dof_damping of the model
+      if (viscous == Viscous::by_damping && name == kViscousName) continue;
       set(name, i, friction.Number(*friction.FindNumber(name)));
     }
     const bool stages[] = {description.thermal.has_value(), description.second_thermal.has_value()};
@@ -173,6 +176,16 @@ std::string ArmatureFor(const mjModel* m, int joint, double inertia) {
                      TwoDigits(armature, [](double x) { return std::ceil(x); }));
 }
 
+/// Runs a check, whose first refusal stays.
+template <typename Check>
+void KeepFirst(std::string& refusal, const Check& check) {
+  try {
+    check();
+  } catch (const BadInput& refused) {
+    if (refusal.empty()) refusal = refused.what();
+  }
+}
+
 int JointOf(const mjModel* m, const FrictionForJoint& friction) {
   return mj_name2id(m, mjOBJ_JOINT, friction.joint.c_str());
 }
@@ -195,21 +208,22 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 }
 
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
-                 const AttachOptions& options) {
+                 const AttachOptions& options, Viscous viscous) {
   if (frictions.empty()) return;
   CheckJoints(spec, frictions, place);
   // sensors and arrays need an instance with a name
   const bool passive = options.form == FrictionForm::passive;
   const bool alone = !passive && frictions.size() == 1 && !options.sensors && !options.numbers;
-  const mjsPlugin* instance = alone ? AddInlineInstance(spec, frictions.front(), place)
-                                    : AddInstance(spec, frictions, place, options);
+  const mjsPlugin* instance =
+      alone ? AddInlineInstance(spec, frictions.front(), place, options, viscous)
+            : AddInstance(spec, frictions, place, options, viscous);
   if (passive) {
     ReferFromBody(spec, frictions, *instance);
   } else {
     for (const FrictionForJoint& friction : frictions) AddActuator(spec, friction, *instance);
   }
   if (options.sensors) AddSensors(spec, frictions, *instance);
-  if (options.numbers) AddNumbers(spec, frictions, mjs_getString(instance->name));
+  if (options.numbers) AddNumbers(spec, frictions, mjs_getString(instance->name), viscous);
 }
 
 bool ClearOwnFriction(mjsJoint& joint) {
@@ -231,7 +245,9 @@ void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& fr
     const int joint = JointOf(m, friction);
     const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]);
     double needed = inertia;
-    for (const Asked& asked : AskedOf(m, joint, JointFriction(friction.friction), kLoneBristles)) {
+    const JointFriction of(friction.friction);
+    for (const Asked& asked :
+         AskedOf(m, joint, {of, Viscous::by_damping, inertia}, kLoneBristles)) {
       if (asked.inertia <= inertia) continue;
       if (reason.empty()) reason = fmt::format("{}: {}", JointName(m, joint), asked.why);
       needed = std::max(needed, asked.inertia);
@@ -249,30 +265,38 @@ void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& fr
 }
 
 std::vector<std::string> NoticesOfHolding(const mjModel* m,
-                                          const std::vector<FrictionForJoint>& frictions) {
-  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator);
-  std::vector<std::string> notices, armatures;
-  std::string shaking;
-  double most = 0;
+                                          const std::vector<FrictionForJoint>& frictions,
+                                          double stiffest_drive) {
+  // what the step has to bear besides bristles
+  std::vector<JointFriction> of;
+  std::vector<double> slopes(static_cast<size_t>(m->nv), 0);
   for (const FrictionForJoint& friction : frictions) {
-    const int joint = JointOf(m, friction);
+    of.emplace_back(friction.friction);
+    slopes[static_cast<size_t>(m->jnt_dofadr[JointOf(m, friction)])] =
+        SteppedFriction{of.back(), Viscous::by_damping}.OwnSlope();
+  }
+  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator, slopes);
+  std::vector<std::string> notices, armatures;
+  std::string shaking, damping;
+  double most = 0;
+  for (size_t i = 0; i < frictions.size(); ++i) {
+    const int joint = JointOf(m, frictions[i]);
+    const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]);
+    const SteppedFriction stepped{of[i], Viscous::by_damping, inertia};
     const double drive = drives[m->dof_treeid[m->jnt_dofadr[joint]]];
-    try {
-      CheckDrive(m, joint, drive, {JointName(m, joint)});
-    } catch (const BadInput& refused) {
-      if (shaking.empty()) shaking = refused.what();
-    }
+    const Place place{JointName(m, joint)};
+    KeepFirst(shaking, [&] { CheckDrive(m, joint, drive, slopes, place); });
+    KeepFirst(damping, [&] { CheckDamping(m, joint, stepped, place); });
     // the give of the step's own bristle, as a share of the largest
-    const JointFriction of(friction.friction);
-    if (of.own_bristle()) continue;
-    const double asked = AskedOf(m, joint, of, BristlesOf(1, drive))[1].inertia;
-    const double share = asked / EffectiveInertia(m, m->jnt_dofadr[joint]);
+    if (of[i].own_bristle()) continue;
+    const BristleShape shape = BristlesOf(1, std::max(drive, stiffest_drive));
+    const double asked = AskedOf(m, joint, stepped, shape)[1].inertia, share = asked / inertia;
     const bool slides = m->jnt_type[joint] == mjJNT_SLIDE;
     if (share > most) {
       notices = {
           fmt::format("joints give way elastically before they slide, most of all '{}' by "
                       "{:.2g} {}",
-                      friction.joint, share * (slides ? 5 : 50), slides ? "mm" : "mrad")};
+                      frictions[i].joint, share * (slides ? 5 : 50), slides ? "mm" : "mrad")};
     }
     most = std::max(most, share);
     if (share > kSmallGive) armatures.push_back(ArmatureFor(m, joint, asked / kSmallGive));
@@ -280,7 +304,9 @@ std::vector<std::string> NoticesOfHolding(const mjModel* m,
   if (!armatures.empty()) {
     notices[0] += fmt::format("; for at most 5 mrad (0.5 mm) give {}", fmt::join(armatures, " "));
   }
-  if (!shaking.empty()) notices.push_back(shaking);
+  for (std::string* told : {&damping, &shaking}) {
+    if (!told->empty()) notices.push_back(std::move(*told));
+  }
   return notices;
 }
 

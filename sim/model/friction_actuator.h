@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
+#include "sim/plugin/stability.h"
 
 namespace warmjoint {
 
@@ -23,9 +24,10 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 /// others, so that the controls of those keep their places; they take nothing from the model's
 /// default classes. Of the options form, sensors and numbers count; sensors and arrays stand in the
 /// order of `frictions`, which in the passive form must be the model's order of joints.
+/// viscous: by_damping where each joint's damping is its friction's viscous already.
 /// What else would act as friction, or clip it, is the caller's to remove: see ClearOwnFriction.
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
-                 const AttachOptions& options = {});
+                 const AttachOptions& options = {}, Viscous viscous = Viscous::by_plugin);
 
 /// Takes from a joint the friction that the model gives it: damping and frictionloss.
 /// Returns whether there was any.
@@ -41,20 +43,25 @@ void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& fr
                        const Place& place);
 
 /// How joints hold, one sentence each: which gives way most before it slides, with the armatures that
-/// bring all to 5 mrad (0.5 mm), and drives beside which a joint may not rest (CheckDrive). m: as above.
+/// bring all to 5 mrad (0.5 mm), damping that the model leaves out or its integrator takes explicitly
+/// (CheckDamping), and drives beside which a joint may not rest (CheckDrive). m: as above, with the joints'
+/// viscous as their damping; stiffest_drive: of a program's own code.
 std::vector<std::string> NoticesOfHolding(const mjModel* m,
-                                          const std::vector<FrictionForJoint>& frictions);
+                                          const std::vector<FrictionForJoint>& frictions,
+                                          double stiffest_drive);
 
 /// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
-/// attributes inline, as MJCF text. The actuator is named "JOINT_friction".
-std::string FrictionSections(const FrictionForJoint& friction);
+/// attributes inline, as MJCF text. The actuator is named "JOINT_friction". Of the options, stiffest_drive
+/// counts.
+std::string FrictionSections(const FrictionForJoint& friction, const AttachOptions& options = {},
+                             Viscous viscous = Viscous::by_plugin);
 
 /// The section <extension> with one instance of that name which holds the friction of all the
 /// joints, and its own name, from which the plugin finds what an attachment put before the names.
-/// Of the options, sensors count.
+/// Of the options, sensors and stiffest_drive count.
 std::string InstanceSection(const std::string& instance,
                             const std::vector<FrictionForJoint>& frictions,
-                            const AttachOptions& options);
+                            const AttachOptions& options, Viscous viscous = Viscous::by_plugin);
 
 /// Name of the actuator that carries the friction of a joint.
 std::string FrictionActuatorOf(const std::string& joint);

@@ -63,6 +63,14 @@ std::string InlineConfigs(const FrictionForJoint& of) {
   return configs;
 }
 
+/// What is the same for all joints of an instance.
+std::string OptionConfigs(const AttachOptions& options, Viscous viscous) {
+  std::string configs;
+  if (viscous == Viscous::by_damping) configs += Config("viscous_as_damping", "true");
+  if (options.stiffest_drive != 0) configs += Config("stiffest_drive", options.stiffest_drive);
+  return configs;
+}
+
 }  // namespace
 
 std::string EscapeXml(std::string_view text) {
@@ -78,7 +86,8 @@ std::string EscapeXml(std::string_view text) {
 
 std::string FrictionActuatorOf(const std::string& joint) { return joint + "_friction"; }
 
-std::string FrictionSections(const FrictionForJoint& friction) {
+std::string FrictionSections(const FrictionForJoint& friction, const AttachOptions& options,
+                             Viscous viscous) {
   return fmt::format(R"(  <extension>
     <plugin plugin="{}"/>
   </extension>
@@ -89,12 +98,12 @@ std::string FrictionSections(const FrictionForJoint& friction) {
 )",
                      kFrictionPlugin, EscapeXml(FrictionActuatorOf(friction.joint)),
                      EscapeXml(friction.joint), kFrictionPlugin, StateOf(friction.friction).size(),
-                     InlineConfigs(friction));
+                     InlineConfigs(friction) + OptionConfigs(options, viscous));
 }
 
 std::string InstanceSection(const std::string& instance,
                             const std::vector<FrictionForJoint>& frictions,
-                            const AttachOptions& options) {
+                            const AttachOptions& options, Viscous viscous) {
   // friction and first heat of each joint, by its name
   json joints = json::object(), energies = json::object();
   for (const FrictionForJoint& friction : frictions) {
@@ -105,6 +114,7 @@ std::string InstanceSection(const std::string& instance,
   std::string configs = Config("instance", instance) + Config("joints", joints.dump());
   if (!energies.empty()) configs += Config("initial_energy", energies.dump());
   if (options.sensors) configs += Config("joint_sensors", "true");
+  configs += OptionConfigs(options, viscous);
   return fmt::format(R"(  <extension>
     <plugin plugin="{}">
       <instance name="{}">

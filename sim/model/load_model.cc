@@ -81,6 +81,16 @@ bool IsUrdf(const std::string& text) {
   return root && root->name == "robot";
 }
 
+/// Refuses descriptions of robots in formats that are neither MJCF nor URDF.
+void RefuseOtherFormats(const std::string& text, const std::filesystem::path& path) {
+  const auto root = XmlTagReader(text).Next();
+  const bool usd = text.starts_with("#usda") || text.starts_with("PXR-USDC");
+  const bool sdf = root && root->name == "sdf";
+  if (!usd && !sdf) return;
+  Refuse({path.string()}, "is {}; attach reads MJCF and URDF: write the robot as one of these",
+         usd ? "USD" : "SDF");
+}
+
 /// Refuses what xacro has to write out first; its own output may still declare its namespace.
 void RefuseXacro(const std::string& text, const std::filesystem::path& path) {
   bool declared = false;
@@ -161,6 +171,7 @@ ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& 
   // the plugin is known before a model asks for it
   RegisterFrictionPlugin();
   const std::string text = ReadWholeFile(path, kLargestModel);
+  RefuseOtherFormats(text, path);
   const bool urdf = IsUrdf(text);
   if (urdf) RefuseXacro(text, path);
   ModelFolder() = std::filesystem::absolute(path).parent_path();

@@ -54,6 +54,11 @@ std::vector<NumberAttribute> ListNumbers() {
   return numbers;
 }
 
+PluginAttributes ReadTexts(const AttributeTexts& texts, const Place& place) {
+  const Node node(Tree(texts), place.file, {}, Scalars::texts);
+  return ReadAs<PluginAttributes>(node);
+}
+
 /// Where a relative file lies: in `folder`, in the model's folder where this program loaded it, or
 /// in the working directory.
 fs::path Locate(const fs::path& file, const fs::path& folder) {
@@ -67,8 +72,9 @@ fs::path Locate(const fs::path& file, const fs::path& folder) {
 /// Refuses every attribute that is given with `whole`, which stands for all of friction.
 void RefuseOthers(const std::string& whole, const AttributeTexts& texts, const Place& place) {
   // what does not describe the friction may be given with it
-  static const std::set<std::string> others{"folder", "instance", "initial_energy",
-                                            "joint_sensors"};
+  static const std::set<std::string> others{
+      "folder",        "instance",           "initial_energy",
+      "joint_sensors", "viscous_as_damping", "stiffest_drive"};
   for (const auto& [name, text] : texts) {
     if (name == whole || others.contains(name)) continue;
     Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", name,
@@ -217,9 +223,13 @@ void ReadValue(const Node& node, Tree* value, const FieldInfo&) {
 
 void ReadValue(const Node& node, fs::path* value, const FieldInfo&) { *value = node.Text(); }
 
+InstanceOptions OptionsIn(const AttributeTexts& texts, const Place& place) {
+  const PluginAttributes given = ReadTexts(texts, place);
+  return {given.joint_sensors, given.viscous_as_damping, given.stiffest_drive};
+}
+
 DescribedJoints DescribeJoints(const AttributeTexts& texts, const Place& place) {
-  const Node node(Tree(texts), place.file, {}, Scalars::texts);
-  const auto given = ReadAs<PluginAttributes>(node);
+  const PluginAttributes given = ReadTexts(texts, place);
   DescribedJoints joints = ReadFriction(given, texts, place);
   ReadEnergies(given.initial_energy, place, joints);
   return joints;

@@ -39,6 +39,8 @@ struct PluginAttributes {
   std::map<std::string, std::optional<double>> numbers;  // by their names
   Tree joints, maps, initial_energy;
   bool joint_sensors = false;
+  bool viscous_as_damping = false;
+  double stiffest_drive = 0;
 
   template <class A>
   void Serialize(A* a) {
@@ -65,6 +67,12 @@ struct PluginAttributes {
     a->Field(
         "joint_sensors", &joint_sensors,
         {.meaning = "whether each sensor of the instance reads the joint that it names alone"});
+    a->Field("viscous_as_damping", &viscous_as_damping,
+             {.meaning = "whether the joint's own damping is its viscous, which MuJoCo then adds"});
+    a->Field("stiffest_drive", &stiffest_drive,
+             {.unit = "1",
+              .bounds = {.at_least = 0},
+              .meaning = "h^2 kp + 2 h kv over the inertia of a servo in a program's own code"});
   }
 };
 
@@ -82,6 +90,16 @@ struct DescribedJoint {
 
 /// By the name of the joint; under "" every joint.
 using DescribedJoints = std::map<std::string, DescribedJoint>;
+
+/// What is the same for all joints of an instance.
+struct InstanceOptions {
+  bool joint_sensors = false;       // whether each sensor reads one joint
+  bool viscous_as_damping = false;  // whether the joints' damping is their viscous
+  double stiffest_drive = 0;        // of a program's own code, in units of M/h^2
+};
+
+/// Those that the attributes give, checked as DescribeJoints does.
+InstanceOptions OptionsIn(const AttributeTexts& texts, const Place& place);
 
 /// What the attributes describe, checked. Throws BadInput, from `place`, naming attribute, value and
 /// bound for: no number ("5x"), a value out of bounds, a parameter that the law lacks or needs, `file`

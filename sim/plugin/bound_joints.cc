@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "models/foundation/bad_input.h"
@@ -9,14 +10,13 @@
 #include "models/friction/thermal.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
-#include "sim/plugin/stability.h"
 
 namespace warmjoint {
 namespace {
 
 /// others: the other instances on each kinematic tree.
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
-                     const OtherInstances& others) {
+                     const InstanceOptions& options, const OtherInstances& others) {
   // where the engine keeps its numbers, and with whom it shares its tree
   BoundJoint bound{.friction = prepared.friction};
   bound.joint = joint;
@@ -26,6 +26,10 @@ BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
     bound.instances += static_cast<int>(found->second.size());
   }
   bound.initial_energy = prepared.initial_energy;
+  if (options.viscous_as_damping && bound.friction.FindNumber(kViscousName)) {
+    bound.viscous = Viscous::by_damping;
+    bound.damping = std::numeric_limits<double>::quiet_NaN();  // so that the first look sets it
+  }
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
   return bound;
@@ -53,6 +57,9 @@ BoundJoints::BoundJoints(const mjModel* m, int instance)
       passive_(!DrivenByActuators(m, instance)) {
   // what moves the joints, what reads them, and numbers that a user may change
   BindJoints(m);
+  ReadDampings(m);
+  ReadInertias(m);
+  CheckJoints(m);
   ReadDrives(m);
   BindSensors(m);
   BindNumbers(m);
@@ -60,16 +67,15 @@ BoundJoints::BoundJoints(const mjModel* m, int instance)
 
 void BoundJoints::BindJoints(const mjModel* m) {
   // in the order of actuators, or of joints in the passive form, whose states stand behind those of the reports
-  const std::string name = InstanceName(m, instance_);
+  const InstanceOptions options = PrepareInstance(m, instance_)->options;
+  stiffest_drive_ = options.stiffest_drive;
   const OtherInstances others = FindOthers(m, instance_);
   int state = m->plugin_stateadr[instance_] + kFrictionReports;
   for (const auto& [joint, actuator, prepared] : FindJoints(m, instance_)) {
     // refuse what the engine would accept and friction cannot
-    const Place place{passive_ ? fmt::format("{}: {}", name, JointName(m, joint))
-                               : ActuatorName(m, actuator)};
+    const Place place = PlaceOf(m, joint, actuator);
     passive_ ? CheckAlone(m, instance_, joint) : CheckActuator(m, actuator, prepared->friction);
-    BoundJoint bound = BindJoint(m, joint, *prepared, others);
-    CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
+    BoundJoint bound = BindJoint(m, joint, *prepared, options, others);
     if (passive_) {
       bound.state = state;
       state += static_cast<int>(bound.friction.state().size());
@@ -80,14 +86,61 @@ void BoundJoints::BindJoints(const mjModel* m) {
   }
 }
 
+/// What messages call a joint of the instance.
+Place BoundJoints::PlaceOf(const mjModel* m, int joint, int actuator) const {
+  if (!passive_) return {ActuatorName(m, actuator)};
+  return {fmt::format("{}: {}", InstanceName(m, instance_), JointName(m, joint))};
+}
+
+void BoundJoints::CheckJoints(const mjModel* m) const {
+  for (const BoundJoint& joint : joints_) {
+    CheckJoint(m, joint.joint, Stepped(m, joint), BristlesOf(joint.instances),
+               PlaceOf(m, joint.joint, joint.actuator));
+  }
+}
+
 void BoundJoints::ReadDrives(const mjModel* m) {
-  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator);
-  for (BoundJoint& joint : joints_) joint.drive = drives[m->dof_treeid[joint.dof]];
+  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator, Slopes(m));
+  for (BoundJoint& joint : joints_) {
+    joint.drive = std::max(stiffest_drive_, drives[m->dof_treeid[joint.dof]]);
+  }
+}
+
+bool BoundJoints::ReadInertias(const mjModel* m) {
+  const auto nv = static_cast<size_t>(m->nv);
+  const auto same = [&](const mjtNum* now, size_t from) {
+    return std::memcmp(now, inertias_.data() + from, nv * sizeof(mjtNum)) == 0;
+  };
+  const bool first = inertias_.empty();
+  if (!first && same(m->dof_armature, 0) && same(m->dof_invweight0, nv)) [[likely]]
+    return false;
+  // the compiler and mj_setConst know the armatures of their time
+  if (first || !same(m->dof_invweight0, nv))
+    armatures_.assign(m->dof_armature, m->dof_armature + nv);
+  inertias_.assign(m->dof_armature, m->dof_armature + nv);
+  inertias_.insert(inertias_.end(), m->dof_invweight0, m->dof_invweight0 + nv);
+  return true;
+}
+
+SteppedFriction BoundJoints::Stepped(const mjModel* m, const BoundJoint& joint) const {
+  const double known = EffectiveInertia(m, joint.dof);
+  const double more = m->dof_armature[joint.dof] - armatures_[static_cast<size_t>(joint.dof)];
+  return {joint.friction, joint.viscous, known == 0 ? 0 : known + more};
+}
+
+std::vector<double> BoundJoints::Slopes(const mjModel* m) const {
+  std::vector<double> slopes(static_cast<size_t>(m->nv), 0);
+  for (const BoundJoint& joint : joints_) {
+    const auto [first, second] = joint.initial_energy;
+    const double warm = joint.friction.viscous_per_energy() * (first + second);
+    slopes[static_cast<size_t>(joint.dof)] = Stepped(m, joint).OwnSlope() + std::max(0.0, warm);
+  }
+  return slopes;
 }
 
 void BoundJoints::BindSensors(const mjModel* m) {
   const std::string name = InstanceName(m, instance_);
-  const bool of_joints = PrepareInstance(m, instance_)->joint_sensors;
+  const bool of_joints = PrepareInstance(m, instance_)->options.joint_sensors;
   for (int i = 0; i < m->nsensor; ++i) {
     if (m->sensor_plugin[i] != instance_) continue;
     const Place place{fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))};
@@ -135,6 +188,10 @@ void BoundJoints::BindNumbers(const mjModel* m) {
 
     // a place in each joint's friction that has the number
     for (const BoundJoint& joint : joints_) {
+      if (joint.viscous == Viscous::by_damping && number == kViscousName) {
+        Refuse(place, "{} has its viscous in dof_damping of the model; take the array out",
+               JointName(m, joint.joint));
+      }
       const auto found = joint.friction.FindNumber(needed);
       array.places.push_back(found);
       const double given = !found        ? 0
@@ -157,8 +214,24 @@ void BoundJoints::BindNumbers(const mjModel* m) {
   }
 }
 
-bool BoundJoints::ReadNumbers(const mjModel* m) {
+/// Takes over the dampings that are a joint's viscous.
+bool BoundJoints::ReadDampings(const mjModel* m) {
   bool any = false;
+  const bool off = m->opt.disableflags & mjDSBL_DAMPER;
+  for (BoundJoint& joint : joints_) {
+    if (joint.viscous == Viscous::by_plugin) continue;
+    const double now = off ? 0 : m->dof_damping[joint.dof];
+    if (now == joint.damping) continue;
+    joint.damping = now;
+    any = true;
+    // the engine itself takes any number; friction's slope is not below 0
+    joint.friction.SetNumber(*joint.friction.FindNumber(kViscousName), std::max(0.0, now));
+  }
+  return any;
+}
+
+bool BoundJoints::ReadNumbers(const mjModel* m) {
+  bool any = ReadDampings(m);
   // a number that changed since the last look goes into its joint's friction
   for (NumberArray& array : numbers_) {
     const mjtNum* now = m->numeric_data + array.address;
@@ -194,7 +267,7 @@ void BoundJoints::WarnOfNumber(const mjModel* m, NumberArray& array, size_t i, d
 
 int SensorSize(const mjModel* m, int instance) {
   const auto prepared = PrepareInstance(m, instance);
-  if (prepared->joint_sensors) return kSensed;
+  if (prepared->options.joint_sensors) return kSensed;
   // the passive form names its joints, the other has actuators
   if (!DrivenByActuators(m, instance)) return kSensed * static_cast<int>(prepared->joints.size());
   const int *begin = m->actuator_plugin, *end = begin + m->nactuator;

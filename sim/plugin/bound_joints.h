@@ -11,6 +11,7 @@
 
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/prepared_instances.h"
+#include "sim/plugin/stability.h"
 
 namespace warmjoint {
 
@@ -24,7 +25,9 @@ struct BoundJoint {
   int control = -1;   // in ctrl; -1 where it has none
   int output = -1;    // in actuator_force; -1 in the passive form
   int instances = 1;  // on its kinematic tree
-  double drive = 0;   // the tree's StiffestDrives
+  double drive = 0;   // the tree's StiffestDrives, or what the attributes say
+  Viscous viscous = Viscous::by_plugin;
+  double damping = 0;  // that the engine adds as friction's viscous, N.m.s/rad or N.s/m
   bool needs_load = false;
   bool needs_ambient = false;
   JointFriction friction;                  // without a timestep
@@ -100,18 +103,30 @@ class BoundJoints {
   /// The model's arrays of numbers.
   const std::vector<NumberArray>& numbers() const { return numbers_; }
 
-  /// Sets what the model's drives add to its step, which its timestep and integrator change.
+  /// Sets what the model's drives add to its step, which its timestep, integrator and inertias change.
   void ReadDrives(const mjModel* m);
 
-  /// Sets the joints' numbers to those of the model's arrays; whether any is new. For a number out of
+  /// Whether a program has set inertias of the model since the last look.
+  bool ReadInertias(const mjModel* m);
+
+  /// The friction of one of the joints as the model's step sees it now.
+  SteppedFriction Stepped(const mjModel* m, const BoundJoint& joint) const;
+
+  /// The slopes that the plugin adds to each degree of freedom (StiffestDrives).
+  std::vector<double> Slopes(const mjModel* m) const;
+
+  /// Sets the joints' numbers to those of the model's arrays and dampings; whether any is new. For a number out of
   /// its bounds the attributes' one acts, with a warning, once for each; one that a joint's friction
   /// does not have changes nothing.
   bool ReadNumbers(const mjModel* m);
 
  private:
   bool IsPlaceOf(const mjModel* m) const { return m == model_ && m->signature == signature_; }
+  bool ReadDampings(const mjModel* m);
   bool SetNumber(const NumberArray& array, size_t joint, double value);
   void WarnOfNumber(const mjModel* m, NumberArray& array, size_t joint, double value) const;
+  Place PlaceOf(const mjModel* m, int joint, int actuator) const;
+  void CheckJoints(const mjModel* m) const;
   void BindJoints(const mjModel* m);
   void BindSensors(const mjModel* m);
   void BindNumbers(const mjModel* m);
@@ -124,6 +139,10 @@ class BoundJoints {
   std::vector<BoundJoint> joints_;
   std::vector<BoundSensor> sensors_;
   std::vector<NumberArray> numbers_;
+  double stiffest_drive_ = 0;     // as the attributes say
+  std::vector<mjtNum> inertias_;  // [2 nv] dof_armature and dof_invweight0 at the last look
+  std::vector<mjtNum>
+      armatures_;  // [nv] with which the compiler or mj_setConst found dof_invweight0
 };
 
 /// Numbers of each joint in a sensor of the instance: force on the joint (N.m or N), energy state

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/plugin/stability.h"
+
 namespace warmjoint {
 namespace {
 
@@ -110,8 +112,11 @@ void SearchTree::Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLe
     row[kSliding] = side * row[kSpeed] > 0;
   }
 
-  // then the damper, from where the bristles are now
+  // then the damper, from where the bristles are now, with more room for those that hold
   for (int i = 0; i < inertia.size(); ++i) {
+    const double times = box_.status[i] == Status::within ? kDamperLevels : 1;
+    box_.upper[i] *= times;
+    box_.lower[i] *= times;
     box_.aim[i] = box_.force[i] + damping * force[i][1];
   }
   box_.Find(inertia, d);

@@ -63,12 +63,10 @@ BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJo
 }
 
 void BristleTree::Shape(double h, double slope, double damping, double drive) {
-  // the slope damps already, and beside drives the step must carry it, too
-  slope = std::min(slope, kMostSlope);
-  const double beside = drive == 0 ? 0 : drive + 2 * slope;
-  const BristleShape shape = BristlesOf(joints_.front().instances, beside);
-  impulse_ = shape.stiffness * (1 - slope) / h;
-  damping_ = std::max(0.0, damping * shape.damping - slope) / h;
+  const BristleShape shape =
+      BristlesOf(joints_.front().instances, drive, std::min(slope, kMostSlope), damping);
+  impulse_ = shape.stiffness / h;
+  damping_ = shape.damping / h;
 }
 
 void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first) {
@@ -130,7 +128,7 @@ bool BristleTree::Hold(Rows rows) {
     if (side * friction < 0) levels_.Of(i, -side);
   }
 
-  // the damper and the bristle within both levels, in pairs
+  // the bristle within both levels, and with the damper within twice them, in pairs
   const size_t pairs = present_.size();
   const Two* const force = force_.data();
   Two within{0, 0};
@@ -138,9 +136,9 @@ bool BristleTree::Hold(Rows rows) {
     const RowPair row = rows.pair(k);
     const Two one = force[2 * k], other = force[2 * k + 1];
     const Two elastic{one[0], other[0]}, momentum{one[1], other[1]};
-    const Two friction = elastic + damping * momentum;
-    const Two below = row[kUpper] - elastic.max(friction);
-    within = within.min(below).min(row[kLower] + elastic.min(friction));
+    const Two friction = elastic + damping * momentum, share = friction / kDamperLevels;
+    const Two below = row[kUpper] - elastic.max(share);
+    within = within.min(below).min(row[kLower] + elastic.min(share));
     row[kFriction] = friction;
     row[kLoad] = row[kStretch] * row[kInertia];
     row[kSliding] = Two::Zero();
@@ -216,6 +214,7 @@ bool BristleTree::SlideButFew(const mjData* d, Rows rows) {
     start[k] += damping * v - slip;
   }
   few_.SetSliding(rows);
+  few_.Widen(kDamperLevels);
   if (!few_.Find(inertia_, d, levels_, side_.data(), start_.data(), slip_.data())) return false;
   few_.SetFriction(rows);
   return true;

@@ -76,11 +76,12 @@ class BristleTree {
 /// inertia matrix M. z: their stretches, rad or m; box: -L- <= x <= L+ for each joint, 0 for every
 /// degree of freedom without friction.
 ///   p  = projection of A/h^2 M (z + h v)    z' = z + h v - h^2/A M^-1 (A/h^2 M (z + h v) - p)
-///   f  = projection of p + B/h M v
+///   f  = projection of p + B/h M v, onto a box that is kDamperLevels times as wide for each joint whose
+///        bristle is within it, where p is at no bound
 /// A projection of g onto the box is the x of it that is nearest in the metric of M^-1: a linear
 /// complementarity problem, solved exactly. For M that stands still this is passive for any v and
 /// any boxes that hold 0: with U = A/(2 h^2) z'M z, f'v h >= U(z') - U(z) (both projections are
-/// onto a convex set that holds 0 and p). Held joints form one spring and damper with the shape of
+/// onto a convex set that holds 0, and p). Held joints form one spring and damper with the shape of
 /// the inertia that they feel with all sliding joints free to give, so that no pose is stiffer than
 /// the step carries. The state of each joint is its stretch times A m/h^2, m being its inertia at
 /// the reference pose: N.m or N, and the bristle's load where nothing else moves the joint.

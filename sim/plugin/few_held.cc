@@ -59,7 +59,16 @@ void FewHeld::Add(int joint, double side, AskedLevels& levels) {
   const double level = side > 0 ? upper : -lower, other = side > 0 ? -lower : upper;
   const int column = columns_.Find(joint);
   missing_ = missing_ || column < 0;
-  apart_[apart_count_++] = {joint, column, true, side, level, other};
+  apart_[apart_count_++] = {joint, column, Does::hold, side, level, level, other};
+}
+
+void FewHeld::Widen(double times) {
+  for (int n = 0; n < apart_count_; ++n) {
+    Apart& apart = apart_[n];
+    if (!apart.held()) continue;
+    apart.most *= times;
+    apart.other *= times;
+  }
 }
 
 /// M^-1's columns of all that are apart; false where those do not fit in.
@@ -81,7 +90,7 @@ bool FewHeld::FindColumns(const InertiaBlock& inertia, const mjData* d) {
 /// What the forces of those that are apart lack to their levels.
 void FewHeld::FindLack(const Two* start) {
   // one alone needs no matrix
-  if (apart_count_ == 1 && apart_[0].held) [[likely]] {
+  if (apart_count_ == 1 && apart_[0].held()) [[likely]] {
     Apart& apart = apart_[0];
     apart.lack = -At(start, apart.joint) / At(ColumnOf(apart), apart.joint);
     return;
@@ -90,8 +99,8 @@ void FewHeld::FindLack(const Two* start) {
   int count = 0;
   for (int n = 0; n < apart_count_; ++n) {
     Apart& apart = apart_[n];
-    apart.lack = apart.level - apart.other;
-    if (apart.held) held[count++] = &apart;
+    apart.lack = apart.level - apart.bound();
+    if (apart.held()) held[count++] = &apart;
   }
   // the matrix of held rows of held columns is positive definite, so that no pivot is 0
   double matrix[kMost][kMost];
@@ -100,7 +109,7 @@ void FewHeld::FindLack(const Two* start) {
     double lack = -At(start, row);
     for (int c = 0; c < count; ++c) matrix[r][c] = At(ColumnOf(*held[c]), row);
     for (int n = 0; n < apart_count_; ++n) {
-      if (!apart_[n].held) lack -= apart_[n].lack * At(ColumnOf(apart_[n]), row);
+      if (!apart_[n].held()) lack -= apart_[n].lack * At(ColumnOf(apart_[n]), row);
     }
     held[r]->lack = lack;
   }
@@ -131,13 +140,13 @@ bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
     const Two* const column = ColumnOf(apart);
     const double lack = apart.lack;
     for (size_t k = 0; k < pairs; ++k) slip[k] = from[k] + lack * column[k];
-    right = right && apart.held && apart.within();
+    right = right && apart.better() == Does::hold && apart.held();
   }
   if (count == 0) std::copy_n(start, pairs, slip);
   // what is held does not slip, whatever the rounding
   for (int n = 0; n < count; ++n) {
     const int joint = apart_[n].joint;
-    if (apart_[n].held) At(slip, joint) = 0;
+    if (apart_[n].held()) At(slip, joint) = 0;
   }
   Two least{0, 0};
   for (size_t k = 0; k < pairs; ++k) least = least.min(side[k] * slip[k]);
@@ -150,11 +159,14 @@ bool FewHeld::Change(const Two* slip) {
   bool right = true;
   for (int n = apart_count_ - 1; n >= 0; --n) {
     Apart& apart = apart_[n];
-    const bool was_held = apart.held;
-    if (was_held ? apart.within() : apart.side * At(slip, apart.joint) <= 0) continue;
+    const double along = apart.side * At(slip, apart.joint);
+    const bool holds = apart.does == Does::slide_to_side ? along < 0 : along > 0;
+    const Does better = apart.held() ? apart.better() : holds ? Does::hold : apart.does;
+    if (better == apart.does) continue;
     right = false;
-    apart.held = !was_held;
-    if (was_held && apart.side * apart.lack < 0) apart = apart_[--apart_count_];
+    apart.does = better;
+    const bool plain = better == Does::slide_to_side && apart.most == apart.level;
+    if (plain) apart = apart_[--apart_count_];
   }
   return right;
 }
@@ -163,14 +175,14 @@ void FewHeld::SetSliding(Rows rows) const {
   for (int n = 0; n < apart_count_; ++n) {
     const Apart& apart = apart_[n];
     const Row row = rows.row(apart.joint);
-    row[kSliding] = !apart.held && apart.side * row[kSpeed] < 0;
+    row[kSliding] = !apart.held() && apart.side * row[kSpeed] < 0;
   }
 }
 
 void FewHeld::SetFriction(Rows rows) const {
   for (int n = 0; n < apart_count_; ++n) {
     const Apart& apart = apart_[n];
-    rows.row(apart.joint)[kFriction] = apart.held ? apart.level - apart.lack : apart.other;
+    rows.row(apart.joint)[kFriction] = apart.held() ? apart.force() : apart.bound();
   }
 }
 

@@ -90,6 +90,9 @@ class FewHeld {
   bool Find(const InertiaBlock& inertia, const mjData* d, AskedLevels& levels, const Two* side,
             const Two* start, Two* slip);
 
+  /// Makes the levels of those that are held now so many times as high from here on.
+  void Widen(double times);
+
   /// Writes kSliding of the joints that do not slide to their side.
   void SetSliding(Rows rows) const;
 
@@ -97,19 +100,26 @@ class FewHeld {
   void SetFriction(Rows rows) const;
 
  private:
-  /// A joint that does not slide to its side.
+  enum class Does { hold, slide_to_side, slide_to_other };
+
+  /// A joint that does not slide to its side at the level that it has there.
   struct Apart {
     int joint = 0;
-    int column = -1;   // its place in columns_
-    bool held = true;  // or sliding to the other side
+    int column = -1;  // its place in columns_
+    Does does = Does::hold;
     double side = 0;   // that it would have
-    double level = 0;  // there, and on the other side, with the force's sign, N.m or N
+    double level = 0;  // there, with the force's sign, N.m or N
+    double most = 0;   // bounds of its force, there and on the other side
     double other = 0;
     double lack = 0;  // of its force to the level, N.m or N
 
-    bool within() const {
-      const double force = level - lack;
-      return side * force <= side * level && side * force >= side * other;
+    bool held() const { return does == Does::hold; }
+    double force() const { return level - lack; }
+    /// Of one that slides.
+    double bound() const { return does == Does::slide_to_side ? most : other; }
+    Does better() const {
+      if (side * force() > side * most) return Does::slide_to_side;
+      return side * force() < side * other ? Does::slide_to_other : Does::hold;
     }
   };
 

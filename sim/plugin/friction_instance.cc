@@ -27,17 +27,20 @@ bool PassiveForcesOff(const mjModel* m) {
 double Finite(double value) { return std::isfinite(value) ? value : 0; }
 
 /// Warns, once until a reset, of a joint whose step or numbers a program set after loading to what
-/// the step does not bear, or that drives may shake (CheckDrive); they are taken as they are.
-void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
-                   const std::vector<BoundJoint>& joints) {
+/// the step does not bear (CheckJoint, CheckDamping), or that drives may shake (CheckDrive); they are taken as
+/// they are.
+void WarnOfNumbers(const mjModel* m, mjData* d, int instance, const BoundJoints& bound) {
   mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance] + kReportsStep];
   // once after a reset
   if (reported != 0) return;
-  for (const BoundJoint& joint : joints) {
+  const std::vector<double> slopes = bound.Slopes(m);
+  for (const BoundJoint& joint : bound.joints()) {
     try {
       const Place place{JointName(m, joint.joint)};
-      CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.instances), place);
-      CheckDrive(m, joint.joint, joint.drive, place);
+      const SteppedFriction stepped = bound.Stepped(m, joint);
+      CheckJoint(m, joint.joint, stepped, BristlesOf(joint.instances), place);
+      CheckDamping(m, joint.joint, stepped, place);
+      CheckDrive(m, joint.joint, joint.drive, slopes, place);
     } catch (const BadInput& refusal) {
       reported = 1;
       mju_warning("%s: at %g s the model is beyond what its step bears: %s", kFrictionPlugin,
@@ -126,11 +129,13 @@ void FrictionInstance::Bind(const mjModel* m) {
 
 /// Takes over what may be set between two steps.
 void FrictionInstance::TakeNumbers(const mjModel* m) {
-  const bool same = timestep_ == m->opt.timestep && integrator_ == m->opt.integrator;
-  if (!same) [[unlikely]]
-    bound_.ReadDrives(m);
-  if (bound_.ReadNumbers(m) || !same) [[unlikely]]
-    ReadNumbers(m);
+  const bool other_inertias = bound_.ReadInertias(m), other_numbers = bound_.ReadNumbers(m);
+  const bool same = timestep_ == m->opt.timestep && integrator_ == m->opt.integrator &&
+                    flags_ == m->opt.disableflags;
+  if (same && !other_inertias && !other_numbers) [[likely]]
+    return;
+  bound_.ReadDrives(m);
+  ReadNumbers(m);
 }
 
 /// Makes scratch of the right size, and the joints ready for the model's step.
@@ -158,14 +163,17 @@ void FrictionInstance::Rebind(const mjModel* m) {
   const size_t own = bound_.passive() ? rows_.next().size() : 0;
   mark_ = entries == kFrictionEntries + static_cast<int>(own) ? entries - 1 : -1;
   ReadNumbers(m);
-  // binding has checked all but the drives
-  checked_ = std::ranges::all_of(joints, [](const BoundJoint& joint) { return joint.drive == 0; });
+  // binding has checked all but the drives and what damping may be
+  checked_ = std::ranges::all_of(joints, [](const BoundJoint& joint) {
+    return joint.drive == 0 && joint.viscous == Viscous::by_plugin;
+  });
   stepped_ = false;
 }
 
 void FrictionInstance::ReadNumbers(const mjModel* m) {
   timestep_ = m->opt.timestep;
   integrator_ = m->opt.integrator;
+  flags_ = m->opt.disableflags;
   for (BoundJoint& joint : bound_.joints()) joint.friction.SetTimestep(timestep_);
   rows_.ReadNumbers(m, bound_.joints());
   checked_ = false;
@@ -183,7 +191,7 @@ void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
   TakeNumbers(m);
   // told once: numbers that a user set and the step does not bear
   if (!checked_) [[unlikely]] {
-    WarnOfNumbers(m, d, instance_, bound_.joints());
+    WarnOfNumbers(m, d, instance_, bound_);
     checked_ = true;
   }
   stepped_ = true;

@@ -95,6 +95,7 @@ class FrictionInstance {
   std::vector<Driven> driven_;  // of each joint; empty in the passive form
   double timestep_ = 0;
   int integrator_ = 0;
+  int flags_ = 0;               // mjOption.disableflags
   int mark_ = -1;               // where the mark is among the instance's entries of plugin_state
   bool checked_ = true;         // the numbers, against the inertia
   bool euler_ = false;          // the engine's step of act lands where the last step shall end

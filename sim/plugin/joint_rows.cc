@@ -49,6 +49,7 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
     Of(i, kUpperAtRest) = friction.OwnLevelAtRest(1);
     Of(i, kLowerAtRest) = friction.OwnLevelAtRest(-1);
     Of(i, kViscous) = friction.viscous();
+    Of(i, kDamping) = joints[i].damping;
     Of(i, kPerEnergy) = friction.viscous_per_energy();
     Of(i, kPole) = friction.heat().first.pole;
     Of(i, kGain) = friction.heat().first.gain;
@@ -65,9 +66,8 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
   const auto of = [&](int dof) -> const BoundJoint& {
     return joints[joint_at_[bristles_.RowOf(dof)]];
   };
-  bristles_.SetTimestep(
-      m->opt.timestep, damping, [&](int dof) { return of(dof).friction.SteepestSlope(); },
-      [&](int dof) { return of(dof).drive; });
+  const auto slope = [&](int dof) { return ExplicitSlope(m, {of(dof).friction, of(dof).viscous}); };
+  bristles_.SetTimestep(m->opt.timestep, damping, slope, [&](int dof) { return of(dof).drive; });
 }
 
 void JointRows::Step(const mjModel* m, const mjtNum* load) {
@@ -98,7 +98,7 @@ void JointRows::SetSlopes() {
   double* const end = numbers_.data() + numbers_.size();
   for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
     const Two energy = row[kFirst] + row[kSecond];
-    row[kSlope] = (row[kViscous] + row[kPerEnergy] * energy).max(0);
+    row[kOwnSlope] = (row[kViscous] + row[kPerEnergy] * energy).max(0) - row[kDamping];
   }
 }
 
@@ -139,10 +139,10 @@ bool JointRows::Complete() {
   double* const end = numbers_.data() + numbers_.size();
   for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
     // loss and heat of the step; friction of 0 in motion is looked at again
-    const Two v = row[kSpeed], f = row[kFriction], viscous = row[kSlope] * v;
-    const Two loss = viscous * v + row[kSliding] * (f * v).abs();
+    const Two v = row[kSpeed], f = row[kFriction], own = row[kOwnSlope] * v;
+    const Two loss = (own + row[kDamping] * v) * v + row[kSliding] * (f * v).abs();
     row[kLoss] = loss;
-    row[kForce] = viscous + f;
+    row[kForce] = own + f;
     row[kNextFirst] = ThermalStep<Two>(row[kGain], row[kPole], row[kFirst], loss);
     least = least.min(WhereNegative(-v.abs(), f.abs() + row[kAbsent], Two::Ones()));
   }
@@ -170,7 +170,7 @@ void JointRows::StepAlone(const mjModel* m) {
 }
 
 void JointRows::Take(size_t i, const FrictionStep& step) {
-  Of(i, kForce) = step.force;
+  Of(i, kForce) = step.force - Of(i, kDamping) * Of(i, kSpeed);
   Of(i, kLoss) = step.loss;
   Of(i, kLoad) = step.next.bristle;
   Of(i, kSliding) = step.sliding;

@@ -48,13 +48,15 @@ class JointRows : private LevelSource {
 
   /// What the step yields: F of a joint, N.m or N, and the next states of all joints, in the order
   /// of each joint's state(), one joint after the other.
-  double force(size_t joint) const { return Of(joint, kForce); }
+  double force(size_t joint) const {
+    return Of(joint, kForce) + Of(joint, kDamping) * Of(joint, kSpeed);
+  }
   const std::vector<double>& next() const { return states_.next(); }
 
-  /// Takes F from the forces of all degrees of freedom, N.m or N.
+  /// Takes F, without what the joints' damping adds, from the forces of all degrees of freedom, N.m or N.
   void TakeFrom(mjtNum* forces) const { states_.TakeForces(numbers_.data(), forces); }
 
-  /// Writes -F of all joints of the actuator form, N.m or N.
+  /// Writes -F of all joints of the actuator form, without what the joints' damping adds, N.m or N.
   void GiveTo(mjtNum* outputs) const { states_.GiveForces(numbers_.data(), outputs); }
 
   /// TakeFrom for those for which `acts`.

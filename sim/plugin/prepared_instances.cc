@@ -6,7 +6,6 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "sim/plugin/attributes.h"
 #include "sim/plugin/plugin_instances.h"
 
 namespace warmjoint {
@@ -70,12 +69,12 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
 
   auto prepared = std::make_shared<PreparedInstance>();
   if (texts.contains("instance")) prepared->written_name = texts.at("instance");
-  for (const auto& [name, joint] : DescribeJoints(texts, {InstanceName(m, instance)})) {
+  const Place place{InstanceName(m, instance)};
+  for (const auto& [name, joint] : DescribeJoints(texts, place)) {
     prepared->joints.emplace(
         name, PreparedJoint{joint.friction, JointFriction(joint.friction), joint.initial_energy});
   }
-  // DescribeJoints has checked it
-  prepared->joint_sensors = texts.contains("joint_sensors") && texts["joint_sensors"] == "true";
+  prepared->options = OptionsIn(texts, place);
   shelf.Keep(key, prepared);
   return prepared;
 }

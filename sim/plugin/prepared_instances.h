@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "models/friction/joint_friction.h"
+#include "sim/plugin/attributes.h"
 
 namespace warmjoint {
 
@@ -24,8 +25,8 @@ struct PreparedJoint {
 
 /// An instance as its attributes describe it.
 struct PreparedInstance {
-  std::string written_name;                     // attribute `instance`; empty where not given
-  bool joint_sensors = false;                   // whether each sensor reads one joint
+  std::string written_name;  // attribute `instance`; empty where not given
+  InstanceOptions options;
   std::map<std::string, PreparedJoint> joints;  // by the name in `joints`; "": every joint
 };
 

@@ -1,5 +1,6 @@
 #include "sim/plugin/register.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -9,8 +10,10 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "models/foundation/bad_input.h"
 #include "sim/plugin/attributes.h"
 #include "sim/plugin/friction_instance.h"
 #include "sim/plugin/plugin_instances.h"
@@ -42,6 +45,13 @@ constexpr size_t kMostRefusal = 900;
 
 FrictionInstance* InstanceOf(const mjData* d, int instance) {
   return reinterpret_cast<FrictionInstance*>(d->plugin_data[instance]);
+}
+
+/// Calls what follows with the instance that the data holds. The compiler steps data without any while it looks for the length
+/// ranges of actuators: nothing is done there.
+template <typename Call>
+void WithInstance(const mjData* d, int instance, const Call& call) {
+  if (FrictionInstance* friction = InstanceOf(d, instance)) call(*friction);
 }
 
 /// Runs a callback. What it refuses, as far as it fits, stays for this thread; null where nothing was. An error that tells it
@@ -95,12 +105,13 @@ void Guarded(const Callback& callback) {
 }
 
 void Compute(const mjModel* m, mjData* d, int instance, int capability) {
-  FrictionInstance& friction = *InstanceOf(d, instance);
-  if (capability == mjPLUGIN_SENSOR) return friction.Sense(m, d);
-  if (capability == mjPLUGIN_ACTUATOR && !friction.passive()) friction.ApplyActuators(m, d);
-  if (capability == mjPLUGIN_PASSIVE && friction.passive()) {
-    Guarded([&] { friction.StepPassive(m, d); });
-  }
+  WithInstance(d, instance, [&](FrictionInstance& friction) {
+    if (capability == mjPLUGIN_SENSOR) return friction.Sense(m, d);
+    if (capability == mjPLUGIN_ACTUATOR && !friction.passive()) friction.ApplyActuators(m, d);
+    if (capability == mjPLUGIN_PASSIVE && friction.passive()) {
+      Guarded([&] { friction.StepPassive(m, d); });
+    }
+  });
 }
 
 int SensorNumbers(const mjModel* m, int instance, int) {
@@ -119,8 +130,10 @@ void Reset(const mjModel* m, mjtNum* state, void* data, int instance) {
 }
 
 void ActDot(const mjModel* m, mjData* d, int instance) {
-  if (InstanceOf(d, instance)->passive()) return;
-  Guarded([&] { InstanceOf(d, instance)->StepActuators(m, d); });
+  WithInstance(d, instance, [&](FrictionInstance& friction) {
+    if (friction.passive()) return;
+    Guarded([&] { friction.StepActuators(m, d); });
+  });
 }
 
 void Destroy(mjData* d, int instance) {
@@ -148,19 +161,31 @@ mjpPlugin MakePlugin() {
   plugin.actuator_act_dot = ActDot;
   plugin.compute = Compute;
   plugin.advance = [](const mjModel* m, mjData* d, int instance) {
-    InstanceOf(d, instance)->Advance(m, d);
+    WithInstance(d, instance, [&](FrictionInstance& friction) { friction.Advance(m, d); });
   };
   return plugin;
+}
+
+/// Whether two plugins read the same attributes, which tells versions apart.
+bool SameAttributes(const mjpPlugin& one, const mjpPlugin& other) {
+  return std::equal(one.attributes, one.attributes + one.nattribute, other.attributes,
+                    other.attributes + other.nattribute,
+                    [](const char* a, const char* b) { return std::string_view(a) == b; });
 }
 
 }  // namespace
 
 void RegisterFrictionPlugin() {
-  static const int slot = [] {
-    const mjpPlugin plugin = MakePlugin();
-    return mjp_registerPlugin(&plugin);
-  }();
-  static_cast<void>(slot);
+  // a process may hold this code twice, as the library and in the program's own rooms: the first one serves all
+  static const mjpPlugin own = MakePlugin();
+  int slot = -1;
+  const mjpPlugin* const known = mjp_getPlugin(kFrictionPlugin, &slot);
+  if (!known) mjp_registerPlugin(&own);
+  if (!known || SameAttributes(*known, own)) return;
+  Dl_info library{};
+  dladdr(reinterpret_cast<void*>(known->init), &library);
+  Refuse({kFrictionPlugin}, "{} of another version is loaded already; load one of the two",
+         library.dli_fname ? library.dli_fname : "a library");
 }
 
 }  // namespace warmjoint

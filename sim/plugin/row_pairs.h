@@ -50,13 +50,16 @@ enum Column : int {
   // what it finds
   kUpper,  // L+ and L-, not negative, N.m or N; where a row asks for them, roughly at first
   kLower,
-  kSlope,      // of the force over speed, not negative; found with the numbers where heat leaves it
+  kOwnSlope,  // of the plugin's force over speed: what is left of the whole one, which is not negative, without
+              // the joint's damping; found with the numbers where heat leaves it
   kStretch,    // A/h^2 (z + h v), rad/s^2 or m/s^2
   kFriction,   // f, N.m or N
   kSliding,    // 1 where the bristle has yielded in the direction of motion, or 0
-  kForce,      // F, N.m or N
+  kForce,      // F without what the joint's damping adds, N.m or N
   kLoss,       // W, W
   kNextFirst,  // E1'
+
+  kDamping,  // of the joint, which is friction's
 
   // what few joints have: kv and b, where heat changes the slope, an ambient, and a second stage
   kViscous,

@@ -28,15 +28,25 @@ constexpr double kMinor = 0.3;
 constexpr int kPoses = 32;
 
 /// The diagonal of h^2 K + 2 h C, kg.m^2 or kg.
-Eigen::VectorXd Added(const mjModel* m, int integrator) {
+Eigen::VectorXd Added(const mjModel* m, int integrator, const std::vector<double>& slopes) {
   const double h = m->opt.timestep, per_damping = integrator == mjINT_EULER ? 2 * h : -2 * h;
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(m->nv);
+  const double per_joint_damping = DampsImplicitly(m, integrator) ? -2 * h : 2 * h;
+  Eigen::VectorXd added = 2 * h * Eigen::VectorXd::Map(slopes.data(), m->nv);
+  // the joints' own springs and dampers
+  const bool springs = !(m->opt.disableflags & mjDSBL_SPRING);
+  const bool dampers = !(m->opt.disableflags & mjDSBL_DAMPER);
+  for (int dof = 0; dof < m->nv; ++dof) {
+    if (springs) added[dof] += h * h * m->jnt_stiffness[m->dof_jntid[dof]];
+    if (dampers) added[dof] += per_joint_damping * m->dof_damping[dof];
+  }
   for (int i = 0; i < m->nactuator; ++i) {
-    if (m->actuator_trntype[i] != mjTRN_JOINT || m->actuator_biastype[i] != mjBIAS_AFFINE) continue;
+    if (m->actuator_trntype[i] != mjTRN_JOINT) continue;
+    const int dof = m->jnt_dofadr[m->actuator_trnid[2 * i]];
     const double gear = m->actuator_gear[6 * m->actuator_outadr[i]];
+    if (dampers) added[dof] += gear * gear * per_joint_damping * m->actuator_damping[i];
+    if (m->actuator_biastype[i] != mjBIAS_AFFINE) continue;
     const mjtNum* bias = m->actuator_biasprm + i * mjNBIAS;
-    added[m->jnt_dofadr[m->actuator_trnid[2 * i]]] -=
-        gear * gear * (h * h * bias[1] + per_damping * bias[2]);
+    added[dof] -= gear * gear * (h * h * bias[1] + per_damping * bias[2]);
   }
   return added;
 }
@@ -68,8 +78,7 @@ double RoundDown(double value) {
 
 /// An explicit slope of force over speed c is well damped up to c h = M / 2, also where coupled
 /// joints feel lighter than M, and diverges above 2 M.
-Asked ForSlope(const JointFriction& friction, double inertia, double h) {
-  const double slope = friction.SteepestSlope();
+Asked ForSlope(double slope, double inertia, double h) {
   return {
       2 * slope * h, inertia / (2 * slope),
       fmt::format("friction rises over speed by up to {:.4g} N.m.s/rad (N.s/m), too steeply for an "
@@ -107,10 +116,16 @@ Asked ForBristle(const Bristle& bristle, double inertia, double h) {
 
 }  // namespace
 
-std::vector<double> StiffestDrives(const mjModel* m, int integrator) {
+bool DampsImplicitly(const mjModel* m, int integrator) {
+  if (integrator == mjINT_EULER) return !(m->opt.disableflags & mjDSBL_EULERDAMP);
+  return integrator != mjINT_RK4;
+}
+
+std::vector<double> StiffestDrives(const mjModel* m, int integrator,
+                                   const std::vector<double>& slopes) {
   // most models: the eigenvalues' sum, in which the compiler at first knows no inertia, is small
   std::vector<double> stiffest(static_cast<size_t>(m->ntree), 0);
-  const Eigen::VectorXd added = Added(m, integrator);
+  const Eigen::VectorXd added = Added(m, integrator, slopes);
   double sum = 0;
   for (int dof = 0; dof < m->nv; ++dof) {
     const double inertia = EffectiveInertia(m, dof);
@@ -141,17 +156,18 @@ std::vector<double> StiffestDrives(const mjModel* m, int integrator) {
   return stiffest;
 }
 
-std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const JointFriction& friction,
+std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const SteppedFriction& stepped,
                              const BristleShape& bristles) {
-  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]), h = m->opt.timestep;
+  const JointFriction& friction = stepped.friction;
+  const double inertia = stepped.inertia, h = m->opt.timestep;
   const bool slides = m->jnt_type[joint] == mjJNT_SLIDE;
   const JointKind kind = slides ? JointKind::linear : JointKind::rotary;
-  return {ForSlope(friction, inertia, h), friction.own_bristle()
-                                              ? ForBristle(*friction.own_bristle(), inertia, h)
-                                              : ForWindUp(friction, bristles, inertia, h, kind)};
+  return {ForSlope(stepped.OwnSlope(), inertia, h),
+          friction.own_bristle() ? ForBristle(*friction.own_bristle(), inertia, h)
+                                 : ForWindUp(friction, bristles, inertia, h, kind)};
 }
 
-void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
+void CheckJoint(const mjModel* m, int joint, const SteppedFriction& friction,
                 const BristleShape& bristles, const Place& place) {
   const int type = m->jnt_type[joint];
   if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {
@@ -160,29 +176,51 @@ void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
   }
 
   // the compiler asks once before it knows the inertia, and again after
-  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]);
-  if (inertia == 0) return;
+  if (friction.inertia == 0) return;
   for (const Asked& asked : AskedOf(m, joint, friction, bristles)) {
-    if (asked.inertia <= inertia) continue;
+    if (asked.inertia <= friction.inertia) continue;
     Refuse(place, "{}: add an armature of {:.3g} or take a timestep of at most {:.3g} s", asked.why,
-           RoundUp(asked.inertia - inertia), RoundDown(asked.timestep));
+           RoundUp(asked.inertia - friction.inertia), RoundDown(asked.timestep));
   }
 }
 
-void CheckDrive(const mjModel* m, int joint, double drive, const Place& place) {
+void CheckDamping(const mjModel* m, int joint, const SteppedFriction& friction,
+                  const Place& place) {
+  if (friction.viscous == Viscous::by_plugin) return;
+  // the flag leaves out all dampers
+  if (m->opt.disableflags & mjDSBL_DAMPER) {
+    if (m->dof_damping[m->jnt_dofadr[joint]] == 0) return;
+    Refuse(place,
+           "the model's flag damper is disabled, and with it friction's viscous part, which is "
+           "the joint's damping; enable it");
+  }
+  if (DampsImplicitly(m, m->opt.integrator)) return;
+  const double slope = friction.friction.SteepestSlope();
+  const Asked asked = ForSlope(slope, friction.inertia, m->opt.timestep);
+  if (asked.inertia <= friction.inertia) return;
+  Refuse(
+      place,
+      "{}, and its integrator takes damping explicitly: take the integrator implicitfast (attach "
+      "--integrator implicitfast), {:.3g} more armature, or a timestep of at most {:.3g} s",
+      asked.why, RoundUp(asked.inertia - friction.inertia), RoundDown(asked.timestep));
+}
+
+void CheckDrive(const mjModel* m, int joint, double drive, const std::vector<double>& slopes,
+                const Place& place) {
   // beside stiffer ones bristles no longer soften
   if (drive + kCarried - kStiffestDrive < 4) return;
   const double h = m->opt.timestep;
   const int tree = m->dof_treeid[m->jnt_dofadr[joint]];
-  const bool implicit_helps = StiffestDrives(m, mjINT_IMPLICITFAST)[tree] <= kStiffestDrive;
-  Refuse(
-      place,
-      "servos are too stiff for timestep {}: their h^2 kp + 2 h kv over the inertia is up to "
-      "{:.3g}, above {}, so that the joint may shake instead of resting; take {}a timestep of at "
-      "most {:.3g} s (attach --timestep) or more armature (--armature)",
-      h, drive, kStiffestDrive,
-      implicit_helps ? "the integrator implicitfast (attach --integrator implicitfast), " : "",
-      RoundDown(h * kStiffestDrive / drive));
+  const bool implicit_helps = StiffestDrives(m, mjINT_IMPLICITFAST, slopes)[tree] <= kStiffestDrive;
+  Refuse(place,
+         "servos are too stiff for timestep {}: their h^2 kp + 2 h kv over the inertia, with the "
+         "joints' "
+         "springs and friction's slopes, is up to {:.3g}, above {}, so that the joint may shake "
+         "instead of resting; take {}a timestep of at "
+         "most {:.3g} s (attach --timestep) or more armature (--armature)",
+         h, drive, kStiffestDrive,
+         implicit_helps ? "the integrator implicitfast (attach --integrator implicitfast), " : "",
+         RoundDown(h * kStiffestDrive / drive));
 }
 
 }  // namespace warmjoint

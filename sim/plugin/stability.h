@@ -25,8 +25,13 @@ struct BristleShape {
 inline constexpr double kLargestCoupling = 3.3;
 
 /// Of an instance that is alone on its kinematic tree: every mode of the held joints, each with
-/// eigenvalue 1, follows z^2 - (2 - A - B) z + 1 - B = 0, whose roots are 0.45 in size.
-inline constexpr BristleShape kLoneBristles{0.8, 0.8};
+/// eigenvalue 1, follows z^2 - (2 - A - B) z + 1 - B = 0 with the double root r = 0.2, A = (1 - r)^2 and
+/// B = 1 - r^2, so that a load that jumps stretches a bristle to what it asks and not beyond.
+inline constexpr BristleShape kLoneBristles{0.64, 0.96};
+
+/// The damper of a bristle that is within its levels gives up to so many times them. Why: a load that jumps
+/// by a level asks for A + B = 1.6 of it in the first step, and one from level to level for little more.
+inline constexpr double kDamperLevels = 2;
 
 /// Of so many instances that share a tree, each of which takes the others' joints as free: the
 /// eigenvalues are then at most their number, and A + 2 B = 3.6 over it keeps the step stable; they are
@@ -44,8 +49,12 @@ inline constexpr double kCarried = 3.9;
 inline constexpr double kStiffestDrive = 3;
 
 /// Beside drives of that K + 2 C: as above where the step carries both, else softer, with A = 2 B at last.
-inline BristleShape BristlesOf(int instances, double drive) {
-  const BristleShape own = BristlesOf(instances);
+/// slope: of friction over speed that the step takes explicitly, in units of M/h, which damps already;
+/// damping: share of B that the integrator carries.
+inline BristleShape BristlesOf(int instances, double drive, double slope = 0, double damping = 1) {
+  const BristleShape alone = BristlesOf(instances);
+  const BristleShape own{alone.stiffness * (1 - slope),
+                         std::max(0.0, damping * alone.damping - slope)};
   const double left = kCarried - std::min(drive, kStiffestDrive);
   const double carried = left / std::min<double>(instances, kLargestCoupling);
   if (drive <= 0 || own.stiffness + 2 * own.damping <= carried) return own;
@@ -57,9 +66,9 @@ inline BristleShape BristlesOf(int instances, double drive) {
 /// speeds that the damper has slowed, so that a mode follows
 ///   v' = -(A + B + D) v/h - A z/h^2,   z' = z + h v of the last stage
 /// by the method's polynomial, D h/M being what other damping adds, which this integrator takes
-/// explicitly, too. Its spectral radius is below 0.6 for B + D from 0.05 to 0.69, and 0.56 at both
-/// B alone and B + 0.5, which is what the joints' own damping adds at 5 ms in poses of arms without armature.
-inline constexpr double kDampingOfStages = 0.1875;
+/// explicitly, too. Its spectral radius is below 0.6 for B + D from 0.24 to 0.8, 0.59 at B alone and 0.57 at
+/// B + 0.5, which is what the joints' own damping adds at 5 ms in poses of arms without armature.
+inline constexpr double kDampingOfStages = 0.27;
 
 /// Effective inertia of a degree of freedom at the reference pose with all the others free,
 /// 1 / dof_invweight0, kg.m^2 or kg; 0 while the compiler has not yet determined it. Of one that
@@ -81,6 +90,33 @@ inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
   return inverse > 0 ? 1 / inverse : 0;
 }
 
+/// The laws' slope over speed.
+inline constexpr char kViscousName[] = "viscous";
+
+/// Who adds the constant part of friction's slope over speed, kv.
+enum class Viscous { by_plugin, by_damping };
+
+/// A joint's friction as the step sees it.
+struct SteppedFriction {
+  const JointFriction& friction;
+  Viscous viscous = Viscous::by_plugin;
+  double inertia = 0;  // effective, kg.m^2 or kg
+
+  /// The slope of the plugin's own force over speed, at most, N.m.s/rad or N.s/m.
+  double OwnSlope() const {
+    return friction.SteepestSlope() - (viscous == Viscous::by_damping ? friction.viscous() : 0);
+  }
+};
+
+/// Whether an integrator takes the joints' damping implicitly, in a model with these flags.
+bool DampsImplicitly(const mjModel* m, int integrator);
+
+/// The slope over speed that the model's step takes explicitly, at most, N.m.s/rad or N.s/m.
+inline double ExplicitSlope(const mjModel* m, const SteppedFriction& joint) {
+  const bool own = DampsImplicitly(m, m->opt.integrator);
+  return own ? joint.OwnSlope() : joint.friction.SteepestSlope();
+}
+
 /// What the step asks of a joint's inertia so that it carries the friction.
 struct Asked {
   double inertia;   // at least, kg.m^2 or kg
@@ -88,24 +124,31 @@ struct Asked {
   std::string why;
 };
 
-/// For the slope over speed, and for the bristle.
-std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const JointFriction& friction,
+/// For the slope over speed that the plugin adds, and for the bristle.
+std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const SteppedFriction& friction,
                              const BristleShape& bristles);
 
 /// Throws BadInput, from `place` and with the remedy, unless the joint is a hinge or slide whose
-/// effective inertia at the reference pose lets the model's step carry the friction. bristles: those
-/// of a law that leaves them to the step, as they are without drives.
-void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
+/// effective inertia lets the model's step carry the friction. bristles: those of a law that leaves them
+/// to the step, as they are without drives.
+void CheckJoint(const mjModel* m, int joint, const SteppedFriction& friction,
                 const BristleShape& bristles, const Place& place);
 
-/// Throws BadInput, from `place` and with the remedies, where the drives of a joint's tree
-/// (StiffestDrives) leave bristles nothing of what the step carries.
-void CheckDrive(const mjModel* m, int joint, double drive, const Place& place);
+/// Throws BadInput, from `place` and with the remedies, where the model's flags leave the joint without
+/// the damping that is friction's viscous, or its integrator takes it explicitly and it is too steep.
+void CheckDamping(const mjModel* m, int joint, const SteppedFriction& friction, const Place& place);
 
-/// Of each kinematic tree, the largest eigenvalue of M^-1 (h^2 K + 2 h C) over poses under an integrator,
-/// K and C being the stiffness and damping of affine drives of joints; damping that the integrator takes
-/// implicitly counts as -C. 0 under `discrete` and RK4, which carry more stiffness than bristles need, and
-/// where all is so soft that BristlesOf does not change.
-std::vector<double> StiffestDrives(const mjModel* m, int integrator);
+/// Throws BadInput, from `place` and with the remedies, where the drives of a joint's tree
+/// (StiffestDrives) leave bristles nothing of what the step carries. slopes: as there.
+void CheckDrive(const mjModel* m, int joint, double drive, const std::vector<double>& slopes,
+                const Place& place);
+
+/// Of each kinematic tree, the largest eigenvalue of M^-1 (h^2 K + 2 h C) over poses under an integrator:
+/// K is the stiffness of affine drives of joints and of the joints' own springs, C the damping of the
+/// drives and joints and `slopes`, of each degree of freedom what the plugin adds (OwnSlope), N.m.s/rad or
+/// N.s/m. Damping that the integrator takes implicitly counts as -C. 0 under `discrete` and RK4, which carry
+/// more stiffness than bristles need, and where all is so soft that BristlesOf does not change.
+std::vector<double> StiffestDrives(const mjModel* m, int integrator,
+                                   const std::vector<double>& slopes);
 
 }  // namespace warmjoint

@@ -97,7 +97,9 @@ def test_the_numbers_are_those_of_the_engine():
     drive(friction, 300)
     mujoco.mj_forward(friction.model, friction.data)
     data = friction.data
-    np.testing.assert_array_equal(friction.torque, data.actuator_force[3:])
+    # the joint's damping is the viscous part, which MuJoCo adds
+    np.testing.assert_array_equal(friction.model.dof_damping, [0.5, 0.1, 0.1])
+    np.testing.assert_allclose(friction.torque, data.actuator_force[3:] + data.qfrc_damper, rtol=1e-12)
     slides = ~friction.held
     np.testing.assert_allclose(friction.loss[slides], np.abs(friction.torque * data.qvel)[slides], rtol=1e-12)
 
@@ -175,6 +177,42 @@ def test_worlds_equal_single_runs(form):
     np.testing.assert_array_equal(again["warm"], drawn["warm"])
 
 
+def test_some_worlds_draw_and_all_are_read():
+    batch = batch_of_mujoco()
+    friction = bound()
+    worlds = batch.Batch(friction.model, 8)
+    first = friction.randomise(worlds, coulomb=(0.7, 1.0), viscous=(0.5, 2), warm=(0, 1), rng=1)
+    before = {field: worlds.expand(field).copy() for field in ("numeric_data", "dof_damping")}
+    np.testing.assert_allclose(before["dof_damping"], first["viscous"] * friction.model.dof_damping)
+    ended = np.array([1, 5])
+    again = friction.randomise(worlds, ids=ended, coulomb=(0.7, 1.0), viscous=(0.5, 2), warm=(0, 1), rng=2)
+    assert again["coulomb"].shape == (2, 3)
+    others = np.setdiff1d(np.arange(8), ended)
+    for field, values in before.items():
+        np.testing.assert_array_equal(worlds.expand(field)[others], values[others])
+        assert (worlds.expand(field)[ended] != values[ended]).any()
+    mask = np.arange(8) == 3
+    assert friction.randomise(worlds, ids=mask, coulomb=(1, 1))["coulomb"].shape == (1, 3)
+    with pytest.raises(ValueError, match="worlds from 0 to 7"):
+        friction.randomise(worlds, ids=[8], coulomb=(1, 1))
+
+    # torque and heat of all worlds are those of each
+    worlds.bind("qvel")[:] = 0.5
+    worlds.step(nstep=20)
+    seen = friction.of(worlds)
+    single = bound()
+    for world in range(8):
+        single.model.numeric_data[:] = worlds.expand("numeric_data")[world]
+        single.model.dof_damping[:] = worlds.expand("dof_damping")[world]
+        mujoco.mj_setState(single.model, single.data, worlds.state[world], mujoco.mjtState.mjSTATE_INTEGRATION)
+        np.testing.assert_array_equal(seen.heat[world], single.heat)
+    worlds.forward()
+    mujoco.mj_forward(single.model, single.data)
+    for which in ("torque", "loss", "held", "rise"):
+        assert getattr(seen, which).shape == (8, 3)
+        np.testing.assert_array_equal(getattr(seen, which)[7], getattr(single, which))
+
+
 def test_worlds_beyond_bounds_are_refused_by_name():
     batch = batch_of_mujoco()
     friction = bound()
@@ -198,7 +236,7 @@ def test_wrong_calls_are_refused_by_name_and_change_nothing():
     spec = mujoco.MjSpec.from_string(ROBOT)
     spec.compile()
     before = spec.to_xml()
-    heavy = BIG | {"parameters": {"viscous": 1e5, "coulomb": 4}}
+    heavy = BIG | {"parameters": {"viscous": 1e5, "coulomb": 1e6}}
     for frictions, options, words in (
         ({"joint3": BIG}, {}, "no joint 'joint3'; did you mean 'joint"),
         ({"*": BIG}, {}, r"write '\.\*'"),
@@ -209,6 +247,9 @@ def test_wrong_calls_are_refused_by_name_and_change_nothing():
         ({"joint1": BIG}, {"form": "active"}, "'active'"),
         ({"joint1": BIG}, {"armatures": {"joint9": 1}}, "joint9"),
         ({"joint1": BIG}, {"timestep": -1}, "timestep"),
+        ({"joint1": BIG}, {"integrator": "euler"}, "'euler'; it must be one of Euler"),
+        ({"joint1": BIG}, {"stiffest_drive": 5}, "stiffest-drive"),
+        ({"slide": ESTIMATE | {"parameters": {"coulomb": {"value": 4, "unit": "N.m"}}}}, {}, "slide.* of hinges"),
     ):
         with pytest.raises(ValueError, match=words):
             attach(spec, frictions, **options)
@@ -263,12 +304,46 @@ def test_a_robot_in_a_scene(form):
 def test_a_number_out_of_its_bounds_warns_once(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     friction, other = bound(), bound()
-    friction.model.numeric("friction/viscous").data[1] = -3
+    friction.model.numeric("friction/coulomb").data[1] = -3
     drive(friction, 100)
     drive(other, 100)
     np.testing.assert_array_equal(friction.data.qpos, other.data.qpos)
     log = (tmp_path / "MUJOCO_LOG.TXT").read_text()
-    assert log.count("numeric 'friction/viscous' of joint 'joint2' is -3; it must be a number of at least 0; 0.1 acts") == 1
+    assert log.count("numeric 'friction/coulomb' of joint 'joint2' is -3; it must be a number of at least 0; 1 acts") == 1
+
+
+def test_a_second_attach_joins_the_first():
+    once = attach(ROBOT, FRICTIONS).spec
+    twice = attach(ROBOT, {"joint1": BIG})
+    attach(twice.spec, {"joint2|slide": SMALL})
+    assert twice.spec.to_xml() == once.to_xml()
+    assert "passive form (form='actuator'" in repr(twice)
+    model = twice.spec.compile()
+    assert twice.bind(model, mujoco.MjData(model)).joints == ["joint1"]
+    integrator = attach(ROBOT, {"joint1": BIG}, integrator="RK4").spec.option.integrator
+    assert integrator == mujoco.mjtIntegrator.mjINT_RK4
+
+
+@pytest.mark.parametrize(
+    "order", ["loads, uses", "uses, loads", "runs, uses", "uses, runs", "loads, runs, uses", "runs, loads, uses"]
+)
+def test_the_library_may_be_loaded_by_hand_and_with_the_engine(order, tmp_path):
+    """attach, simulate and a library of one's own in one process, in any order."""
+    library = tmp_path / "libwarmjoint_friction.so"
+    library.write_bytes(mujoco_plugin.library_path(mujoco.__version__).read_bytes())
+    (tmp_path / "robot.xml").write_text(ROBOT)
+    steps = {
+        "loads": f"mujoco.mj_loadPluginLibrary({str(library)!r})",
+        "runs": "wj.simulate({'friction': {'law': 'viscous_coulomb', 'parameters': {'viscous': 5, 'coulomb': 15}}, "
+        "'plant': 'mujoco', 'robot': 'rotary', 'joint': 'hinge', 'motion': {'speeds': {'uniform': [0.1, 1]}, 'hold': 2}, 'duration': 20})",
+        "uses": f"m = wj.attach({str(tmp_path / 'robot.xml')!r}, {{'joint1': wj.Friction('coulomb', coulomb=4)}}).spec.compile(); "
+        "mujoco.mj_step(m, mujoco.MjData(m), 10); assert m.nplugin == 1",
+    }
+    if "runs" in order and mujoco.__version__ != "4.0.0":
+        pytest.skip("simulate runs MuJoCo 4.0")
+    code = "\n".join(["import mujoco", *("import warmjoint as wj\n" + steps[step] for step in order.split(", "))])
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
 
 
 def test_refuses_another_mujoco():

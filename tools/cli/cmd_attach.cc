@@ -7,6 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
 #include "models/robots/robot_folder.h"
 #include "tools/actions/outputs.h"
@@ -17,12 +18,6 @@
 
 namespace warmjoint {
 namespace {
-
-const std::map<std::string, mjtIntegrator> kIntegrators{{"Euler", mjINT_EULER},
-                                                        {"RK4", mjINT_RK4},
-                                                        {"implicit", mjINT_IMPLICIT},
-                                                        {"implicitfast", mjINT_IMPLICITFAST},
-                                                        {"discrete", mjINT_DISCRETE}};
 
 struct AttachArguments {
   std::string model;
@@ -53,6 +48,19 @@ FrictionForJoint ReadJoint(const std::string& text, const std::string& initial,
   return ReadFrictionForJoint(joint, file, initial, warnings);
 }
 
+/// The kind of joint that an estimate.json is of; nothing where the file does not tell.
+std::optional<JointKind> KindOfFile(const std::string& file) {
+  std::map<std::string, std::string> units;
+  const auto parameters = ReadJsonNode(file).Find("parameters");
+  if (!parameters || !parameters->IsMap()) return std::nullopt;
+  for (const std::string& name : parameters->Keys()) {
+    const auto one = parameters->Find(name);
+    const auto unit = one && one->IsMap() ? one->Find("unit") : std::nullopt;
+    if (unit) units[name] = unit->Text();
+  }
+  return KindOfUnits(units);
+}
+
 /// NAME=VALUE of --armature.
 ArmatureForJoints ReadArmature(const std::string& text) {
   const auto [joints, value] = ReadPair(text, "--armature", "NAME=VALUE or PATTERN=VALUE");
@@ -77,7 +85,7 @@ AttachOptions OptionsOf(const AttachArguments& arguments) {
 }
 
 ExitStatus Attach(const AttachArguments& arguments) {
-  const AttachOptions options = OptionsOf(arguments);
+  AttachOptions options = OptionsOf(arguments);
   // each --joint is read at once, and its file is an input that must stay
   std::vector<FrictionForJoint> frictions;
   std::vector<std::string> warnings;
@@ -86,6 +94,8 @@ ExitStatus Attach(const AttachArguments& arguments) {
   for (const std::string& text : arguments.joints) {
     frictions.push_back(ReadJoint(text, arguments.initial, warnings));
     inputs.emplace_back(text.substr(text.find('=') + 1));
+    const auto kind = KindOfFile(inputs.back());
+    if (kind) options.kinds.emplace(frictions.back().joint, *kind);
   }
 
   // nothing is written over, and every doubt of the estimates is told before the model is made
@@ -95,8 +105,12 @@ ExitStatus Attach(const AttachArguments& arguments) {
   for (const std::string& notice : attached.notices) SayNotice("notice: {}\n", notice);
   fmt::print(
       WordsBeside({arguments.output}),
-      "{}: friction on {} of its joints; load it with libwarmjoint_friction.so in MuJoCo {}\n",
-      arguments.output, attached.joints.size(), mj_versionString());
+      "{}: friction on {} of its joints, {}; load it with libwarmjoint_friction.so in MuJoCo {}\n",
+      arguments.output, attached.joints.size(),
+      options.form == FrictionForm::passive
+          ? "without actuators of its own (--as actuator adds them)"
+          : "as actuators (--as passive adds none)",
+      mj_versionString());
   return ExitStatus::done;
 }
 
@@ -106,12 +120,14 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
            "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
       ->take_all();
   std::vector<std::string> names;
-  for (const auto& [name, unused] : kIntegrators) names.push_back(name);
+  for (const auto& [name, unused] : Integrators()) names.push_back(name);
   const auto take = [&arguments](const std::string& choice) {
-    arguments.options.integrator = kIntegrators.at(choice);
+    arguments.options.integrator = Integrators().at(choice);
   };
   AddChoice(parser, "--integrator", take, names, "integrator of the result");
   AddValue(parser, "--timestep", "NUMBER", arguments.options.timestep, "step of the result, s");
+  AddValue(parser, "--stiffest-drive", "NUMBER", arguments.options.stiffest_drive,
+           "h^2 kp + 2 h kv over the joint's inertia of a servo in a program of your own, up to 3");
   AddValue(parser, "--package", "NAME=DIR", arguments.packages,
            "NAME=FOLDER: where package://NAME of a URDF's meshes lies")
       ->take_all();

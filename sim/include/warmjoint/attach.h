@@ -31,6 +31,13 @@ inline std::span<const Word<FrictionForm>> WordsOf(FrictionForm) {
   return words;
 }
 
+/// MuJoCo's integrators by their names in MJCF.
+const std::map<std::string, mjtIntegrator>& Integrators();
+
+/// Which kind of joint a friction is of by the units of its estimate's parameters, as {"coulomb", "N.m"}; nothing where
+/// they do not tell.
+std::optional<JointKind> KindOfUnits(const std::map<std::string, std::string>& units);
+
 /// The folder of each ROS package by its name: package://NAME/FILE is FOLDER/FILE.
 using PackageFolders = std::map<std::string, std::filesystem::path>;
 
@@ -53,6 +60,10 @@ struct AttachOptions {
   /// An array "INSTANCE/NUMBER" of the model for each number of the frictions, which may change at run
   /// time; an entry for each joint, 0 where its friction has no such number.
   bool numbers = false;
+  /// Of a servo in a program's own code, which the model does not show: h^2 kp + 2 h kv over the joint's inertia, 0 to 3.
+  double stiffest_drive = 0;
+  /// Which kind of joint a friction is of, where that is known: by its `joint` as given.
+  std::map<std::string, JointKind> kinds{};
 };
 
 /// What was attached.
@@ -63,7 +74,10 @@ struct Attached {
 
 /// Puts friction on joints of a model:
 /// - `joint` of each friction is a name or a pattern (MatchJoints);
-/// - the joint's own damping and frictionloss, which the friction replaces, are removed;
+/// - the joint's own damping and frictionloss, and the damping of its actuators, which the friction replaces, are
+///   removed; the joint's damping is the friction's constant viscous from then on, which MuJoCo adds;
+/// - a pattern leaves joints of the other kind than its friction's out (AttachOptions.kinds);
+/// - friction that the model has by an earlier call in the same form joins the new one's instance;
 /// - as actuators: an effort limit of the joint, which would clip friction too, is moved
 ///   (MoveEffortLimits); in the passive form it stays;
 /// - everything else compiles to the same bits as before.

@@ -126,6 +126,62 @@ TEST_F(Attach, TakesAFileThatIsNamedWithoutItsFolder) {
   EXPECT_EQ(LoadModel(out_).model->nmesh, 1);
 }
 
+TEST_F(Attach, WorksWhereTheCompilerLooksForLengthRangesOfActuators) {
+  const TemporaryFile muscle("muscle.xml", R"(<mujoco><worldbody><site name="a" pos="0 0 .3"/>
+    <body><joint name="j" axis="0 1 0" range="-60 60" limited="true" armature=".01"/>
+    <geom type="capsule" size=".02" fromto="0 0 0 .3 0 0"/><site name="b" pos=".2 0 .02"/></body>
+    </worldbody><tendon><spatial name="t"><site site="a"/><site site="b"/></spatial></tendon>
+    <actuator><muscle name="m" tendon="t"/></actuator></mujoco>)");
+  const TemporaryFile all("all.xml", R"(<mujoco><compiler><lengthrange mode="all"/></compiler>
+    <worldbody><body><joint name="j" axis="0 1 0" range="-60 60" limited="true" armature=".01"/>
+    <geom type="capsule" size=".02" fromto="0 0 0 .3 0 0"/></body></worldbody>
+    <actuator><motor name="m" joint="j"/></actuator></mujoco>)");
+  const Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 0.001}}, {}};
+  for (const TemporaryFile* model : {&muscle, &all}) {
+    for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
+      AttachFriction(model->path(), {{"j", friction}}, out_, {.form = form});
+      const LoadedModel result = LoadModel(out_);
+      const DataPtr d(mj_makeData(result.model.get()));
+      for (int i = 0; i < 100; ++i) mj_step(result.model.get(), d.get());
+      EXPECT_GT(result.model->actuator_lengthrange[1], result.model->actuator_lengthrange[0]);
+    }
+  }
+}
+
+TEST_F(Attach, NamesWhatElseResistsTheJoint) {
+  const TemporaryFile model("others.xml", R"(<mujoco><worldbody>
+    <body><joint name="a" axis="0 1 0" armature=".05"/><geom size=".1"/></body>
+    <body pos="1 0 0"><joint name="b" axis="0 1 0" armature=".05"/><geom size=".1"/></body></worldbody>
+    <tendon><fixed name="t" frictionloss="1"><joint joint="b" coef="2"/></fixed>
+      <fixed name="free"><joint joint="b" coef="1"/></fixed></tendon>
+    <actuator><motor joint="b" damping="3"/>
+      <dcmotor joint="a" motorconst="1" resistance="1" lugre="1e4 1 .1 .2 .05"/></actuator></mujoco>)");
+  const Attached attached = To(model.path(), {"a", "b"});
+  std::string all;
+  for (const std::string& notice : attached.notices) all += notice + "\n";
+  test::ExpectNamed(all,
+                    {"b: damping of the actuators was removed", "b: frictionloss of tendon 't'", "a: the friction of the dcmotor"});
+  EXPECT_EQ(all.find("'free'"), std::string::npos);
+  EXPECT_EQ(LoadModel(out_).model->actuator_damping[0], 0);
+}
+
+TEST_F(Attach, GivesAFrictionToJointsOfItsKindAlone) {
+  const TemporaryFile model("gantry.xml", R"(<mujoco><worldbody>
+    <body><joint name="axis_1" type="slide" axis="1 0 0" armature="1"/><geom size=".1"/></body>
+    <body pos="1 0 0"><joint name="axis_2" axis="0 1 0" armature=".05"/><geom size=".1"/></body>
+    </worldbody></mujoco>)");
+  AttachOptions options;
+  options.kinds = {{"axis_.*", JointKind::rotary}, {"axis_1", JointKind::rotary}};
+  const Attached attached = To(model.path(), {"axis_.*"}, options);
+  EXPECT_THAT(attached.joints, ElementsAre("axis_2"));
+  test::ExpectNamed(attached.notices.front(), {"axis_1", "left out", "hinges (rad, N.m)"});
+  test::ExpectNamed(test::RefusalOf([&] { To(model.path(), {"axis_1"}, options); }),
+                    {"axis_1", "slides (m, N)", "hinges"});
+  EXPECT_EQ(KindOfUnits({{"coulomb", "N"}}), JointKind::linear);
+  EXPECT_EQ(KindOfUnits({{"viscous", "N.m.s/rad"}}), JointKind::rotary);
+  EXPECT_EQ(KindOfUnits({{"coulomb", "A"}}), std::nullopt);
+}
+
 TEST_F(Attach, WorksOnReplicatedJoints) {
   const TemporaryFile model("replicate.xml", R"(<mujoco><worldbody>
     <replicate count="3" offset="0.5 0 0"><body><joint name="j" axis="0 1 0"/><geom size="0.1"/>

@@ -147,7 +147,7 @@ TEST(PluginSleep, CoolsOnAndWakesWhereItWas) {
   for (int i = 0; i < 500; ++i) mj_step(m.get(), d.get());
   EXPECT_LT(d->tree_asleep[0], 0);
   // it slept at a speed within the engine's tolerance, not quite at rest
-  EXPECT_NEAR(d->qpos[0], position - 4 * 4e-6 / (0.8 * 0.25), 1e-8);
+  EXPECT_NEAR(d->qpos[0], position - 4 * 4e-6 / (0.64 * 0.25), 1e-8);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class Sticking : public testing::TestWithParam<std::tuple<double, const char*>> 
   }
 
   /// How far the bristle of the link, 0.25 kg.m^2, gives way under a load, rad.
-  double Elastic(double load) const { return load * step() * step() / (0.8 * 0.25); }
+  double Elastic(double load) const { return load * step() * step() / (0.64 * 0.25); }
 };
 
 TEST_P(Sticking, HoldsALoadBelowItsLevelWithoutCreep) {

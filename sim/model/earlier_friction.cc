@@ -1,0 +1,110 @@
+#include "sim/model/earlier_friction.h"
+
+#include <algorithm>
+#include <string>
+
+#include "sim/model/friction_actuator.h"
+#include "sim/model/spec_elements.h"
+#include "sim/plugin/plugin_instances.h"
+#include "sim/plugin/register.h"
+
+namespace warmjoint {
+namespace {
+
+/// An instance as attach writes it: of the same form, each joint by its name in the model, its actuators by theirs.
+bool IsOurs(const mjModel* m, int instance, FrictionForm form,
+            const std::vector<ActingJoint>& joints) {
+  const bool passive = !DrivenByActuators(m, instance);
+  if (passive != (form == FrictionForm::passive)) return false;
+  const auto prepared = PrepareInstance(m, instance);
+  const bool inline_one = prepared->joints.contains("");
+  if (!prepared->options.viscous_as_damping || (inline_one && joints.size() != 1)) return false;
+  return std::ranges::all_of(joints, [&](const ActingJoint& joint) {
+    const std::string name = NameIn(m, mjOBJ_JOINT, joint.joint);
+    const bool named = inline_one || prepared->joints.contains(name);
+    return named &&
+           (passive || NameIn(m, mjOBJ_ACTUATOR, joint.actuator) == FrictionActuatorOf(name));
+  });
+}
+
+/// One joint's friction as it was given, with the viscous that is the joint's damping.
+FrictionForJoint Describe(mjSpec& spec, const mjModel* m, const ActingJoint& joint) {
+  FrictionForJoint friction{NameIn(m, mjOBJ_JOINT, joint.joint), joint.prepared->description};
+  Friction& of = friction.friction;
+  const double damping = FindJoint(spec, friction.joint, {})->damping[0];
+  if (of.parameters.contains(kViscousName)) of.parameters[kViscousName] = damping;
+  const auto& [first, second] = joint.prepared->initial_energy;
+  if (first == 0 && second == 0) return friction;
+  friction.initial_energy = {first};
+  if (of.second_thermal) friction.initial_energy.push_back(second);
+  return friction;
+}
+
+/// Elements of a kind for which `goes` is true.
+template <typename Goes>
+std::vector<mjsElement*> Those(mjSpec& spec, mjtObj type, const Goes& goes) {
+  std::vector<mjsElement*> elements = SpecElements(spec, type);
+  std::erase_if(elements, [&](mjsElement* element) { return !goes(element); });
+  return elements;
+}
+
+/// Takes an instance of that name, empty for one inline, and all that refers to it out of the spec; whether it had arrays.
+bool Remove(mjSpec& spec, const std::string& name, const std::vector<FrictionForJoint>& joints) {
+  const auto refers = [&](const mjsPlugin& plugin) {
+    return !name.empty() && plugin.active && name == mjs_getString(plugin.name);
+  };
+  std::vector<mjsElement*> gone = Those(spec, mjOBJ_SENSOR, [&](mjsElement* element) {
+    return refers(mjs_asSensor(element)->plugin);
+  });
+  const std::vector<mjsElement*> arrays = Those(spec, mjOBJ_NUMERIC, [&](mjsElement* element) {
+    return !name.empty() && NameOf(element).starts_with(name + "/");
+  });
+  gone.insert(gone.end(), arrays.begin(), arrays.end());
+  // actuators of this form alone bear these names
+  mjsElement* instance =
+      name.empty() ? nullptr : mjs_findElement(&spec, mjOBJ_PLUGIN, name.c_str());
+  for (const FrictionForJoint& joint : joints) {
+    const std::string actuator = FrictionActuatorOf(joint.joint);
+    mjsElement* element = mjs_findElement(&spec, mjOBJ_ACTUATOR, actuator.c_str());
+    if (!element || !mjs_asActuator(element)->plugin.active) continue;
+    if (name.empty()) instance = mjs_asActuator(element)->plugin.element;
+    gone.push_back(element);
+  }
+  for (mjsElement* element : SpecElements(spec, mjOBJ_BODY)) {
+    mjsPlugin& plugin = mjs_asBody(element)->plugin;
+    if (!refers(plugin)) continue;
+    plugin.active = 0;
+    plugin.element = nullptr;
+    mjs_setString(plugin.plugin_name, "");
+    mjs_setString(plugin.name, "");
+  }
+  for (mjsElement* element : gone) mjs_delete(&spec, element);
+  if (instance) mjs_delete(&spec, instance);
+  return !arrays.empty();
+}
+
+}  // namespace
+
+std::vector<FrictionForJoint> TakeEarlier(mjSpec& spec, const mjModel* m, AttachOptions& options) {
+  int plugin = -1;
+  mjp_getPlugin(kFrictionPlugin, &plugin);
+  std::vector<FrictionForJoint> earlier;
+  for (int instance = 0; instance < m->nplugin; ++instance) {
+    if (m->plugin[instance] != plugin) continue;
+    const std::vector<ActingJoint> joints = FindJoints(m, instance);
+    if (!IsOurs(m, instance, options.form, joints)) continue;
+    // its joints in their order
+    std::vector<FrictionForJoint> own;
+    for (const ActingJoint& joint : joints) own.push_back(Describe(spec, m, joint));
+    const bool arrays = Remove(spec, NameIn(m, mjOBJ_PLUGIN, instance), own);
+    earlier.insert(earlier.end(), own.begin(), own.end());
+
+    const InstanceOptions before = PrepareInstance(m, instance)->options;
+    options.sensors = options.sensors || before.joint_sensors;
+    options.numbers = options.numbers || arrays;
+    options.stiffest_drive = std::max(options.stiffest_drive, before.stiffest_drive);
+  }
+  return earlier;
+}
+
+}  // namespace warmjoint
