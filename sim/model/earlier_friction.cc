@@ -79,7 +79,9 @@ bool Remove(mjSpec& spec, const std::string& name, const std::vector<FrictionFor
     mjs_setString(plugin.name, "");
   }
   for (mjsElement* element : gone) mjs_delete(&spec, element);
-  if (instance) mjs_delete(&spec, instance);
+  // MuJoCo takes an instance away with the last element that refers to it
+  const std::vector<mjsElement*> left = SpecElements(spec, mjOBJ_PLUGIN);
+  if (std::ranges::find(left, instance) != left.end()) mjs_delete(&spec, instance);
   return !arrays.empty();
 }
 

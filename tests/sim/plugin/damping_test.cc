@@ -178,7 +178,9 @@ TEST(PluginDamping, AServoOfAProgramsOwnRestsWithTheStiffestDriveThatIsGiven) {
   for (const double k : {1.0, 1.3, 2.0, 2.5, 3.0}) {
     AttachOptions options;
     if (k > 1.3) options.stiffest_drive = k;
-    const Result result = Attach(HingeXml(0, "Euler"), {{"hinge", Viscous(0, 0.01 * k)}}, options);
+    const Result result =
+        Attach(HingeXml(0, "Euler"),
+               {{"hinge", Viscous(0, 0.005 * k * kInertia / (kStep * kStep))}}, options);
     const mjModel* m = result.model.get();
     const DataPtr d(mj_makeData(m));
     d->qpos[0] = 0.1;
