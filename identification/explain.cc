@@ -71,6 +71,18 @@ std::string RemedyForBound(const FitParameter& parameter, const Fit& fit) {
                      torque);
 }
 
+/// "the torque comes 20 ms (2 samples) late beside the positions"
+std::string DescribeDelay(double delay, double step) {
+  return fmt::format("the torque comes {:.3g} ms ({:.2g} samples) {} beside the positions",
+                     1e3 * std::abs(delay), std::abs(delay) / step, delay < 0 ? "early" : "late");
+}
+
+/// What may act beside the friction that a fit holds: a question.
+std::string_view BesideFriction(const Fit& fit) {
+  return fit.gravity ? "do other joints move, or is a sign or a unit wrong?"
+                     : "is there gravity (--gravity sincos), or a wrong sign or unit?";
+}
+
 /// An assumption as estimate.json has it. meaning: with a place for its size and the torque's unit
 struct AssumptionWords {
   Source source;
@@ -174,6 +186,18 @@ std::string ExplainStopped(std::size_t iterations, double rate, double remaining
       "an iteration they end up to {:.2g} % from here (tolerance {:.2g} %); give more iterations, "
       "or try --identifier energy-ml",
       iterations, rate, 100 * remaining, 100 * tolerance);
+}
+
+std::string ExplainDelay(double delay, double step) {
+  return DescribeDelay(delay, step) + ", which the fit takes into account";
+}
+
+std::string ExplainDelayLeftOut(double delay, double step, double harm,
+                                std::string_view identifier) {
+  return fmt::format(
+      "{}, which changes the friction by {:.2g} % and which {} does not take into account: try "
+      "--identifier nominal-ls, or shift the torque in the file",
+      DescribeDelay(delay, step), 100 * harm, identifier);
 }
 
 std::string ExplainLeftOutByLag(double lag) {
@@ -330,9 +354,44 @@ std::string ExplainFewSamples(double used, double moving, double fewest, double 
 
 std::string ExplainWorseThanMean(double fit_share, const Fit& fit) {
   return fmt::format(
-      "the torque's mean follows it better than the friction does (Fit {:.3g} %): is there {}a "
-      "wrong sign or unit?",
-      fit_share, fit.gravity ? "" : "gravity (--gravity sincos), or ");
+      "the torque's mean follows it better than the friction does (Fit {:.3g} %): {}", fit_share,
+      BesideFriction(fit));
+}
+
+std::string ExplainPoorFit(double fit_share, double least, const Fit& fit) {
+  return fmt::format(
+      "the fit explains little of the torque (Fit {:.3g} %, of {:.0f} % at least): {}", fit_share,
+      least, BesideFriction(fit));
+}
+
+std::string ExplainWorseHeldOut(double fit_share, const Fit& fit) {
+  return fmt::format(
+      "the last part of the log, which a fit to the first has not seen, is predicted worse than by "
+      "its mean (Fit {:.3g} %): the joint changed, or it is not friction; {}",
+      fit_share, BesideFriction(fit));
+}
+
+std::string ExplainMuchLeft(double left, double friction, const Fit& fit) {
+  return fmt::format(
+      "the fit leaves {:.3g} of the torque (rms), more than half of the friction that it finds, "
+      "{:.3g}: {}",
+      left, friction, BesideFriction(fit));
+}
+
+std::string ExplainNoFriction(double share) {
+  return fmt::format(
+      "this torque holds no friction: what was fitted is {:.2g} % of it. A sensor behind the gear "
+      "and the torque of a model show none; log that of the motor, or its current",
+      100 * share);
+}
+
+std::string ExplainNegativeInertia(const FitParameter& inertia,
+                                   const std::array<double, 2>& interval95) {
+  return fmt::format(
+      "inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}: the torque is "
+      "late or early beside the motion, has the wrong sign (--scale torque=-1), or another load "
+      "acts",
+      inertia.value, inertia.unit, interval95[0], interval95[1]);
 }
 
 std::string ExplainOwnLaw(const MovedParameter& moved) {

@@ -61,6 +61,11 @@ inline constexpr const char* kPassesStillMove =
 inline constexpr const char* kForced = "forced: all numbers are void";
 /// Of an alternation that did not arrive. remaining: share by which parameters will still change
 std::string ExplainStopped(std::size_t iterations, double rate, double remaining, double tolerance);
+/// Of a torque that is late, s; below 0: early. step: of the log, s
+std::string ExplainDelay(double delay, double step);
+/// Of one that a fit leaves out, with the share by which that changes the friction.
+std::string ExplainDelayLeftOut(double delay, double step, double harm,
+                                std::string_view identifier);
 /// Of samples left out because the torque lags, s.
 std::string ExplainLeftOutByLag(double lag);
 
@@ -132,6 +137,15 @@ std::string ExplainRounding(double step, const std::string& unit, const MovedPar
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
                               MotionKind motion);
 std::string ExplainWorseThanMean(double fit_share, const Fit& fit);
+/// Of one that explains little of the torque in both directions, and of one that the mean of unseen samples beats, %.
+std::string ExplainPoorFit(double fit_share, double least, const Fit& fit);
+std::string ExplainWorseHeldOut(double fit_share, const Fit& fit);
+/// Of one that leaves much beside its friction, both rms.
+std::string ExplainMuchLeft(double left, double friction, const Fit& fit);
+/// Of a torque without friction, which has that share of it, and of an inertia below 0.
+std::string ExplainNoFriction(double share);
+std::string ExplainNegativeInertia(const FitParameter& inertia,
+                                   const std::array<double, 2>& interval95);
 /// Of an estimate of others whose own law fits its log better. moved: the parameter that is farthest off
 std::string ExplainOwnLaw(const MovedParameter& moved);
 

@@ -23,7 +23,7 @@ namespace warmjoint {
 class IdentifierInput;
 
 /// What a parameter is part of.
-enum class Role { law, heat, start, jump, gravity, inertia, lag };
+enum class Role { law, heat, start, jump, gravity, inertia, lag, delay };
 
 /// The coordinate x in which a fit works, and the one whose errors are about normal: the value for
 /// both, the logarithm of a positive value for both, or x the value and its logarithm normal.
@@ -107,7 +107,9 @@ struct Fit {
   /// [N] M a where the fit made its own a of the velocities, N.m or N; else empty.
   Eigen::VectorXd inertia_torque;
   std::optional<FittedLag> torque_lag;  // where the log showed one and it was fitted
-  double initial_energy = 0;            // E(0), N.m or N
+  /// By how much the torque is late beside the motion, s: the model follows the motion at t less that (Delayed).
+  std::optional<double> torque_delay{};
+  double initial_energy = 0;  // E(0), N.m or N
   /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
   /// estimated; else empty.
   std::vector<double> first_friction;

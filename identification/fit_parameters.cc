@@ -13,7 +13,8 @@
 namespace warmjoint {
 namespace {
 
-constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag";
+constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag",
+                           kTorqueDelayName = "torque_delay";
 
 constexpr ParameterInfo kInertiaInfo{kInertiaName, "M", {"N.m.s^2/rad", "N.s^2/m", -1, 2}, 0,
                                      kInfinity,    0,   "torque over acceleration"};
@@ -25,6 +26,14 @@ constexpr ParameterInfo kTorqueLagInfo{kTorqueLagName,
                                        kInfinity,
                                        0,
                                        "time constant of the torque's lag"};
+
+constexpr ParameterInfo kTorqueDelayInfo{kTorqueDelayName,
+                                         "d",
+                                         {"s", "s", 0, 1},
+                                         -kInfinity,
+                                         kInfinity,
+                                         0,
+                                         "by how much the torque is late beside the motion"};
 
 /// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
 /// stands for the torque.
@@ -71,6 +80,8 @@ std::string NameOf(Role role, int which) {
       return std::string(kInertiaName);
     case Role::lag:
       return std::string(kTorqueLagName);
+    case Role::delay:
+      return std::string(kTorqueDelayName);
     case Role::law:
     case Role::gravity:
       break;
@@ -129,6 +140,10 @@ FitParameter TorqueLagParameter(double time_constant, const Measurements& measur
   FitParameter row = TableParameter(kTorqueLagInfo, Role::lag, time_constant, measurements);
   row.coordinate = Coordinate::logarithm;
   return row;
+}
+
+FitParameter TorqueDelayParameter(double delay, const Measurements& measurements) {
+  return TableParameter(kTorqueDelayInfo, Role::delay, delay, measurements);
 }
 
 void Append(const std::vector<FitParameter>& rows, Fit& fit) {

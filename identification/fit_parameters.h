@@ -14,7 +14,7 @@
 namespace warmjoint {
 
 /// The name of the which-th row with a role, of those whose names depend neither on the law nor on the
-/// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia and lag.
+/// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia, lag and delay.
 std::string NameOf(Role role, int which = 0);
 
 /// The law's parameters. values: [d] in the order of its table.
@@ -40,6 +40,9 @@ FitParameter InertiaParameter(double value, const Measurements& measurements);
 
 /// torque_lag: T of a first-order lag, s, by its logarithm.
 FitParameter TorqueLagParameter(double time_constant, const Measurements& measurements);
+
+/// torque_delay: by how much the torque is late beside the motion, s.
+FitParameter TorqueDelayParameter(double delay, const Measurements& measurements);
 
 /// Puts rows behind those of the fit's table.
 void Append(const std::vector<FitParameter>& rows, Fit& fit);

@@ -7,45 +7,23 @@
 #include <string>
 #include <string_view>
 
+#include "identification/answer/floors.h"
 #include "identification/answer/settling.h"
 #include "identification/explain.h"
+#include "identification/identifiers/structures.h"
 #include "identification/inference/apply.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
-#include "identification/preparation/moving_view.h"
+#include "identification/preparation/delayed_motion.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr Eigen::Index kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
-constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be another motion
-constexpr double kWorse = 10.8;     // why: chi-squared of one degree of freedom, once in a thousand
-constexpr double kHarmless = 1e-3;  // attenuation
+constexpr double kHarmless = 1e-3;        // attenuation
 constexpr double kUnresolvedPath = 5e-3;  // share of the path
-
-/// The row that refuses an answer that is worthless whatever the tests let pass: it rests on next to nothing of the log, or one
-/// number, the mean of the torque, follows it better beyond chance.
-std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& by_noise) {
-  const auto used = static_cast<double>(fit.torque.size());
-  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
-  if (used < kFewest || used < kLeastShare * moving) {
-    return Cause{
-        .source = Source::few_samples,
-        .action = Action::refuse,
-        .status = Status::not_identifiable,
-        .sentence = ExplainFewSamples(used, moving, kFewest, kLeastShare,
-                                      m.acceleration ? MotionKind::any : MotionKind::constant)};
-  }
-  const double left = fit.residual().squaredNorm();
-  const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
-  if (left - by_mean <= kWorse * by_noise.known.noise.variance_inflation * left / used) return {};
-  return Cause{.source = Source::worse_than_mean,
-               .action = Action::refuse,
-               .status = Status::inadequate_model,
-               .sentence = ExplainWorseThanMean(100 * (1 - std::sqrt(left / by_mean)), fit)};
-}
 
 /// The first row of the law that is a slope over speed; nullptr where there is none.
 const FitParameter* SlopeOf(const Fit& fit) {
@@ -128,6 +106,11 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
   if (input.measurements.position_integrated) {
     causes.push_back(OfTheLog(Source::recording, kNoPositions));
   }
+  if (!steady && log.faults().empty() && input.view == View::moving) {
+    for (const std::string& warning : log.moving_warnings()) {
+      causes.push_back(OfTheLog(Source::preparation, warning));
+    }
+  }
   if (!steady && log.absurd()) causes.push_back(OfTheLog(Source::recording, *log.absurd()));
   return causes;
 }
@@ -153,6 +136,25 @@ Fit FitSettled(const Identifier& identifier, const IdentifierInput& input,
   return fit;
 }
 
+/// The row of a delay of the torque that a fit to motion of any kind does not hold: refuses where that changes the friction too
+/// much, else says so.
+std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierInput& input,
+                                const Fit& fit, double relevance) {
+  // one that could, or that chose among those that can, and found none or was told of none
+  if (fit.choice) return {};
+  Structure asked{identifier};
+  asked.identifier.options = input.options;
+  if (fit.torque_delay || asked.CanEstimateDelay()) return {};
+  const auto late = FindLateTorque(input);
+  if (!late) return {};
+  const bool refuses = late->harm > relevance;
+  return Cause{.source = Source::late_torque,
+               .action = refuses ? Action::refuse : Action::note,
+               .status = refuses ? Status::inadequate_model : Status::ok,
+               .sentence = ExplainDelayLeftOut(late->delay, MedianStep(input.measurements.time),
+                                               late->harm, identifier.name)};
+}
+
 /// What was found in log and fit, and the tests as data.
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                      const LackOfFitSettings& judging, const Answer& answer) {
@@ -164,10 +166,17 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                             .status = Status::bad_data,
                             .sentence = ExplainFaults(faults)});
   } else {
-    found = FindLackOfFit(identifier, input, answer.fit, answer.inferred, judging);
+    // the motion that the model follows
+    const LogView late = answer.fit.torque_delay ? Delayed({input.measurements, input.selection},
+                                                           *answer.fit.torque_delay)
+                                                 : LogView{};
+    const IdentifierInput seen = answer.fit.torque_delay ? input.On(late) : input;
+    found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, judging);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
-      auto floor = FloorCause(answer.fit, input.measurements, answer.inferred);
+      auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
       if (floor) found.causes.push_back(std::move(*floor));
+      auto late_torque = DelayCause(identifier, input, answer.fit, judging.relevance);
+      if (late_torque) found.causes.push_back(std::move(*late_torque));
     }
   }
   std::ranges::move(PreparationCauses(input, answer.fit, answer.inferred),
@@ -201,6 +210,12 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   answer.judged.assumptions =
       AssumptionsOf(answer.judged.causes, answer.fit, input.measurements.torque_unit);
   return answer;
+}
+
+void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer) {
+  if (answer.judged.status != Status::ok) return;
+  auto floor = FloorOfHeldOut(held_out, several_speeds, answer.fit);
+  if (floor) answer.judged = Apply(std::move(answer.judged), {std::move(*floor)});
 }
 
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,

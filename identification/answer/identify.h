@@ -26,12 +26,15 @@ IdentifierInput InputOf(const Answer& answer, const Identifier& identifier,
 
 /// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
 /// is bad_data, and the message names them; else the residual is examined for
-/// structure (lack_of_fit/find_lack_of_fit.h). What the preparation of the log means for the numbers is a cause, too. No answer is ok that
-/// rests on fewer than 30 samples or a twentieth of those that move, or that the mean of the torque beats beyond chance.
+/// structure (lack_of_fit/find_lack_of_fit.h). What the preparation of the log means for the numbers is a cause, too, and so are floors
+/// (floors.h) below which no answer is ok.
 /// Where the residual shows that the torque takes its time to settle after a change of speed (settling.h), the fit is made again
 /// without these samples.
 Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& input,
                    const LackOfFitSettings& judging = {});
+
+/// Refuses an answer that figures on samples which a fit to others has not seen contradict (FloorOfHeldOut).
+void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer);
 
 /// The judged answer as an estimate: FitAndCheck, ReportFit.
 Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& input,

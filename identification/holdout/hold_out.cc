@@ -11,6 +11,7 @@
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
+#include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
 #include "models/foundation/low_pass.h"
 
@@ -35,6 +36,12 @@ Selection Within(Selection first, const Selection& chosen) {
     if (segment.begin < segment.end) first.segments.push_back(segment);
   }
   return first;
+}
+
+/// In one direction or both, a tenth apart. test: keeps one sample at least
+bool MovesAtSeveralSpeeds(const LogSamples& m, const Selection& test) {
+  const Eigen::ArrayXd speed = Kept(m.velocity, test).cwiseAbs();
+  return speed.maxCoeff() > 1.1 * speed.minCoeff();
 }
 
 }  // namespace
@@ -79,7 +86,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
     if (unseen != starts.end()) test.keep.tail(input.measurements.size() - *unseen) = false;
   }
   if (auto metrics = Evaluate(first->fit, input.measurements, test, first->fit.Start())) {
-    return {std::move(metrics), ""};
+    return {std::move(metrics), "", MovesAtSeveralSpeeds(input.measurements, test)};
   }
 
   // a fit without friction predicts nothing; else the rest holds no sample to compare
@@ -139,8 +146,16 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
   return errors;
 }
 
-TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& m, Selection asked,
+TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logged, Selection asked,
                                const ThermalStart& start) {
+  // a torque that is late follows the motion of before
+  if (model.delay && logged.acceleration) {
+    const LogView late = Delayed({logged, std::move(asked)}, *model.delay);
+    TorqueModel in_time = model;
+    in_time.delay.reset();
+    return PredictTorque(in_time, late.measurements, late.selection, start);
+  }
+  const LogSamples& m = logged;
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
   // friction, and inertia where the log has an acceleration
   predicted.torque = predicted.friction.force;
@@ -163,6 +178,7 @@ TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& m, Se
 TorqueModel ModelOf(const Fit& fit) {
   TorqueModel model{fit.friction, fit.gravity, fit.inertia};
   if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
+  model.delay = fit.torque_delay;
   return model;
 }
 
@@ -180,6 +196,7 @@ std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, 
   if (fit.gravity) parameters += fit.gravity->values.size();
   if (fit.inertia) ++parameters;
   if (fit.torque_lag) ++parameters;
+  if (fit.RowOf(Role::delay)) ++parameters;
   return ComputeMetrics(Kept(measurements.torque, predicted.known),
                         Kept(predicted.torque, predicted.known), static_cast<int>(parameters),
                         fit.effective_parameters);

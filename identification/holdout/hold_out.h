@@ -30,7 +30,8 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
 /// Figures on what a fit has not seen, or why there are none.
 struct HeldOut {
   std::optional<Metrics> metrics;
-  std::string why_none;  // a clause; empty where there are figures
+  std::string why_none;         // a clause; empty where there are figures
+  bool several_speeds = false;  // whether the samples of the figures move at more than one
 };
 
 /// FitFirstPart, evaluated on the kept samples of the
@@ -62,6 +63,7 @@ struct TorqueModel {
   std::optional<GravityModel> gravity;
   std::optional<double> inertia;  // kg.m^2 or kg
   std::optional<double> lag{};    // s, of the torque's way into the log, first order
+  std::optional<double> delay{};  // s, by which the torque is late beside motion of any kind
 };
 
 struct TorquePrediction {

@@ -23,13 +23,35 @@
 #include "identification/identifiers/structures.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/preparation/check.h"
+#include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
+#include "identification/warming/torque_delay.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "auto";
+
+/// Why a log is too short for any warming; empty where it is not.
+std::string WhyTooShort(const IdentifierInput& input) {
+  const Eigen::VectorXd& time = input.measurements.time;
+  const double duration = time[time.size() - 1] - time[0];
+  if (duration >= kShortestWarming) return "";
+  return fmt::format("a warming takes minutes to show, and the log lasts {:.3g} s", duration);
+}
+
+/// Tries structures, of those that warm where the log is long enough alone.
+void TryWarm(const std::vector<Structure>& structures, const IdentifierInput& input,
+             ModelComparison& comparison) {
+  const std::string why = WhyTooShort(input);
+  if (why.empty()) {
+    comparison.Add(structures);
+  } else {
+    comparison.LeaveOut(structures, why);
+  }
+}
 
 /// Laws with and without warming, then gravity beside the best of them.
 void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
@@ -39,7 +61,7 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
     comparison.Add(ColdStructures(gravity));
     // a warming beside a further gravity only where it may be told
     if (gravity == kinds.front() || comparison.MayWarmWith(gravity)) {
-      comparison.Add(WarmStructures(gravity));
+      TryWarm(WarmStructures(gravity), input, comparison);
     } else {
       comparison.LeaveOut(WarmStructures(gravity),
                           "neither gravity nor a warming can be seen by itself");
@@ -66,11 +88,13 @@ FittedGravity GravityForMaps(const IdentifierInput& input, const Structure* best
 /// What bends or ripples, with the gravity of the best linear one.
 void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
   const FittedGravity gravity = GravityForMaps(input, comparison.Best());
-  const bool cold = TakesColdStart(input.options);
+  const bool cold = TakesColdStart(input.options), too_short = !WhyTooShort(input).empty();
 
   // a bend over the speed, with and without warming
   comparison.Add({StribeckStructure(FittedWarming::none)});
-  if (!cold) {
+  if (too_short) {
+    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)}, WhyTooShort(input));
+  } else if (!cold) {
     comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)},
                         "it takes the joint for cold as the log begins");
   } else if (comparison.MayBendAndWarm()) {
@@ -82,18 +106,30 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
 
   // a level for each direction, where one may help
   for (const FittedWarming warming : {FittedWarming::none, FittedWarming::estimated}) {
-    if (!cold && warming != FittedWarming::none) continue;
+    if ((!cold || too_short) && warming != FittedWarming::none) continue;
     if (comparison.MayHaveTwoLevels(warming)) comparison.Add({TwoLevelStribeckStructure(warming)});
   }
 
   // maps, where something is left over place
   if (comparison.MayHaveMap()) {
-    comparison.Add(MapStructures(input, gravity, comparison.KernelsGivenBest(gravity)));
+    for (const Structure& map :
+         MapStructures(input, gravity, comparison.KernelsGivenBest(gravity))) {
+      if (map.CanWarm()) {
+        TryWarm({map}, input, comparison);
+      } else {
+        comparison.Add({map});
+      }
+    }
   } else {
     comparison.LeaveOut(MapStructures(input, gravity),
                         "nothing is left over place that a map could take");
   }
 }
+
+/// How late the torque is, s: behind constant speeds by a first-order lag, beside motion of any kind by a delay.
+struct Lateness {
+  std::optional<double> lag, delay;
+};
 
 /// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds
 /// one.
@@ -118,10 +154,17 @@ Trials TryAll(const IdentifierInput& input) {
   return trials;
 }
 
-/// The chosen structure on every sample: behind the lag where it can estimate one, else on samples
-/// where the torque has settled.
-Fit FitOnAll(const Structure& chosen, const std::optional<double>& lag,
-             const IdentifierInput& input) {
+/// The chosen structure on every sample: behind lag and delay where it can estimate them, else on samples
+/// where the torque has settled, or beside the motion of before.
+Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInput& input) {
+  const std::optional<double>& lag = late.lag;
+  // one that cannot estimate a delay takes it as it was found
+  if (late.delay && !chosen.CanEstimateDelay()) {
+    const LogView view = Delayed({input.measurements, input.selection}, *late.delay);
+    Fit fit = chosen.Fitted(input.On(view));
+    TakeDelay(*late.delay, input.measurements, fit);
+    return fit;
+  }
   if (!lag || chosen.CanEstimateLag()) return chosen.Fitted(input);
   const Selection settled = Settled(input.measurements, input.selection, *lag);
   Fit fit = chosen.Fitted(input.With(settled));
@@ -174,10 +217,15 @@ Fit FitChosen(const IdentifierInput& input) {
   if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
 
   // compare on rows that hold the means of neighbours
-  const Trials trials = TryAll(input);
+  const auto found = FindLateTorque(input);
+  const std::optional<double> delay = found ? std::optional(found->delay) : std::nullopt;
+  const LogView behind = delay ? Delayed({input.measurements, input.selection}, *delay) : LogView{};
+  const Trials trials = TryAll(delay ? input.On(behind) : input);
+  const Lateness late{trials.lag, delay};
   ModelComparison& comparison = *trials.comparison;
 
-  // what cannot be chosen goes first, the rest is held out block by block
+  // what cannot be chosen goes first, a level without a slope before all; the rest is held out block by block
+  comparison.DropWithoutSlope();
   comparison.DropDominated();
   const Structure* only = comparison.OnlyOne();
   std::vector<StructureCandidate> contenders;
@@ -205,15 +253,15 @@ Fit FitChosen(const IdentifierInput& input) {
     chosen = chosen.With(LagOption{TorqueLagFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
-  Fit fit = FitOnAll(chosen, trials.lag, input);
+  Fit fit = FitOnAll(chosen, late, input);
 
   // what a reader is told, and the same structure for other samples
   reported.chosen = chosen.Name();
   fit.identifier = kName;
   fit.summary = fmt::format("{}{}; {}", NotShown(fit, input.log), reported.reason, fit.summary);
   fit.choice = std::move(reported);
-  fit.structure = [sketch = chosen.Sketch(), lag = trials.lag](const IdentifierInput& other) {
-    return FitOnAll(sketch, lag, other);
+  fit.structure = [sketch = chosen.Sketch(), late](const IdentifierInput& other) {
+    return FitOnAll(sketch, late, other);
   };
   return fit;
 }

@@ -10,6 +10,7 @@
 #include "identification/seen_samples.h"
 #include "identification/warming/fit_law.h"
 #include "identification/warming/initial_energy.h"
+#include "identification/warming/torque_delay.h"
 
 namespace warmjoint {
 namespace {
@@ -36,7 +37,7 @@ Identifier EnergyMl() {
   return {kEnergyMl,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
           OptionGroups<LawOption, InitialEnergyOptions, GravityOption, MotionOption, LossOption,
-                       LagOption, WarmMapOptions>{},
+                       LagOption, DelayOption, WarmMapOptions>{},
           &FitAsAsked};
 }
 

@@ -31,6 +31,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/online/kalman_bank.h"
 #include "identification/warming/warming_verdict.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 namespace {
@@ -256,8 +257,8 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
   if (auto why = UnidentifiableWarming(
           {ExplainedVariances(nominal_squares, squares, static_cast<double>(fit.torque.size() - p),
                               fit.torque),
-           vague, last.thermal().time_constant, shortest, longest,
-           m.time[m.size() - 1] - m.time[0]})) {
+           vague, last.thermal().time_constant, shortest, longest, m.time[m.size() - 1] - m.time[0],
+           MedianStep(m.time)})) {
     return Refusal{Status::not_identifiable, *why};
   }
   if (response.first_driving) {

@@ -227,7 +227,7 @@ ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
 bool ModelComparison::MayWarm() const {
   return std::ranges::any_of(trials_, [](const Trial& trial) {
     const Identifier& identifier = trial.structure.identifier;
-    if (identifier.name != EnergyMl().name) return false;
+    if (!trial.structure.CanWarm()) return false;
     // one without slope, where the joint has one, need not settle for its warming
     const bool too_poor = identifier.options.Get<LawOption>().law->name == Coulomb::name;
     return too_poor ? trial.gives_friction : trial.inferred.status != Status::not_identifiable;
@@ -252,6 +252,14 @@ bool ModelComparison::MayHaveTwoLevels(FittedWarming warming) const {
   if (warming == FittedWarming::none) return Pushes(First().fit);
   const Trial* cold = Find(TwoLevelStribeckStructure(FittedWarming::none));
   return cold && cold->inferred.status == Status::ok;
+}
+
+void ModelComparison::DropWithoutSlope() {
+  for (Trial& trial : trials_) {
+    const Trial* sloped = WithSlope(trial);
+    if (!sloped || !trial.dropped.empty()) continue;
+    trial.dropped = fmt::format("{} tells the slope, with its interval", sloped->structure.Name());
+  }
 }
 
 void ModelComparison::DropDominated() {
@@ -324,7 +332,8 @@ std::vector<StructureTrial> ModelComparison::Reported() const {
 const Trial* ModelComparison::BestTrial() const {
   const Trial* best = nullptr;
   for (const Trial& trial : trials_) {
-    if (trial.gives_friction && (!best || BicOf(trial) < BicOf(*best))) best = &trial;
+    if (!trial.gives_friction || WithSlope(trial)) continue;
+    if (!best || BicOf(trial) < BicOf(*best)) best = &trial;
   }
   return best;
 }
@@ -333,6 +342,13 @@ const Trial* ModelComparison::Find(const Structure& structure) const {
   const auto found = std::ranges::find_if(
       trials_, [&](const Trial& trial) { return trial.structure.Name() == structure.Name(); });
   return found == trials_.end() ? nullptr : &*found;
+}
+
+const Trial* ModelComparison::WithSlope(const Trial& trial) const {
+  const auto* law = trial.structure.identifier.options.Find<LawOption>();
+  if (!law || law->law->name != Coulomb::name) return nullptr;
+  const Trial* sloped = Find(trial.structure.With(LawOption{}));
+  return sloped && sloped->gives_friction ? sloped : nullptr;
 }
 
 bool ModelComparison::Pushes(const Fit& fit) const {

@@ -94,6 +94,10 @@ class ModelComparison {
   /// more, that two levels fit without it.
   bool MayHaveTwoLevels(FittedWarming warming) const;
 
+  /// Drops laws without a slope over speed beside the same structure with one: a slope that is not significant is not 0, and its
+  /// interval tells how far. They stand where the motion cannot tell a slope.
+  void DropWithoutSlope();
+
   /// Drops those that cannot be chosen whatever the blocks say: one that stands itself is simpler and preferred
   /// by BIC, or leaves half of the residual.
   void DropDominated();
@@ -122,6 +126,8 @@ class ModelComparison {
   double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
   /// The trial of a structure; null where it was not tried.
   const Trial* Find(const Structure& structure) const;
+  /// The same structure as one whose law has no slope over speed, with a slope, where that gives friction; else null.
+  const Trial* WithSlope(const Trial& trial) const;
   /// Whether the residual has a mean, which BIC would give a parameter.
   bool Pushes(const Fit& fit) const;
   /// Why one cannot be chosen beside another; empty where it can.

@@ -8,14 +8,16 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
 #include "identification/warming/fit_law.h"
+#include "identification/warming/torque_delay.h"
 
 namespace warmjoint {
 
 Identifier NominalLs() {
   static constexpr const char* name = "nominal-ls";
-  return {name, "a nominal law by linear least squares, without warming",
-          OptionGroups<LawOption, GravityOption, MotionOption, LossOption, LagOption>{},
-          [](const IdentifierInput& input) { return FitLaw(name, input, HeatFit::none); }};
+  return {
+      name, "a nominal law by linear least squares, without warming",
+      OptionGroups<LawOption, GravityOption, MotionOption, LossOption, LagOption, DelayOption>{},
+      [](const IdentifierInput& input) { return FitLaw(name, input, HeatFit::none); }};
 }
 
 }  // namespace warmjoint

@@ -88,10 +88,12 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
   const Layout at = problem.layout();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
-  return UnidentifiableWarming({Explained(problem, ColdSquares(problem), fit.solution),
-                                known.Deviation(at.log_time_constant()),
-                                at.ThermalAt(fit.solution.x).time_constant,
-                                2 * problem.intervals.typical, 5 * total});
+  return UnidentifiableWarming({.explained = Explained(problem, ColdSquares(problem), fit.solution),
+                                .log_deviation = known.Deviation(at.log_time_constant()),
+                                .time_constant = at.ThermalAt(fit.solution.x).time_constant,
+                                .shortest = 2 * problem.intervals.typical,
+                                .longest = 5 * total,
+                                .step = problem.intervals.typical});
 }
 
 /// Voids a fit whose friction drives the joint on this motion. Where the data rule the law out, or

@@ -16,6 +16,7 @@
 #include "identification/lagged/lagged_rows.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/initial_energy.h"
+#include "identification/warming/torque_delay.h"
 #include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
@@ -66,6 +67,8 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
   return wide.With(over);
 }
 
+bool Structure::CanWarm() const { return identifier.name == EnergyMl().name; }
+
 bool Structure::CanEstimateLag() const {
   return identifier.options.Find<LagOption>() &&
          identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;
@@ -79,8 +82,15 @@ Structure Structure::Sketch() const {
   return With(made);
 }
 
+bool Structure::CanEstimateDelay() const {
+  return identifier.options.Find<DelayOption>() &&
+         identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;
+}
+
 Structure Structure::Quick() const {
-  const Structure sketch = Sketch();
+  Structure sketch = Sketch();
+  // rows of means do not tell it
+  if (CanEstimateDelay()) sketch = sketch.With(DelayOption{TorqueDelayFit::none});
   if (!strength) return sketch;
   auto made = sketch.identifier.options.Get<MapOptions>();
   made.strength = *strength;
@@ -190,6 +200,35 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
   const Fit behind = structure.With(LagOption{TorqueLagFit::estimated}).Fitted(input);
   if (behind.refusal || !behind.torque_lag) return std::nullopt;
   return behind.torque_lag->time_constant;
+}
+
+std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
+  if (input.view != View::moving) return std::nullopt;
+  // without heat, which moves little within a delay; beside gravity, unless the motion cannot tell that
+  const LogSamples& m = input.measurements;
+  const bool may_swing =
+      m.joint == JointKind::rotary && !m.position_integrated && m.position.allFinite();
+  Structure richest =
+      ColdStructures(may_swing ? FittedGravity::sincos : FittedGravity::none).back();
+  Fit fit = richest.Fitted(input);
+  if (fit.refusal) {
+    richest = ColdStructures(FittedGravity::none).front();
+    fit = richest.Fitted(input);
+  }
+  const auto row = fit.RowOf(Role::delay);
+  if (!row || fit.parameters[*row].name.empty()) return std::nullopt;
+
+  // the law beside that of a fit without it
+  const Fit in_time = richest.With(DelayOption{TorqueDelayFit::none}).Fitted(input);
+  const Eigen::MatrixXd columns =
+      LawColumns(*FindLaw(fit.friction.law), Kept(m.velocity, fit.used));
+  const auto along = [&](const Fit& one) -> Eigen::VectorXd {
+    const std::vector<double> values = LawValues(one.friction);
+    return columns * Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  };
+  const Eigen::VectorXd force = along(fit);
+  if (in_time.refusal) return LateTorque{*fit.torque_delay, 1};
+  return LateTorque{*fit.torque_delay, (along(in_time) - force).norm() / force.norm()};
 }
 
 Selection Settled(const LogSamples& m, Selection selection, double lag) {

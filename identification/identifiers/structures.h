@@ -41,8 +41,14 @@ struct Structure {
   /// width.
   Structure WithShapeOf(const FrictionMap& map) const;
 
+  /// Whether it fits law and warming together.
+  bool CanWarm() const;
+
   /// Whether it could estimate a lag of the torque, too.
   bool CanEstimateLag() const;
+
+  /// Whether it estimates a delay of the torque beside motion of any kind.
+  bool CanEstimateDelay() const;
 
   /// Its options, E(0) as those of the input have it, where it asks.
   Options OptionsWith(const Options& input) const;
@@ -106,6 +112,15 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
 /// log shows none to the model, the same structure's without lag. start: of that model.
 std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
                             const ThermalStart& start, const IdentifierInput& input);
+
+/// By how much the torque of motion of any kind is late beyond chance.
+struct LateTorque {
+  double delay = 0;  // s
+  double harm = 0;   // change of the friction, rms, where it is left out, as a share
+};
+
+/// As the richest law that is linear, beside gravity, tells it; nothing where the log shows no such delay, or holds speeds.
+std::optional<LateTorque> FindLateTorque(const IdentifierInput& input);
 
 /// The selection without the first five time constants of each run, after which 1/150 of what the lag
 /// held is left, or without half of the run where it is shorter: what structures that know no lag may

@@ -7,6 +7,7 @@
 #include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/forward/log_trajectory.h"
+#include "identification/preparation/delayed_motion.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {
@@ -35,7 +36,8 @@ bool RisesFromRest(const Friction& friction) {
 }
 
 /// F + G + M a by the friction and what stands beside it. [N] N.m or N
-Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& m) {
+Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
+  const LogSamples m = Delayed(logged, fit.torque_delay);
   Eigen::VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
   if (fit.gravity) torque += fit.gravity->Torque(m.position);
   if (fit.inertia && m.acceleration) torque += *fit.inertia * *m.acceleration;
@@ -58,6 +60,7 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
     if (row.role == Role::start) fit.initial_energy = row.value;
     if (row.role == Role::gravity) fit.gravity->values[gravity++] = row.value;
     if (row.role == Role::inertia) fit.inertia = row.value;
+    if (row.role == Role::delay) fit.torque_delay = row.value;
   }
 }
 

@@ -25,6 +25,9 @@ enum class Source {
   bound,
   faults,
   few_samples,
+  no_friction,
+  impossible,
+  late_torque,
   worse_than_mean,
   own_law,
   // what no test can see

@@ -191,6 +191,13 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   return all(Eigen::all, by_known);
 }
 
+/// The Jacobian's column of an estimated row of the table. [N]
+Eigen::VectorXd ByRow(const Fit& fit, size_t row) {
+  Eigen::Index column = 0;
+  for (size_t i = 0; i < row; ++i) column += fit.parameters[i].estimated;
+  return fit.jacobian().col(column);
+}
+
 }  // namespace
 
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
@@ -234,6 +241,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
         model.derivatives, GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position));
   }
   if (fit.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
+  if (const auto row = fit.RowOf(Role::delay)) by_jumps = ConcatColumns(by_jumps, ByRow(fit, *row));
   if (by_jumps.cols() > 0) model.derivatives = ConcatColumns(model.derivatives, by_jumps);
   return model;
 }

@@ -19,8 +19,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kFewestRows = 40;
-constexpr int kLags = 14;     // time constants that are tried
-constexpr Index kSingle = 4;  // samples of a segment that stay by themselves
+constexpr int kLags = 14;          // time constants that are tried
+constexpr double kOfTheLog = 0.1;  // at most; why: a drive that is later follows nothing
+constexpr Index kSingle = 4;       // samples of a segment that stay by themselves
 
 /// Runs of samples that follow a change of friction.
 struct Followers {
@@ -116,9 +117,10 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
 
   // a lag leaves a share of what was before, not of what comes: the test has one side
   const double share = fit.CoefficientOf(decay.columns);
-  if (share <= 0 || finding.explained <= 0) finding.p = 1;
-  // the area under what is left, summed over the samples
+  // the area under what is left, summed over the samples; what takes more of the log is no lag
   finding.lag = share * model.step / (1 - std::exp(-model.step / lags[best]));
+  const double longest = kOfTheLog * (m.time[m.size() - 1] - m.time[0]);
+  if (share <= 0 || finding.explained <= 0 || finding.lag > longest) finding.p = 1;
   if (!level.Rejects(finding)) return finding;
 
   // taken off the residual

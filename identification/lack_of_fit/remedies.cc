@@ -4,6 +4,7 @@
 #include <warmjoint/friction.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "identification/identifiers/identifier_list.h"
@@ -17,6 +18,13 @@
 
 namespace warmjoint {
 namespace {
+
+/// The next number above with one digit that is not 0.
+double RoundedUp(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  return unit * std::ceil(value / unit - 1e-9);
+}
 
 constexpr double kSettledAfter = 3;       // time constants; why 3: 5 % are left
 constexpr size_t kMostKernels = 128;      // of a map over position; why: most that the options take
@@ -277,12 +285,16 @@ Remedy RemedyForLag(const Advice& advice) {
   // a lag is estimated beside linear laws alone, without maps and inertia
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
   const bool asked = AsksForLag(advice.input.options);
-  if (!can || asked || advice.fit.torque_lag) {
-    return {"is the torque filtered or late? shift it against the velocity, or log both alike"};
-  }
+  // holds are free of it some time constants after they began
+  const double trim = RoundedUp(kSettledAfter * advice.finding.lag);
+  const std::string cut = advice.fit.inertia || !(trim > 0)
+                              ? "shift it against the velocity, or log both alike"
+                              : fmt::format("cut the ends of each speed (--trim {:g})", trim);
+  if (!can || asked || advice.fit.torque_lag) return {"is the torque filtered or late? " + cut};
   IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
   if (law.name != "viscous_coulomb") command = command.With("law", law.name);
-  return Try(advice, command.With("torque_lag", "estimated"), "is the torque filtered or late? ");
+  return Try(advice, command.With("torque_lag", "estimated"),
+             fmt::format("is the torque filtered or late? {}, or ", cut));
 }
 
 Remedy RemedyForFading(const Advice& advice) {

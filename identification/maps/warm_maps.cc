@@ -25,6 +25,7 @@
 #include "identification/warming/fit_law.h"
 #include "identification/warming/law_problem.h"
 #include "identification/warming/warming_verdict.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
 namespace {
@@ -383,7 +384,11 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // the warming; the friction predicts its own energy from here on
   const double log_deviation = known.Deviation(joint.layout.log_time_constant());
   const double time_constant = warm.warming.thermal().time_constant;
-  if (auto why = UnidentifiableWarming({warm.visible, log_deviation, time_constant}, kContext)) {
+  if (auto why = UnidentifiableWarming({.explained = warm.visible,
+                                        .log_deviation = log_deviation,
+                                        .time_constant = time_constant,
+                                        .step = MedianStep(m.time)},
+                                       kContext)) {
     return Refused(name, Status::not_identifiable, *why);
   }
   AddHeat(warm, known, m, fit);

@@ -8,6 +8,7 @@
 
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/velocity_scale.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -15,6 +16,8 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+constexpr Index kFewestMoving = 15;  // of a direction; why: fits of motion of any kind take 30
 
 SamplingCheck CheckSampling(const VectorXd& time, double step) {
   const Index n = time.size();
@@ -87,6 +90,9 @@ struct Direction {
   double slowest = 0, fastest = 0;  // rad/s or m/s, magnitudes
 };
 
+constexpr double kAnotherSpeed =
+    1.1;  // times; why: a slope over less is lost in a level's own error
+
 Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
   Direction direction;
   for (const SpeedLevel& level : motion.levels) {
@@ -99,6 +105,20 @@ Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
   return direction;
 }
 
+/// The same of motion of any kind: nearly all speeds of the samples that a fit takes, two levels where they differ.
+Direction SpeedsWithSign(const LogView& moving, int sign) {
+  constexpr double tail = 0.02;  // why: a few samples at a turn or a peak tell nothing of a slope
+  std::vector<double> speeds;
+  for (Index i = 0; i < moving.measurements.size(); ++i) {
+    const double speed = sign * moving.measurements.velocity[i];
+    if (moving.selection.keep[i] && speed > 0) speeds.push_back(speed);
+  }
+  std::ranges::sort(speeds);
+  if (std::ssize(speeds) < kFewestMoving) return {};
+  const double slowest = Quantile(speeds, tail), fastest = Quantile(speeds, 1 - tail);
+  return {fastest > kAnotherSpeed * slowest ? 2 : 1, slowest, fastest};
+}
+
 /// All that the judgements look at.
 struct ShownMotion {
   const Measurements& measurements;
@@ -107,6 +127,8 @@ struct ShownMotion {
   std::string_view speed_unit, length_unit;
   Direction positive, negative;
 
+  /// Whether a fit has anything to take.
+  bool moves() const { return positive.levels + negative.levels > 0; }
   double slowest() const {
     if (positive.levels == 0) return negative.slowest;
     if (negative.levels == 0) return positive.slowest;
@@ -123,33 +145,38 @@ struct Judged {
 };
 
 Judged Coulomb(const ShownMotion& e) {
-  if (e.motion.segments > 0) {
+  if (e.moves() && e.motion.holds_speeds) {
     return {true, fmt::format("{} segments at constant speed", e.motion.segments)};
   }
+  if (e.moves()) {
+    return {true, fmt::format("{} samples that move, with inertia: fewer than half hold a speed",
+                              e.motion.fitted)};
+  }
   return {false,
-          "no sample moves at a constant speed; record piecewise constant speeds, each held for "
-          "longer than the acceleration between them"};
+          "too few samples move, at a constant speed or between turns; record piecewise constant "
+          "speeds, each held for longer than the acceleration between them"};
 }
 
 Judged ViscousCoulomb(const ShownMotion& e) {
-  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (!e.moves()) return {false, Coulomb(e).reason};
   // slope and level need two speeds
   const double ratio = e.fastest() / e.slowest();
-  if (ratio > 1.1) {
+  if (ratio > kAnotherSpeed) {
     return {true,
             fmt::format("speeds from {:.3g} to {:.3g} {}", e.slowest(), e.fastest(), e.speed_unit)};
   }
   return {false,
-          fmt::format("all segments move at about {:.3g} {}, so that viscous and coulomb cannot be "
-                      "separated; record a second speed, best ten times slower or faster",
-                      e.fastest(), e.speed_unit)};
+          fmt::format(
+              "all that is fitted moves at about {:.3g} {}, so that viscous and coulomb cannot be "
+              "separated; record a second speed, best ten times slower or faster",
+              e.fastest(), e.speed_unit)};
 }
 
 Judged Asymmetric(const ShownMotion& e) {
-  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (!e.moves()) return {false, Coulomb(e).reason};
   // both directions, since the difference between them is what is asked for
   if (!e.both_directions()) {
-    return {false, fmt::format("all segments move in the {} direction; record both",
+    return {false, fmt::format("all that is fitted moves in the {} direction; record both",
                                e.positive.levels > 0 ? "positive" : "negative")};
   }
   // three unknowns: a second speed in one direction at least
@@ -162,7 +189,12 @@ Judged Asymmetric(const ShownMotion& e) {
 }
 
 Judged Stribeck(const ShownMotion& e) {
-  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (!e.moves()) return {false, Coulomb(e).reason};
+  if (!e.motion.holds_speeds) {
+    return {false,
+            "the curve is fitted to constant speeds, and fewer than half of what moves holds one; "
+            "record at least 5, the slowest below 1/20 of the fastest"};
+  }
   // the drop near rest shows only in speeds that lie far below the others
   const int levels = std::max(e.positive.levels, e.negative.levels);
   if (levels >= 5 && e.slowest() <= 0.05 * e.fastest()) {
@@ -176,17 +208,16 @@ Judged Stribeck(const ShownMotion& e) {
 }
 
 Judged WarmUp(const ShownMotion& e) {
-  constexpr double shortest = 180;  // s; joints warm with time constants of minutes
-  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (!e.moves()) return {false, Coulomb(e).reason};
   // a log as long as a time constant
-  if (e.sampling.duration < shortest) {
+  if (e.sampling.duration < kShortestWarming) {
     return {false,
             fmt::format("the log lasts {:.3g} s and joints warm with time constants of minutes; "
                         "record at least {:.0f} s, better 20 min, from a cold start",
-                        e.sampling.duration, shortest)};
+                        e.sampling.duration, kShortestWarming)};
   }
   // two speeds: the loss, and with it the heat, must vary
-  if (e.fastest() < 1.1 * e.slowest()) {
+  if (e.fastest() < kAnotherSpeed * e.slowest()) {
     return {false, "one speed alone warms the joint at one rate; record a second speed"};
   }
   return {true, fmt::format(
@@ -196,7 +227,7 @@ Judged WarmUp(const ShownMotion& e) {
 }
 
 Judged Ripple(const ShownMotion& e) {
-  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (!e.moves()) return {false, Coulomb(e).reason};
   if (e.measurements.position_integrated) return {false, "the log has no positions; log them"};
   // shortest period seen at the fastest speed: four samples on each
   const double finest = 4 * e.fastest() * e.sampling.step;
@@ -222,7 +253,7 @@ Judged MotorRipple(const ShownMotion& e) {
       (e.motion.upper - e.motion.lower) * gear / (2 * std::numbers::pi);  // of the motor
   // the log must show a whole turn, and each turn four samples
   const double per_turn = 2 * std::numbers::pi / (gear * e.fastest() * e.sampling.step);
-  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  if (!e.moves()) return {false, Coulomb(e).reason};
   if (turns < 1 || per_turn < 4) {
     return {false,
             fmt::format("the motor turns {:.3g} times with {:.2g} samples a turn at the fastest "
@@ -249,15 +280,19 @@ constexpr Kind kKinds[] = {
 };
 
 /// What the motion shows of each kind of friction.
-std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
-                                        const SamplingCheck& sampling, const MotionCheck& motion) {
+std::vector<Excitation> JudgeExcitation(const PreparedLog& log, const SamplingCheck& sampling,
+                                        const MotionCheck& motion) {
+  const Measurements& measurements = log.raw().measurements;
+  const auto speeds = [&](int sign) {
+    return motion.holds_speeds ? SpeedsWithSign(motion, sign) : SpeedsWithSign(log.moving(), sign);
+  };
   const ShownMotion evidence{measurements,
                              sampling,
                              motion,
                              kVelocityUnit.For(measurements.joint),
                              kPositionUnit.For(measurements.joint),
-                             SpeedsWithSign(motion, 1),
-                             SpeedsWithSign(motion, -1)};
+                             speeds(1),
+                             speeds(-1)};
   // each kind of friction by a rule of its own
   std::vector<Excitation> all;
   for (const Kind& one : kKinds) {
@@ -285,7 +320,15 @@ RecordingCheck CheckRecording(const PreparedLog& log) {
     check.motion.position_resolution = MeasurePositionNoise(measurements.position).resolution;
   }
   check.faults = log.faults();
-  check.excitation = JudgeExcitation(measurements, check.sampling, check.motion);
+  // what fits take
+  check.motion.holds_speeds = log.holds_speeds();
+  check.motion.fitted =
+      (check.motion.holds_speeds ? log.constant_speed() : log.moving()).selection.count();
+  if (!check.motion.holds_speeds) {
+    check.notes.insert(check.notes.end(), log.moving_warnings().begin(),
+                       log.moving_warnings().end());
+  }
+  check.excitation = JudgeExcitation(log, check.sampling, check.motion);
   return check;
 }
 

@@ -8,12 +8,15 @@
 
 namespace warmjoint {
 
+/// A log that is shorter shows no warming, s.
+inline constexpr double kShortestWarming = 180;  // why: joints warm with time constants of minutes
+
 /// What `check` finds that the recording lacks to show friction of that kind, with its remedy; where it
 /// lacks nothing, a doubt about the torque column.
 std::string WhyNotConverged(const PreparedLog& log, FrictionKind kind);
 
 /// {source, joint, torque_unit, notes[], sampling{samples, duration, step, rate, jitter, gaps,
-/// longest_gap}, motion{constant_share, rest_share, segments, levels[{velocity, segments,
+/// longest_gap}, motion{constant_share, rest_share, segments, holds_speeds, fitted, levels[{velocity, segments,
 /// samples}], travel[2], speed_noise, speed_resolution,
 /// position_resolution}, faults[], excitation[{what, sufficient,
 /// reason}]}, SI.

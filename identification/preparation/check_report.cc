@@ -37,9 +37,13 @@ std::string TurnsLine(const RecordingCheck& check) {
 std::string MotionLine(const MotionCheck& motion, std::string_view length_unit) {
   return fmt::format(
       "motion      {:.1f} % of the samples at a constant speed, in {} segments; {:.1f} % at rest\n"
-      "travel      {:.4g} to {:.4g} {}\n",
-      100 * motion.constant_share, motion.segments, 100 * motion.rest_share, motion.lower,
-      motion.upper, length_unit);
+      "{}travel      {:.4g} to {:.4g} {}\n",
+      100 * motion.constant_share, motion.segments, 100 * motion.rest_share,
+      motion.holds_speeds
+          ? ""
+          : fmt::format("            fits take motion of any kind: {} samples, with inertia\n",
+                        motion.fitted),
+      motion.lower, motion.upper, length_unit);
 }
 
 /// "positive    16 segments: 8 at 0.0421, 4 at 0.0826, 4 at 0.125 m/s", "negative    1 segment, at 0.5 rad/s"
@@ -137,6 +141,8 @@ json CheckToJson(const RecordingCheck& check) {
            {{"constant_share", motion.constant_share},
             {"rest_share", motion.rest_share},
             {"segments", motion.segments},
+            {"holds_speeds", motion.holds_speeds},
+            {"fitted", motion.fitted},
             {"levels", levels},
             {"travel", {motion.lower, motion.upper}},
             {"speed_noise", motion.speed_noise},

@@ -132,6 +132,34 @@ VectorXd ChangesOf(const LocalMotion& motion, const std::vector<SampleRange>& pi
   return changes;
 }
 
+/// Root mean square of what steps of a piece differ from the median one, s.
+double SpreadOfSteps(const VectorXd& time, const std::vector<SampleRange>& pieces) {
+  const double step = MedianStep(time);
+  double squares = 0, count = 0;
+  for (const auto& [first, length] : pieces) {
+    for (Index i = first + 1; i < first + length; ++i, ++count) {
+      squares += std::pow(time[i] - time[i - 1] - step, 2);
+    }
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+/// Standard deviation of the stamps beside the moments of the samples, s, as polynomials through the positions show it where
+/// stamps are uneven: they leave v^2 s^2 beside the noise of a position, in the median over what moves. No more than the
+/// steps themselves spread; 0 of even stamps.
+double StampNoise(const Measurements& m, const std::vector<SampleRange>& pieces, const Scale& scale,
+                  double noise, const SampleMask& moving) {
+  const double most = SpreadOfSteps(m.time, pieces);
+  if (most <= kEven * MedianStep(m.time)) return 0;
+  const SampleMask used = moving && scale.squares.array().isFinite();
+  if (!used.any()) return 0;
+  // the median of chi^2 over its mean (Wilson and Hilferty 1931)
+  const double median = std::pow(1 - 2 / (9 * scale.degrees_of_freedom), 3);
+  const VectorXd variance = scale.squares / (scale.degrees_of_freedom * median);
+  const VectorXd ratio = (variance.array() - noise * noise) / m.velocity.array().square();
+  return std::min(most, std::sqrt(std::max(0.0, MedianOf(Chosen(ratio, used)))));
+}
+
 }  // namespace
 
 SampleMask InMotion(const VectorXd& velocity) {
@@ -182,11 +210,19 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
 
   // wider windows until noise no longer matters
   std::vector<Scale> scales;
-  double rms = 0;
+  double rms = 0, stamps = 0, typical = series.noise;
   for (const Index half_width : kHalfWidths) {
     if (2 * half_width < series.Degree(half_width) + 1) continue;
     scales.push_back(ScaleOf(m, pieces, series, half_width));
-    const double noise = series.noise * scales.back().gain;
+    // positions at stamps that are off by s are off by v s, most in the fastest half of the motion
+    if (scales.size() == 1 && source == MotionSource::positions) {
+      stamps = StampNoise(m, pieces, scales.back(), series.noise, moving);
+      const VectorXd speed = Chosen(m.velocity, moving);
+      const double square =
+          speed.squaredNorm() / static_cast<double>(std::max<Index>(speed.size(), 1));
+      typical = std::hypot(series.noise, stamps * std::sqrt(square));
+    }
+    const double noise = typical * scales.back().gain;
     rms = RmsOf(scales.back(), moving, noise);
     if (noise <= kAcceptedNoise * rms) break;
   }
@@ -195,14 +231,14 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
   LocalMotion motion{m.velocity, VectorXd::Zero(m.size()), {}};
   motion.known.setConstant(m.size(), false);
   for (auto scale = scales.rbegin(); scale != scales.rend(); ++scale) {
-    const double noise = std::max(series.noise, kAcceptedNoise * rms / scale->gain);
+    const double accepted = kAcceptedNoise * rms / scale->gain;
     // squares of a polynomial that follows the motion, beyond which chance rarely goes
-    const double most = noise * noise *
-                        boost::math::quantile(boost::math::complement(
-                            boost::math::chi_squared(scale->degrees_of_freedom), kByChance));
+    const double beyond = boost::math::quantile(
+        boost::math::complement(boost::math::chi_squared(scale->degrees_of_freedom), kByChance));
     // the first window to pass is the widest, and it stays
     for (Index i = 0; i < m.size(); ++i) {
-      if (motion.known[i] || !(scale->squares[i] <= most)) continue;
+      const double noise = std::max(std::hypot(series.noise, stamps * m.velocity[i]), accepted);
+      if (motion.known[i] || !(scale->squares[i] <= noise * noise * beyond)) continue;
       motion.known[i] = true;
       motion.velocity[i] = scale->velocity[i];
       motion.acceleration[i] = scale->acceleration[i];
@@ -210,7 +246,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
   }
   // through few samples a polynomial bends from one slope to the other within the noise
   motion.known = AwayFromCorners(motion.known, ChangesOf(motion, pieces), moving, rms,
-                                 series.noise * scales.back().gain);
+                                 typical * scales.back().gain);
   return motion;
 }
 

@@ -53,6 +53,7 @@ double NoiseOfVelocity(const Eigen::VectorXd& velocity);
 /// bends from one slope to the other within that: where the acceleration still changes from one side of a
 /// sample to the other by a tenth of its root mean square, four times as much as in the median, and five
 /// times its noise, it is not known either, nor are the neighbours of such samples.
+/// Positions whose stamps jitter have the jitter times their speed as further noise.
 /// pieces: of the log without gaps.
 LocalMotion FollowLocally(const Measurements& measurements, const std::vector<SampleRange>& pieces,
                           MotionSource source);

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "identification/preparation/column_lag.h"
 #include "identification/preparation/local_motion.h"
+#include "identification/preparation/position_noise.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 #include "models/recording/measurements.h"
@@ -22,6 +26,10 @@ constexpr double kGain =
     0.9501;  // why: sqrt(2 (1 + 8^2)) / 12, noise of a difference times the step, of even samples
 
 constexpr double kContradicts = 2;  // path by positions over that by velocities, or the inverse
+
+constexpr double kHeld =
+    0.5;  // of what moves; why: what fewer hold, peaks among them, shows less than the rest
+constexpr double kFollowed = 0.5;  // why: of half the samples deviations are 1.4 times as large
 
 double RootMeanSquare(const VectorXd& x) {
   return x.size() == 0 ? 0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
@@ -150,6 +158,25 @@ void PassRest(const Measurements& m, const SampleRange& piece, VectorXd& speed) 
   }
 }
 
+/// Segments of a selection whose positions change by less than half, or by more than one and a half times, what their
+/// speed has them: rests of a column with an offset, and creeping.
+std::vector<Segment> ContradictedSegments(const Measurements& m, const Selection& selection) {
+  std::vector<Segment> contradicted;
+  if (m.position_integrated || m.position.size() != m.size()) return contradicted;
+  const auto off = [&](const Segment& one) {
+    const double moves = one.velocity * (m.time[one.end - 1] - m.time[one.begin]);
+    const double moved = m.position[one.end - 1] - m.position[one.begin];
+    return std::abs(moved - moves) - 0.5 * std::abs(moves);
+  };
+  std::ranges::copy_if(selection.segments, std::back_inserter(contradicted),
+                       [&](const Segment& one) { return off(one) > 0; });
+  if (contradicted.empty()) return contradicted;
+  // by more than noise and steps of the positions
+  const double reach = 2 * MeasurePositionNoise(m.position).reach;
+  std::erase_if(contradicted, [&](const Segment& one) { return off(one) <= reach; });
+  return contradicted;
+}
+
 }  // namespace
 
 BetweenSamples MeansBetween(const Measurements& m, const std::vector<SampleRange>& pieces,
@@ -204,9 +231,24 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
 }
 
 bool HoldsSpeeds(const Measurements& m, const Selection& selection) {
-  constexpr double fewest = 0.1;  // of the samples that move clearly
-  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
-  return static_cast<double>(selection.count()) >= fewest * moving;
+  const SampleMask moving = m.velocity.array().abs() > ClearSpeed(m);
+  SampleMask held = selection.keep && moving;
+  for (const Segment& one : ContradictedSegments(m, selection)) {
+    held.segment(one.begin, one.end - one.begin) = false;
+  }
+  return static_cast<double>(held.count()) >= kHeld * static_cast<double>(moving.count());
+}
+
+FollowedMotion FollowMotion(const Measurements& m, MotionSource source) {
+  FollowedMotion followed{ViewMotion(m, source), {}};
+  if (source == MotionSource::positions || m.position_integrated) return followed;
+  const auto column = CompareColumn(m);
+  if (!column || !(column->IsLate() || column->IsOff())) return followed;
+  // coarse positions tell little of the acceleration
+  LogView by_positions = ViewMotion(m, MotionSource::positions);
+  const auto by_column = static_cast<double>(followed.view.selection.count());
+  if (static_cast<double>(by_positions.selection.count()) < kFollowed * by_column) return followed;
+  return {std::move(by_positions), Describe(*column, m.joint)};
 }
 
 }  // namespace warmjoint

@@ -3,6 +3,7 @@
 
 #include <warmjoint/prepared_log.h>
 
+#include <string>
 #include <vector>
 
 namespace warmjoint {
@@ -35,8 +36,18 @@ BetweenSamples MeansBetween(const Measurements& measurements,
 /// jumps by a tenth of its root mean square, and four times as far as in the median. No segments.
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 
-/// Whether constant speeds are what a log shows of friction: a tenth or more of what moves clearly moves
-/// at a constant speed.
+/// Whether constant speeds are what a log shows of friction: half or more of what moves clearly is kept in segments whose
+/// positions, where they are known, move at their speed, to a factor of two.
 bool HoldsSpeeds(const Measurements& measurements, const Selection& selection);
+
+/// Motion of any kind, and what was done to the velocity column for it: a clause, or nothing.
+struct FollowedMotion {
+  LogView view;
+  std::string done;
+};
+
+/// ViewMotion of a log's own velocity; of its positions instead, where the column lags these or has an offset (column_lag.h)
+/// and they leave half as many samples at least.
+FollowedMotion FollowMotion(const Measurements& measurements, MotionSource source);
 
 }  // namespace warmjoint

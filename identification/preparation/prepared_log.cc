@@ -199,15 +199,28 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
 }
 
 const LogView& PreparedLog::moving() const {
-  std::call_once(moving_->once, [this] { moving_->view = MakeMoving(); });
+  std::call_once(moving_->once, [this] { MakeMoving(*moving_); });
   return moving_->view;
 }
 
-LogView PreparedLog::MakeMoving() const {
-  if (!log_->recordings.empty()) return StackOf(log_->recordings, &PreparedLog::MakeMoving);
-  LogView view = ViewMotion(log_->raw.measurements, log_->source);
-  LeaveOut(log_->left_out, view);
-  return view;
+const std::vector<std::string>& PreparedLog::moving_warnings() const {
+  moving();
+  return moving_->warnings;
+}
+
+void PreparedLog::MakeMoving(Moving& made) const {
+  if (!log_->recordings.empty()) {
+    made.view = StackOf(log_->recordings, &PreparedLog::moving);
+    for (const PreparedLog& one : log_->recordings) {
+      std::ranges::move(Named(one.raw().measurements.source, one.moving_warnings()),
+                        std::back_inserter(made.warnings));
+    }
+    return;
+  }
+  FollowedMotion followed = FollowMotion(log_->raw.measurements, log_->source);
+  made.view = std::move(followed.view);
+  if (!followed.done.empty()) made.warnings.push_back(std::move(followed.done));
+  LeaveOut(log_->left_out, made.view);
 }
 
 std::vector<std::string> PreparedLog::faults() const {

@@ -22,7 +22,9 @@
 #include "identification/warming/gaps.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/law_problem.h"
+#include "identification/warming/torque_delay.h"
 #include "identification/warming/warming_verdict.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -244,7 +246,8 @@ std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
   const double deviation =
       fit.Deviation(fit.layout.log_time_constant(), fit.squares / degrees_of_freedom);
   return UnidentifiableWarming({explained, reach * deviation, fit.thermal().time_constant,
-                                law.scanned.shortest, law.scanned.longest, longest});
+                                law.scanned.shortest, law.scanned.longest, longest,
+                                MedianStep(law.measurements().time)});
 }
 
 /// Why there is no fit to trust; nothing where there is.
@@ -363,10 +366,8 @@ Fit Conclude(LawFit law) {
   return fit;
 }
 
-}  // namespace
-
-Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) {
-  if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
+/// The fit to a torque that follows its motion at once, or behind a first-order lag.
+Fit FitInTime(const std::string& name, const IdentifierInput& given, HeatFit heat) {
   const bool warms = heat == HeatFit::estimated;
   const LinearTask task = BeginLinear(given, warms ? 3 : 0);
   if (task.refusal) return Refused(name, *task.refusal);
@@ -399,6 +400,14 @@ Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) 
   if (lacks_lag) fit.causes.push_back(Remark(kNoLagSeen, SentenceIn::message));
   if (!contradiction.empty()) fit.causes.push_back(Remark(contradiction));
   return fit;
+}
+
+}  // namespace
+
+Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) {
+  if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
+  const auto in_time = [&](const IdentifierInput& one) { return FitInTime(name, one, heat); };
+  return MayBeLate(given) ? FitBehindDelay(given, in_time) : in_time(given);
 }
 
 std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,

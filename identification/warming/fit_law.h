@@ -16,7 +16,7 @@ enum class HeatFit { none, estimated };
 /// (p, k, tau, ...) = argmin sum over the kept samples of (tau - F - G - M a)^2, maximum likelihood for white noise on
 /// the torque: without heat by linear least squares, Eqs. (7)-(9); with heat over the closed loop (19)-(22), from a
 /// scan over tau. The options say what more there is: gravity, inertia beside motion of any kind, E(0) of each recording,
-/// jumps of E at gaps, Huber's loss, and a lag of the torque; of what they do not name, none. Where the noise is coloured beyond doubt, law and heat are fitted once
+/// jumps of E at gaps, Huber's loss, a lag of the torque, and its delay beside motion of any kind (torque_delay.h); of what they do not name, none. Where the noise is coloured beyond doubt, law and heat are fitted once
 /// more to whitened rows, unless that changes more than noise may (hausman_test.h).
 /// not_identifiable where the motion cannot tell the columns apart, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier

@@ -36,8 +36,14 @@ std::optional<std::string> InsignificantWarming(double explained, const WarmingC
 std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,
                                                  const WarmingContext& context) {
   if (auto why = InsignificantWarming(evidence.explained, context)) return why;
-  // a time constant that may be longer than the log must be known better
   const double tau = evidence.time_constant;
+  if (tau < FastestWarming(evidence.step)) {
+    return fmt::format(
+        "what looks like warming has a time constant of {:.2g} s, and nothing warms within {:.2g} "
+        "s: is the torque or the velocity late or filtered? {} fits without warming",
+        tau, FastestWarming(evidence.step), context.instead);
+  }
+  // a time constant that may be longer than the log must be known better
   const bool beyond = tau * std::exp(1.96 * evidence.log_deviation) > evidence.duration;
   if (evidence.log_deviation < (beyond ? kImpreciseLongLogTau : kImpreciseLogTau) &&
       tau >= evidence.shortest / 4 && tau <= evidence.longest * 4) {

@@ -1,6 +1,7 @@
 // Whether a recording shows the warm-up, and whether its two parameters can be told apart.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,6 +22,11 @@ inline constexpr double kImpreciseLogTau = 0.5;
 /// chance made to look short, and its gain with it, which is known by k/tau alone.
 inline constexpr double kImpreciseLongLogTau = 0.25;
 
+/// A time constant below which nothing is heat: a second, or five samples of a step (s). What follows the losses faster is a
+/// lag of the torque or the velocity, or what friction does at turns.
+/// why: gears warm within minutes; over five samples a delay of one is a fifth of the time constant
+inline double FastestWarming(double step) { return std::max(1.0, 5 * step); }
+
 /// What a fit says of its warm-up.
 struct WarmingEvidence {
   double explained = 0;      // drop of |e|^2 by warming, over the noise's variance
@@ -29,6 +35,7 @@ struct WarmingEvidence {
   double shortest = 0;       // s, range of time constants that the recording can show
   double longest = std::numeric_limits<double>::infinity();
   double duration = std::numeric_limits<double>::infinity();  // s, of the recording
+  double step = 0;                                            // s, of the recording
 };
 
 /// What stands beside the warming in a fit, and what to use where no warming can be seen.

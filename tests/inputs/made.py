@@ -354,3 +354,55 @@ def make_names(folder):
         stamps = [form.format(3 + (k >= 500)) + ("23:59:%05.2f" % (50 + .02 * k) if k < 500 else "00:00:%05.2f" % (.02 * (k - 500))) for k in range(1000)]
         body = [",".join([stamp, *row.split(",")[1:]]) for stamp, row in zip(stamps, rows[1:])]
         (place / f"dates_{name}.csv").write_text("\n".join([rows[0], *body]) + "\n")
+
+
+def by_hand(seed, rate, minutes=2):
+    """Time, position, velocity and acceleration of moves by hand between -1 and 1 rad, with pauses."""
+    rng = np.random.default_rng(seed)
+    t = np.arange(int(60 * minutes * rate)) / rate
+    q, k, here = np.zeros_like(t), 0, 0.0
+    while k < len(t):
+        to = rng.uniform(-1, 1)
+        n = int(max(.4, abs(to - here) * rng.uniform(.8, 2)) * rate)
+        s = np.arange(n) / n
+        q[k:k + n] = (here + (to - here) * (10 * s**3 - 15 * s**4 + 6 * s**5))[:len(t) - k]
+        k, here = k + n, to
+        p = int(rng.uniform(.2, 1.5) * rate)
+        q[k:k + p] = here
+        k += p
+    v = np.gradient(q, t)
+    return t, q, v, np.gradient(v, t)
+
+
+def make_by_hand(folder):
+    """The joint of `moving`, moved by hand: in time; with a torque that is late; with a velocity that is filtered or has an offset; with
+    stamps of arrival; at one sample in ten; for 40 s, with a lag that looks like warming."""
+    rng = np.random.default_rng(4)
+    t, q, v, a = by_hand(5, 100)
+    torque = .8 * v + 4.5 * np.sign(v) * (np.abs(v) > 1e-3) + .3 * a + .1 * rng.standard_normal(len(t))
+    write_csv(folder / "hand.csv", time=t, position=q, velocity=v, torque=torque)
+    for steps in (1, 2, 5):
+        late = np.r_[np.full(steps, torque[0]), torque[:-steps]]
+        write_csv(folder / f"hand_late_{steps}.csv", time=t, position=q, velocity=v, torque=late)
+    write_csv(folder / "hand_early.csv", time=t, position=q, velocity=v, torque=np.r_[torque[3:], [0] * 3])
+    for steps in (1, 3):
+        w, share = np.zeros_like(v), 1 - np.exp(-1 / steps)
+        for i in range(1, len(v)):
+            w[i] = w[i - 1] + share * (v[i] - w[i - 1])
+        write_csv(folder / f"hand_filtered_{steps}.csv", time=t, position=q, velocity=w, torque=torque)
+    write_csv(folder / "hand_offset.csv", time=t, position=q, velocity=v + .02, torque=torque)
+    for counts in (0, 4096):
+        for late in (.2, .5, 2):
+            step = 2 * np.pi / counts if counts else 1e-9
+            write_csv(folder / f"hand_stamps_{counts}_{late}.csv", time=t + 1e-3 * late * np.abs(rng.standard_normal(len(t))),
+                      position=np.round(q / step) * step, torque=torque)
+
+
+def make_tops(folder):
+    """Moves of one top speed between rests, with ramps and no holds: viscous .2, Coulomb .307, inertia .06."""
+    rng, dt = np.random.default_rng(7), .01
+    shape = np.r_[np.linspace(0, 1, 55), np.ones(35), np.linspace(1, 0, 55), np.zeros(20)]
+    v = np.concatenate([(1, -1)[k % 2] * .48 * (1 - .02 * rng.random()) * (.5 - .5 * np.cos(np.pi * shape)) for k in range(40)])
+    t = np.arange(len(v)) * dt
+    write_csv(folder / "tops.csv", time=t, position=np.cumsum(v) * dt, velocity=v + 2e-3 * rng.standard_normal(len(v)),
+              torque=.2 * v + .307 * np.sign(v) * (abs(v) > 1e-9) + .06 * np.gradient(v, dt) + .04 * rng.standard_normal(len(v)))

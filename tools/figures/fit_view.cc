@@ -10,6 +10,7 @@
 #include "identification/answer/settling.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
+#include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/low_pass.h"
@@ -97,8 +98,13 @@ FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
   return MakeFitView(measurements, selection, estimate);
 }
 
-FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
-                    const Estimate& estimate) {
+FitView MakeFitView(const LogSamples& logged, const Selection& asked, const Estimate& estimate) {
+  // a torque that is late follows the motion of before
+  const std::optional<double> delay = ValueOf(Role::delay, estimate);
+  const bool is_late = delay && logged.acceleration;
+  const LogView late = is_late ? Delayed({logged, asked}, *delay) : LogView{};
+  const LogSamples& measurements = is_late ? late.measurements : logged;
+  const Selection& selection = is_late ? late.selection : asked;
   if (!estimate.friction) return WithoutFit(measurements, selection, estimate);
   return MakeFitView(measurements, selection, estimate,
                      PredictFriction(*estimate.friction, measurements,

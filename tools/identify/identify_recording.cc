@@ -84,21 +84,19 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
   return given;
 }
 
-/// The figures on what was held out, or why there are none.
-void AddHoldOut(const Identifier& identifier, const IdentifierInput& input, const Answer& answer,
-                const HoldOutSource& source, Estimate& estimate) {
-  if (!source.other && source.fraction == 0) return;
+/// The figures on what was held out, or why there are none; an answer that they contradict is refused.
+HeldOut HoldOutBeside(const Identifier& identifier, const IdentifierInput& input,
+                      const HoldOutSource& source, Answer& answer) {
+  if (!source.other && source.fraction == 0) return {};
   // a failed fit to all data has no figures on others
   if (answer.inferred.status != Status::ok) {
-    estimate.without_holdout =
-        fmt::format("the fit to all data is {}", StatusName(answer.inferred.status));
-    return;
+    return {{}, fmt::format("the fit to all data is {}", StatusName(answer.inferred.status))};
   }
   // the fit as it is, on another recording, or a second fit to the first part, on the rest
-  HeldOut held = source.other ? HoldOut(identifier, answer.fit, *source.other)
-                              : HoldOut(identifier, input, source.fraction, answer.fit);
-  estimate.holdout = held.metrics;
-  estimate.without_holdout = std::move(held.why_none);
+  if (source.other) return HoldOut(identifier, answer.fit, *source.other);
+  HeldOut held = HoldOut(identifier, input, source.fraction, answer.fit);
+  if (held.metrics) JudgeHeldOut(*held.metrics, held.several_speeds, answer);
+  return held;
 }
 
 }  // namespace
@@ -141,8 +139,9 @@ HoldOutSource HoldOutShare(double fraction) {
 Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
                        const HoldOutSource& holdout, const Narrator& narrator) {
   const IdentifierInput given{log, task.options, {}, narrator};
-  const Answer answer = FitAndCheck(task.identifier, given, task.judging);
+  Answer answer = FitAndCheck(task.identifier, given, task.judging);
   const IdentifierInput input = InputOf(answer, task.identifier, given);
+  const HeldOut held = HoldOutBeside(task.identifier, input, holdout, answer);
   Estimate reported = ReportAnswer(task.identifier, input, answer);
   Identified identified{reported, WithVoidNumbers(task.identifier, input, answer, reported)};
   // numbers of a refused fit are shown where that was asked for
@@ -153,9 +152,10 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
     shown.message = estimate.message;
   }
   // figures on held-out samples belong to both
-  AddHoldOut(task.identifier, input, answer, holdout, estimate);
-  shown.holdout = estimate.holdout;
-  shown.without_holdout = estimate.without_holdout;
+  for (Estimate* one : {&estimate, &shown}) {
+    one->holdout = held.metrics;
+    one->without_holdout = held.why_none;
+  }
   return identified;
 }
 

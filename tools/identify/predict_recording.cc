@@ -59,7 +59,7 @@ StoredModel StoredModelOf(const Estimate& estimate, const std::string& file) {
   return {estimate.identifier,
           estimate.status,
           {*estimate.friction, estimate.gravity, ValueOf(Role::inertia, estimate),
-           ValueOf(Role::lag, estimate)}};
+           ValueOf(Role::lag, estimate), ValueOf(Role::delay, estimate)}};
 }
 
 StoredModel ReadStoredModel(const std::string& file) {

@@ -92,6 +92,8 @@ class PreparedLog {
   /// The log as fits to motion of any kind see it (moving_view.h). Made when it is first asked for, by
   /// whichever thread is first.
   const LogView& moving() const;
+  /// What a reader of a fit to that must know of what was done to its velocity, each one sentence.
+  const std::vector<std::string>& moving_warnings() const;
 
   /// Whether constant speeds are what the log shows of friction (moving_view.h).
   bool holds_speeds() const { return log_->holds_speeds; }
@@ -142,11 +144,12 @@ class PreparedLog {
   struct Moving {
     std::once_flag once;
     LogView view;
+    std::vector<std::string> warnings;
   };
 
   struct Maker;
   explicit PreparedLog(Log log);
-  LogView MakeMoving() const;
+  void MakeMoving(Moving& made) const;
   static std::shared_ptr<const PreparedLog> LeaveOutAbsurd(const Log& log);
   friend PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
@@ -212,6 +215,8 @@ struct MotionCheck {
   double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
   double position_resolution =
       0;  // rad or m, of positions from which the velocity is taken; 0: not quantised
+  bool holds_speeds = false;  // else fits take motion of any kind
+  Eigen::Index fitted = 0;    // samples that fits take
 };
 
 /// Whether friction of one kind can be identified, and why (not).

@@ -81,6 +81,44 @@ TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
   EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);
 }
 
+/// A log whose torque comes some samples late.
+Measurements Late(Measurements m, Eigen::Index samples) {
+  const Eigen::Index n = m.size();
+  const Eigen::VectorXd torque = m.torque;
+  m.torque.tail(n - samples) = torque.head(n - samples);
+  m.torque.head(samples).setConstant(torque[0]);
+  return m;
+}
+
+TEST(AnyMotion, ATorqueThatIsLateIsToldWithItsDelay) {
+  const Measurements in_time = Excited(test::Cold(), 6000, 7);
+  const double step = in_time.time[1] - in_time.time[0];
+  const Estimate estimate = AnswerTo("nominal-ls", Late(in_time, 2));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ExpectTold(estimate, "viscous", 5, 0.05);
+  ExpectTold(estimate, "coulomb", 15, 0.05);
+  ExpectTold(estimate, "inertia", kInertia, 0.02);
+  ExpectTold(estimate, "torque_delay", 2 * step, 0.1 * step);
+  // what follows from the estimate follows from the delay, too
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options = identifier.options.Read({{"gravity", "sincos"}});
+  const auto held = HoldOut(identifier, {Prepare(Late(in_time, 2)), options, {}}, 0.3).metrics;
+  ASSERT_TRUE(held);
+  EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);
+
+  // one that is in time has none to name, and one may be told to leave it out
+  EXPECT_FALSE(AnswerTo("nominal-ls", in_time).Find("torque_delay"));
+  EXPECT_FALSE(
+      AnswerTo("nominal-ls", Late(in_time, 2), {{"gravity", "sincos"}, {"torque_delay", "none"}})
+          .Find("torque_delay"));
+}
+
+TEST(AnyMotion, MethodsThatKnowNoDelayNameIt) {
+  const Estimate estimate = AnswerTo("position-ridge", Late(Excited(test::Cold(), 6000, 8), 5));
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_THAT(estimate.message, HasSubstr("late beside the positions"));
+}
+
 TEST(AnyMotion, IsRefusedWhereConstantSpeedIsAskedFor) {
   const Estimate estimate =
       AnswerTo("nominal-ls", Excited(test::TableOne(), 3000, 6), {{"motion", "constant"}});

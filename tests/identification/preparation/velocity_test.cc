@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
 
@@ -112,6 +113,38 @@ TEST(MovingView, LeavesOutCornersOfTheVelocity) {
   EXPECT_FALSE(view.selection.keep[200]);
   EXPECT_TRUE(view.selection.keep[50]);
   EXPECT_TRUE(view.selection.keep[150]);
+}
+
+/// Moves that speed up and slow down, with rests between: positions are exact, and the velocity has an offset.
+Measurements Moves(double offset) {
+  Eigen::VectorXd velocity(4000);
+  for (Eigen::Index i = 0; i < velocity.size(); ++i) {
+    const auto phase = static_cast<double>(i % 200);  // of 2 s, of which a half moves
+    const double sign = i / 200 % 2 ? -1 : 1;
+    velocity[i] = phase < 100 ? sign * std::pow(std::sin(0.01 * std::numbers::pi * phase), 2) : 0;
+  }
+  Measurements m = test::Record(0.01, velocity, Eigen::VectorXd::Zero(4000));
+  m.position += 0.005 * velocity;  // by trapezoids
+  m.velocity.array() += offset;
+  return m;
+}
+
+TEST(PreparedLog, RestsOfAColumnWithAnOffsetHoldNoSpeed) {
+  EXPECT_FALSE(Prepare(Moves(0)).holds_speeds());
+  EXPECT_FALSE(Prepare(Moves(0.02)).holds_speeds());
+  EXPECT_FALSE(Prepare(Moves(0.1)).holds_speeds());
+}
+
+TEST(PreparedLog, MotionOfAnyKindTakesThePositionsOfAColumnThatIsOffOrLate) {
+  using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
+  EXPECT_THAT(Prepare(Moves(0)).moving_warnings(), IsEmpty());
+  const PreparedLog off = Prepare(Moves(0.05));
+  EXPECT_THAT(off.moving_warnings(), ElementsAre(HasSubstr("off by 0.05 rad/s")));
+  EXPECT_LT(std::abs(off.moving().measurements.velocity[150]), 0.01);
+  Measurements late = Moves(0);
+  const Eigen::VectorXd velocity = late.velocity;
+  late.velocity.tail(3998) = velocity.head(3998);
+  EXPECT_THAT(Prepare(late).moving_warnings(), ElementsAre(HasSubstr("lags its positions by 2")));
 }
 
 TEST(PreparedLog, TellsWhetherItHoldsSpeeds) {

@@ -1,0 +1,90 @@
+#include "identification/answer/floors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/explain.h"
+#include "identification/fit_data.h"
+#include "identification/preparation/moving_view.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kFewest = 30;        // why 30: of fewer, colour and structure of noise stay unseen
+constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be another motion
+constexpr double kWorse = 10.8;    // why: chi-squared of one degree of freedom, once in a thousand
+constexpr double kLeastFit = 20;   // %; why: of 45 answers on real logs only wrong ones are below
+constexpr double kMostLeft = 0.5;  // of the friction; why: the same
+constexpr double kNoFriction = 3e-3;  // of the torque; why: gears lose ten times as much at least
+
+double RootMeanSquare(const Eigen::VectorXd& x) {
+  return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+}
+
+/// F at the kept samples: what was fitted less what makes no heat. [n]
+Eigen::VectorXd FrictionIn(const Fit& fit, const LogSamples& m) {
+  Eigen::VectorXd force = fit.fitted;
+  if (fit.gravity) force -= Kept(fit.gravity->Torque(m.position), fit.used);
+  if (fit.inertia && m.acceleration) force -= *fit.inertia * Kept(*m.acceleration, fit.used);
+  if (fit.inertia_torque.size() > 0) force -= Kept(fit.inertia_torque, fit.used);
+  if (fit.torque_lag) force -= Kept(fit.torque_lag->adds, fit.used);
+  return force;
+}
+
+Cause Floor(Source source, Status status, std::string sentence) {
+  return {.source = source,
+          .action = Action::refuse,
+          .status = status,
+          .sentence = std::move(sentence)};
+}
+
+}  // namespace
+
+std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& known) {
+  const auto used = static_cast<double>(fit.torque.size());
+  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+  if (used < kFewest || used < kLeastShare * moving) {
+    return Floor(Source::few_samples, Status::not_identifiable,
+                 ExplainFewSamples(used, moving, kFewest, kLeastShare,
+                                   m.acceleration ? MotionKind::any : MotionKind::constant));
+  }
+  const double friction = RootMeanSquare(FrictionIn(fit, m));
+  const double share = friction / RootMeanSquare(fit.torque);
+  if (share < kNoFriction) {
+    return Floor(Source::no_friction, Status::inadequate_model, ExplainNoFriction(share));
+  }
+  if (const auto row = fit.RowOf(Role::inertia)) {
+    const auto& interval = known.parameters[*row].interval95;
+    if (interval && (*interval)[1] < 0) {
+      return Floor(Source::impossible, Status::inadequate_model,
+                   ExplainNegativeInertia(fit.parameters[*row], *interval));
+    }
+  }
+
+  // how much of the torque is explained, and what is left beside the friction
+  const double left = fit.residual().squaredNorm();
+  const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
+  const double explained = 100 * (1 - std::sqrt(left / by_mean));
+  if (left - by_mean > kWorse * known.known.noise.variance_inflation * left / used) {
+    return Floor(Source::worse_than_mean, Status::inadequate_model,
+                 ExplainWorseThanMean(explained, fit));
+  }
+  const Eigen::VectorXd velocity = Kept(m.velocity, fit.used);
+  const bool both = velocity.minCoeff() < 0 && velocity.maxCoeff() > 0;
+  if (both && explained < kLeastFit) {
+    return Floor(Source::worse_than_mean, Status::inadequate_model,
+                 ExplainPoorFit(explained, kLeastFit, fit));
+  }
+  const double beside = std::sqrt(left / used);
+  if (beside <= kMostLeft * friction) return std::nullopt;
+  return Floor(Source::worse_than_mean, Status::inadequate_model,
+               ExplainMuchLeft(beside, friction, fit));
+}
+
+std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool several_speeds, const Fit& fit) {
+  if (!several_speeds || held_out.n < kFewest || held_out.fit >= 0) return std::nullopt;
+  return Floor(Source::worse_than_mean, Status::inadequate_model,
+               ExplainWorseHeldOut(held_out.fit, fit));
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,181 @@
+#include "identification/warming/torque_delay.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "identification/explain.h"
+#include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/forward/log_trajectory.h"
+#include "identification/inference/inference.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/preparation/delayed_motion.h"
+#include "models/foundation/robust_noise.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kCertain = 4;       // standard errors; why: by chance 1 in 16,000
+constexpr double kToldSteps = 0.5;   // why: what is known less well moves an inertia by as much
+constexpr double kLongest = 0.15;    // s; why: buses and filters take less, and moves last longer
+constexpr double kLongestSteps = 6;  // of the log, where that is more
+constexpr double kOfTheLog = 0.1;    // at most
+constexpr int kTried = 24;     // to each side; why: 6 ms apart, moves bend over ten times that
+constexpr Index kRows = 5000;  // of a search; why: it only has to find the valley
+constexpr int kBits = 12;      // of its refinement, since steps over all samples follow
+constexpr int kMostRounds = 8;
+constexpr double kArrived = 0.02;  // of the standard error
+
+LogView ViewOf(const IdentifierInput& given) { return {given.measurements, given.selection}; }
+
+double LongestDelay(const LogSamples& m, double step) {
+  const double duration = m.time[m.size() - 1] - m.time[0];
+  return std::min(std::max(kLongest, kLongestSteps * step), kOfTheLog * duration);
+}
+
+/// One of several samples that take part.
+Selection Thinned(Selection selection) {
+  const Index each = 1 + selection.count() / kRows;
+  for (Index i = 0, seen = 0; i < selection.keep.size(); ++i) {
+    if (selection.keep[i] && seen++ % each != 0) selection.keep[i] = false;
+  }
+  return selection;
+}
+
+/// The mean square that law, gravity and inertia leave at a delay; infinite where they cannot be told.
+double MeanSquareAt(double delay, const IdentifierInput& given) {
+  LogView late = Delayed(ViewOf(given), delay);
+  late.selection = Thinned(std::move(late.selection));
+  const IdentifierInput input = given.On(late);
+  LinearTask task = BeginLinear(input, 0);
+  if (task.refusal) return kInfinity;
+  const IdentifierInput chosen = task.gravity.Of(input);
+  const LeastSquares solved = SolveLinear(chosen, task);
+  if (task.refusal) return kInfinity;
+  const VectorXd left = Kept(chosen.measurements.torque, chosen.selection) -
+                        Kept(task.columns, chosen.selection) * solved.solution;
+  return left.squaredNorm() / static_cast<double>(left.size());
+}
+
+/// The delay of the least mean square, between the ends of those that are tried; nothing where it lies at one.
+std::optional<double> SearchDelay(const IdentifierInput& given, double longest) {
+  const auto at = [&](int k) { return longest * k / kTried; };
+  int best = 0;
+  double least = MeanSquareAt(0, given);
+  for (int k = -kTried; k <= kTried; ++k) {
+    const double left = k == 0 ? least : MeanSquareAt(at(k), given);
+    if (left < least) std::tie(best, least) = std::pair(k, left);
+  }
+  if (!std::isfinite(least) || std::abs(best) == kTried) return std::nullopt;
+  const auto refined = boost::math::tools::brent_find_minima(
+      [&](double delay) { return MeanSquareAt(delay, given); }, at(best - 1), at(best + 1), kBits);
+  return refined.first;
+}
+
+/// F + G + M a of a fit along a motion. [N] N.m or N
+VectorXd TorqueAlong(const Fit& fit, const LogSamples& m) {
+  VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
+  if (fit.gravity) torque += fit.gravity->Torque(m.position);
+  if (fit.inertia) torque += *fit.inertia * *m.acceleration;
+  return torque;
+}
+
+/// d tau / d delay of a fit, over a step of the log. [N] N.m/s or N/s
+VectorXd ByDelay(const Fit& fit, const LogSamples& m, double delay, double step) {
+  const auto at = [&](double one) { return TorqueAlong(fit, Delayed(m, one)); };
+  return (at(delay + step / 2) - at(delay - step / 2)) / step;
+}
+
+/// The rows of a fit and of the delay behind them, as the fit solved them. [n x p + 1]
+MatrixXd RowsOf(const Fit& fit, const VectorXd& by_delay) {
+  MatrixXd rows = ConcatColumns(Kept(fit.jacobian(), fit.used), Kept(by_delay, fit.used));
+  return fit.errors.whitening ? fit.errors.whitening->Of(rows) : rows;
+}
+
+/// The delay as one more unknown of a fit that was made at it. rows: RowsOf
+void AddDelay(double delay, const VectorXd& by_delay, const MatrixXd& rows, const LogSamples& m,
+              Fit& fit) {
+  fit.torque_delay = delay;
+  Append({TorqueDelayParameter(delay, m)}, fit);
+  fit.jacobian = [of_model = std::move(fit.jacobian), by_delay] {
+    return ConcatColumns(of_model(), by_delay);
+  };
+  // it is known by the log alone
+  ErrorModel& errors = fit.errors;
+  const auto extend = [&](VectorXd& values) {
+    if (values.size() == 0) return;
+    values.conservativeResize(rows.cols());
+    values[rows.cols() - 1] = 0;
+  };
+  extend(errors.prior);
+  extend(errors.structure);
+  MatrixXd normal = rows.transpose() * rows;
+  if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
+  errors.cofactor = Cofactor(normal);
+  ++fit.count;
+  fit.effective_parameters += 1;
+}
+
+/// Says how late the torque is, beyond chance; else the row has no name.
+void NameDelay(double deviation, const LogSamples& m, Fit& fit) {
+  FitParameter& row = fit.parameters.back();
+  if (std::abs(row.value) > kCertain * deviation) {
+    fit.causes.push_back(Remark(ExplainDelay(row.value, MedianStep(m.time))));
+  } else {
+    row.name.clear();
+  }
+}
+
+}  // namespace
+
+bool MayBeLate(const IdentifierInput& given) {
+  const auto* option = given.options.Find<DelayOption>();
+  return given.measurements.acceleration && option &&
+         option->torque_delay == TorqueDelayFit::estimated;
+}
+
+Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
+  const LogSamples& m = given.measurements;
+  const double step = MedianStep(m.time), longest = LongestDelay(m, step);
+  std::optional<double> delay = SearchDelay(given, longest);
+  for (int round = 0; delay && round < kMostRounds; ++round) {
+    const LogView late = Delayed(ViewOf(given), *delay);
+    Fit fit = fit_in_time(given.On(late));
+    if (fit.refusal) break;
+
+    // what all unknowns and the delay would still have to change
+    const VectorXd by_delay = ByDelay(fit, m, *delay, step);
+    const MatrixXd rows = RowsOf(fit, by_delay);
+    VectorXd left = fit.residual();
+    if (fit.errors.whitening) left = fit.errors.whitening->Of(left);
+    const double further = SolveLeastSquares(rows, left).solution[rows.cols() - 1];
+    AddDelay(*delay, by_delay, rows, m, fit);
+    const double deviation = CovarianceOf(fit).Deviation(rows.cols() - 1);
+    if (!(std::abs(further) <= std::max(kArrived * deviation, 1e-6 * step))) {
+      delay = *delay + further;
+      if (!(std::abs(*delay) < longest)) delay.reset();
+      if (round + 1 < kMostRounds) continue;
+    }
+    if (!delay || !(deviation < std::max(kToldSteps * step, std::abs(*delay) / kCertain))) break;
+    NameDelay(deviation, m, fit);
+    return fit;
+  }
+  return fit_in_time(given);
+}
+
+void TakeDelay(double delay, const LogSamples& m, Fit& fit) {
+  fit.torque_delay = delay;
+  fit.causes.push_back(Remark(ExplainDelay(delay, MedianStep(m.time))));
+}
+
+}  // namespace warmjoint

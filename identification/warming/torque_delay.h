@@ -1,0 +1,51 @@
+// A torque that comes late beside the motion of any kind: one more unknown of a fit of law, heat, gravity and inertia.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "identification/fit.h"
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+/// Whether the delay of the torque is estimated.
+enum class TorqueDelayFit { none, estimated };
+inline std::span<const Word<TorqueDelayFit>> WordsOf(TorqueDelayFit) {
+  static constexpr std::array words{Word{"estimated", TorqueDelayFit::estimated},
+                                    Word{"none", TorqueDelayFit::none}};
+  return words;
+}
+
+/// The option of an identifier that can estimate it.
+struct DelayOption {
+  TorqueDelayFit torque_delay = TorqueDelayFit::estimated;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field(
+        "torque_delay", &torque_delay,
+        {.meaning = "by how much the torque is late beside motion of any kind: estimated where "
+                    "the log tells it, or none"});
+  }
+};
+
+/// Whether a fit to these samples has the delay among its unknowns.
+bool MayBeLate(const IdentifierInput& given);
+
+/// A fit to samples whose torque follows their motion at once.
+using FitInTime = std::function<Fit(const IdentifierInput& given)>;
+
+/// tau(t) = F + G + M a at t - d: the fit of the model to the motion at t - d (Delayed), d from a search for the least squares of
+/// law, gravity and inertia, then by Gauss-Newton steps over all unknowns and d, whose column is the model's derivative by the
+/// shift of time. d joins the table, the Jacobian and the errors as one more unknown; its row has a name, torque_delay, where
+/// |d| exceeds four of its standard errors. Where the log tells d to no better than half a sample, and no such d, the fit is the one in
+/// time: then as much is taken for granted. given: samples of PreparedLog::moving
+Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time);
+
+/// The delay of a fit that was made beside a given one, with the sentence that names it, and nothing of its error.
+void TakeDelay(double delay, const LogSamples& measurements, Fit& fit);
+
+}  // namespace warmjoint
