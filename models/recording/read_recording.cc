@@ -176,8 +176,20 @@ Measurements MakeRecording(const std::map<std::string, std::vector<double>>& col
 
 Measurements MakeRecording(FileContent content, const ReadSettings& settings,
                            const std::string& name) {
-  Measurements made = OnlyOne(AssembleContent(std::move(content), name, settings));
-  TakeTorqueConstant(settings.torque_constant, made);
+  return OnlyOne(MakeRecordings(std::move(content), settings, name));
+}
+
+std::vector<Measurements> MakeRecordings(FileContent content, const ReadSettings& settings,
+                                         const std::string& name) {
+  std::vector<Measurements> made = AssembleContent(std::move(content), name, settings);
+  for (Measurements& one : made) TakeTorqueConstant(settings.torque_constant, one);
+  return made;
+}
+
+std::vector<Measurements> MakeRecordings(std::string_view text, const ReadSettings& settings,
+                                         const std::string& name) {
+  std::vector<Measurements> made = ParseRecordings(text, name, settings);
+  for (Measurements& one : made) TakeTorqueConstant(settings.torque_constant, one);
   return made;
 }
 

@@ -74,6 +74,12 @@ void WriteColumns(const FileContent& content, const std::filesystem::path& path)
 /// where the layout's columns are not there. One thread at a time. For ReadApart.
 FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout);
 
+/// Makes the recordings (AssembleRecordings) of columns, or of a table of text, as those of a file are made. name: in messages.
+std::vector<Measurements> MakeRecordings(FileContent content, const ReadSettings& settings,
+                                         const std::string& name);
+std::vector<Measurements> MakeRecordings(std::string_view text, const ReadSettings& settings,
+                                         const std::string& name);
+
 /// Makes a recording of columns with units beside their names: what a file of them would give. name: of the recording in messages.
 Measurements MakeRecording(FileContent content, const ReadSettings& settings,
                            const std::string& name);

@@ -92,7 +92,7 @@ Log LogOfTable(nb::handle names, nb::handle units, const std::map<std::size_t, G
   for (const auto& [i, column] : values) content.columns.at(i).values = ValuesOf(column);
   return Interruptibly([content = std::move(content), source](const auto&) {
     return Prepared(
-        PartsOf({MakeRecording(content, source.read, source.files.at(0))}, source.prepare));
+        PartsOf(MakeRecordings(content, source.read, source.files.at(0)), source.prepare));
   });
 }
 
@@ -125,6 +125,14 @@ Log ReadLog(nb::handle settings) {
   // readers of HDF5 and MATLAB fork, which only the thread that calls may do
   nb::gil_scoped_release released;
   return Prepared(PartsOf(ReadRecordings(source), source.prepare), source);
+}
+
+/// A table of text, which a reader of another format made of a file. settings: of a RecordingSource.
+Log ReadText(const std::string& text, nb::handle settings) {
+  const auto source = FieldsFromPython<RecordingSource>(settings, "read");
+  return Interruptibly([text, source](const auto&) {
+    return Prepared(PartsOf(MakeRecordings(text, source.read, source.files.at(0)), source.prepare));
+  });
 }
 
 /// Several logs of one joint, each from a cold start, as one.
@@ -300,6 +308,8 @@ void AddLogs(nb::module_& module) {
              nb::sig("def read_cells(texts: list[str], name: str, is_time: bool) -> "
                      "tuple[numpy.typing.NDArray[numpy.float64], bool]"));
   module.def("read_log", &ReadLog, nb::sig("def read_log(settings: dict[str, object]) -> Log"));
+  module.def("read_text", &ReadText,
+             nb::sig("def read_text(text: str, settings: dict[str, object]) -> Log"));
   module.def("join_logs", &JoinLogs);
   module.def("log_of_state", &LogOfState,
              nb::sig("def log_of_state(state: dict[str, typing.Any]) -> Log"));

@@ -322,7 +322,7 @@ class Convert(unittest.TestCase):
         self.assertIn("does not exist", self.refusal(self.folder / "none.npz"))
         numpy.savez(self.folder / "log.npz", time=TIME, position=POSITION[:9])
         self.assertIn("position has 9 samples where time has 200", self.refusal(self.folder / "log.npz"))
-                numpy.savez(self.folder / "good.npz", time=TIME)
+        numpy.savez(self.folder / "good.npz", time=TIME)
         self.assertIn("choose one of them", self.refusal(self.folder / "good.npz", output=self.folder / "log.xlsx"))
 
     def test_csv_reads_back_bit_for_bit(self):

@@ -8,7 +8,7 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from warmjoint import _core
+from warmjoint import _core, other_formats
 from warmjoint.values import Array, Column, column, columns_of, kind_of, path_of, text_of
 
 if TYPE_CHECKING:
@@ -194,16 +194,49 @@ class Log:
 def read(path: str | bytes | os.PathLike[Any] | Sequence[str | bytes | os.PathLike[Any]], *, map: Mapping[str, str] | None = None,
          joint: Joint = "rotary", unit: Mapping[str, str] | None = None, scale: Mapping[str, float] | None = None,
          columns: Sequence[str] | None = None, rate: float = 0, gear: float = 1, torque_constant: float = 0, wrap: float = 0,
-         trim: float = 0, shortest_hold: float = 0) -> Log:
+         trim: float = 0, shortest_hold: float = 0, topic: str | None = None, joint_name: str | None = None) -> Log:
     """Reads a recording: a table of text, HDF5 or MATLAB; several of one joint, each from a cold start, as one.
+
+    Bags (rosbag1, rosbag2, MCAP), Parquet, NumPy, JSON and Excel files are read by Python's packages: pip install 'warmjoint[convert]'. What is
+    left out of them is a warning. Of a bag, topic and joint_name choose one joint of JointState messages, or map names fields of others.
 
     map={"position": "q_m"} names the columns of the file. columns=["time", "position", "torque"] stand in place of the header that
     a text file lacks; rate (Hz) makes the time that a file lacks. The other arguments are those of Log. Raises BadInput.
     """
     paths = [path] if isinstance(path, (str, bytes, os.PathLike)) else _list(path, "path", "give the path of a file, or a list of them")
-    settings = _settings([path_of(one) for one in paths], map=map, joint=joint, unit=unit, scale=scale, columns=columns, rate=rate,
+    files = [path_of(one) for one in paths]
+    settings = _settings(files, map=map, joint=joint, unit=unit, scale=scale, columns=columns, rate=rate,
                          gear=gear, torque_constant=torque_constant, wrap=wrap, trim=trim, shortest_hold=shortest_hold)
-    return Log._of(_core.read_log(settings))
+    if not any(other_formats.is_other(one) or other_formats.may_hold_objects(one) for one in files):
+        return Log._of(_core.read_log(settings))
+    logs = [_read_one({**settings, "files": [one]}, topic, joint_name) for one in files]
+    return Log._of(logs[0] if len(logs) == 1 else _core.join_logs(logs))
+
+
+def _read_one(settings: dict[str, Any], topic: str | None, joint_name: str | None) -> _core.Log:
+    """A file that the program may leave to the readers of other formats."""
+    file = settings["files"][0]
+    if not other_formats.is_other(file):
+        try:
+            return _core.read_log(settings)
+        except _core.BadInput as refusal:
+            if not other_formats.may_hold_objects(file):
+                raise
+            # cells, compounds and structs; what none of the readers takes is refused in the program's words
+            try:
+                return _of_other(file, settings, topic, joint_name)
+            except _core.BadInput:
+                raise refusal from None
+    return _of_other(file, settings, topic, joint_name)
+
+
+def _of_other(file: str, settings: dict[str, Any], topic: str | None, joint_name: str | None) -> _core.Log:
+    mapped = settings.get("map", {})
+    found = other_formats.read(file, topic=topic, joint=joint_name, map=mapped)
+    if isinstance(found, str):
+        return _core.read_text(found, settings)
+    # columns that were asked for have our names
+    return _of_table(found, {**settings, "map": {key: name for key, name in mapped.items() if not name}})
 
 
 @dataclasses.dataclass(frozen=True)

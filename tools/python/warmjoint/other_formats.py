@@ -1,0 +1,55 @@
+"""Bags, Parquet, NumPy, JSON and Excel files: their columns, read by a child process (formats/__main__.py) with limits of its own."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import warnings
+from collections.abc import Mapping
+
+import numpy as np
+
+from warmjoint import _core
+from warmjoint.values import Column
+
+ENDS = (".db3", ".mcap", ".bag", ".parquet", ".npz", ".npy", ".xlsx", ".xls", ".xlsm", ".json", ".jsonl", ".ndjson")
+OBJECTS = (".h5", ".hdf5", ".mat")  # may hold cells, compounds and structs, which the program does not read
+
+
+def is_other(path: str) -> bool:
+    """Whether the program leaves a file, by its name, or a folder to these readers."""
+    return path.lower().endswith(ENDS) or pathlib.Path(path).is_dir()
+
+
+def may_hold_objects(path: str) -> bool:
+    return path.lower().endswith(OBJECTS)
+
+
+def read(path: str, *, topic: str | None = None, joint: str | None = None, map: Mapping[str, str] | None = None) -> list[Column] | str:
+    """The columns that `map` names, by our names, or all; or a table of text. Warns of what is left out. Raises BadInput."""
+    request = {"file": path, "topic": topic or "", "joint": joint or "", "map": dict(map or {})}
+    script = pathlib.Path(__file__).parent / "formats/__main__.py"
+    done = subprocess.run([sys.executable, "-B", str(script), json.dumps(request)], capture_output=True, check=False)
+    if done.returncode < 0:
+        late = -done.returncode in (signal.SIGALRM, signal.SIGXCPU, signal.SIGKILL)
+        raise _core.BadInput(f"{path}: cannot be read: " + ("its reader takes too long; the file is damaged, or too large: take a part of it" if late
+                                                           else f"its reader crashed (signal {-done.returncode})"))
+    head, newline, rest = done.stdout.partition(b"\n")
+    if done.returncode or not newline:
+        words = done.stderr.decode(errors="replace").strip().splitlines()
+        raise _core.BadInput(f"{path}: cannot be read: {words[-1] if words else 'its reader broke off'}")
+    answer = json.loads(head)
+    if "error" in answer:
+        raise _core.BadInput(answer["error"])
+    for note in answer["notes"]:
+        warnings.warn(f"{path}: {note}", stacklevel=4)
+    if "text" in answer:
+        return rest.decode()
+    columns, at = [], 0
+    for one in answer["columns"]:
+        columns.append(Column(one["name"], one["unit"], np.frombuffer(rest, dtype=np.float64, count=one["count"], offset=at)))
+        at += 8 * one["count"]
+    return columns
