@@ -243,12 +243,12 @@ def test_wrong_calls_are_refused_by_name_and_change_nothing():
         ({"joint1": BIG, "joint.*": BIG}, {}, "'joint1' is given friction twice"),
         ({"joint1": {"law": "coulmb", "parameters": {}}}, {}, "did you mean 'coulomb'"),
         ({"joint1": BIG | {"parameters": {"viscous": 1}}}, {}, "coulomb"),
-        ({"joint1": heavy}, {}, "--armature joint1="),
+        ({"joint1": heavy}, {}, 'armatures={"joint1"'),
         ({"joint1": BIG}, {"form": "active"}, "'active'"),
         ({"joint1": BIG}, {"armatures": {"joint9": 1}}, "joint9"),
         ({"joint1": BIG}, {"timestep": -1}, "timestep"),
         ({"joint1": BIG}, {"integrator": "euler"}, "'euler'; it must be one of Euler"),
-        ({"joint1": BIG}, {"stiffest_drive": 5}, "stiffest-drive"),
+        ({"joint1": BIG}, {"stiffest_drive": 5}, "stiffest_drive"),
         ({"slide": ESTIMATE | {"parameters": {"coulomb": {"value": 4, "unit": "N.m"}}}}, {}, "slide.* of hinges"),
     ):
         with pytest.raises(ValueError, match=words):

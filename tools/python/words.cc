@@ -51,6 +51,7 @@ constexpr std::array kSpellings = std::to_array<Spelling>({
     {"initial", "initial", Behind::word, " cold end "},
     {"armature", "armatures", Behind::pairs},
     {"timestep", "timestep", Behind::number},
+    {"stiffest-drive", "stiffest_drive", Behind::number},
     {"integrator", "integrator", Behind::word, " Euler RK4 implicit implicitfast "},
     // of simulate and run
     {"realizations", "realizations", Behind::number},

@@ -17,7 +17,7 @@ from typing import Any
 import mujoco
 
 from warmjoint import mujoco_library
-from warmjoint._core import BadInput
+from warmjoint._core import BadInput, in_python
 
 _HERE = pathlib.Path(__file__).resolve().parent
 _NAME = "libwarmjoint_friction.so"
@@ -62,7 +62,7 @@ _library = _load()
 def _call(function: str, *arguments: Any) -> Any:
     answer = json.loads(getattr(_library, function)(*arguments))
     if "error" in answer:
-        raise BadInput(answer["error"])
+        raise BadInput(in_python(answer["error"]))
     return answer
 
 
@@ -87,10 +87,12 @@ def _files(assets: dict[str, bytes]) -> Iterator[ctypes.c_void_p | None]:
 def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
     """Puts friction on joints of a spec; one that is refused stays as it was. request and answer: sim/library/calls.cc.
 
-    Raises BadInput with the text of the command line.
+    Raises BadInput with the text of the command line, in which options are arguments.
     """
     with _files(dict(spec.assets)) as files:
-        return _call("warmjoint_attach", spec._address, files, json.dumps(request).encode())
+        answer = _call("warmjoint_attach", spec._address, files, json.dumps(request).encode())
+    answer["notices"] = [in_python(notice) for notice in answer["notices"]]
+    return answer
 
 
 def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
