@@ -394,6 +394,39 @@ std::string ExplainNegativeInertia(const FitParameter& inertia,
       inertia.value, inertia.unit, interval95[0], interval95[1]);
 }
 
+std::string NameOfFriction(const FrictionAtSpeed& at) {
+  std::string name = fmt::format("friction {} at {:.3g}", at.speed < 0 ? "backwards" : "forwards",
+                                 std::abs(at.speed));
+  if (!at.speed_unit.empty()) name += " " + at.speed_unit;
+  if (at.energy) name += *at.energy == 0 ? ", cold" : ", warm";
+  return name;
+}
+
+std::string ExplainUnknownFriction(const std::vector<FrictionAtSpeed>& all) {
+  const FrictionAtSpeed& one = all[all.size() / 2];
+  return fmt::format(
+      "the friction is known to worse than itself at every speed of the log ({} is {:.2g} {}, its "
+      "95 % interval {:.2g} to {:.2g}): record longer, at steadier speeds in both directions",
+      NameOfFriction(one), one.value, one.unit, one.interval95[0], one.interval95[1]);
+}
+
+std::string ExplainLeftOutSpeeds(const std::vector<FrictionAtSpeed>& left_out) {
+  std::vector<std::string> names;
+  for (const FrictionAtSpeed& one : left_out) names.push_back(NameOfFriction(one));
+  return fmt::format("left out, since it is known to worse than itself: {}",
+                     fmt::join(names, "; "));
+}
+
+std::string ExplainOneSpeed(const std::vector<std::string>& names,
+                            const std::vector<double>& speeds, const std::string& unit) {
+  std::vector<std::string> at;
+  for (const double speed : speeds) at.push_back(fmt::format("{:.3g}", speed));
+  return fmt::format(
+      "the log moves at one speed each way: {} {} the friction at {} {}, of which any part may be "
+      "viscous; record other speeds, too",
+      fmt::join(names, " and "), names.size() > 1 ? "are" : "is", fmt::join(at, " and "), unit);
+}
+
 std::string ExplainOwnLaw(const MovedParameter& moved) {
   return fmt::format(
       "the estimate does not fit its log: the same law fits it better with {} changed by {:.3g} "
@@ -436,11 +469,22 @@ std::vector<Assumption> AssumptionsOf(const std::vector<Cause>& causes, const Fi
                                       const std::string& unit) {
   std::vector<Assumption> assumptions;
   for (const AssumptionWords& words : kAssumptions) {
-    const auto cause = std::ranges::find(causes, words.source, &Cause::source);
-    if (cause == causes.end() || cause->bias.size() == 0) continue;
+    // rows of one source are ways in which it may be wrong: of each parameter the worst
+    const Cause* first = nullptr;
+    Eigen::VectorXd moves;
+    for (const Cause& cause : causes) {
+      if (cause.source != words.source || cause.bias.size() == 0) continue;
+      if (!first) {
+        first = &cause;
+        moves = cause.bias;
+        continue;
+      }
+      moves = (cause.bias.cwiseAbs().array() > moves.cwiseAbs().array()).select(cause.bias, moves);
+    }
+    if (!first) continue;
     assumptions.push_back({std::string(NameOf(words.source)),
-                           fmt::format(fmt::runtime(words.meaning), cause->size, unit),
-                           NamedMoves(cause->rows, cause->bias, fit)});
+                           fmt::format(fmt::runtime(words.meaning), first->size, unit),
+                           NamedMoves(first->rows, moves, fit)});
   }
   return assumptions;
 }

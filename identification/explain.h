@@ -146,6 +146,14 @@ std::string ExplainMuchLeft(double left, double friction, const Fit& fit);
 std::string ExplainNoFriction(double share);
 std::string ExplainNegativeInertia(const FitParameter& inertia,
                                    const std::array<double, 2>& interval95);
+/// Of friction at speeds whose intervals reach to 0: of all, and of some that are left out.
+std::string ExplainUnknownFriction(const std::vector<FrictionAtSpeed>& all);
+std::string ExplainLeftOutSpeeds(const std::vector<FrictionAtSpeed>& left_out);
+/// Of a law's levels, by their names, where the log moves at one speed each way. speeds: rad/s or m/s, in `unit`
+std::string ExplainOneSpeed(const std::vector<std::string>& names,
+                            const std::vector<double>& speeds, const std::string& unit);
+/// "friction forwards at 0.5 rad/s, warm".
+std::string NameOfFriction(const FrictionAtSpeed& at);
 /// Of an estimate of others whose own law fits its log better. moved: the parameter that is farthest off
 std::string ExplainOwnLaw(const MovedParameter& moved);
 

@@ -134,7 +134,7 @@ struct Fit {
   std::vector<MapBand> bands;       // one for each of the friction's maps
   /// Of each band, the derivatives of its values by the law's parameters, [g x d].
   std::vector<Eigen::MatrixXd> bands_by_law;
-  /// In place of parameters of the law that only a prior tells from a map.
+  /// Of law and maps, by noise; of a law alone they follow from its parameters.
   std::vector<FrictionAtSpeed> friction_at_speeds;
   std::vector<Iterate> trace;
 

@@ -9,6 +9,7 @@
 
 #include "identification/answer/floors.h"
 #include "identification/answer/settling.h"
+#include "identification/answer/speed_figures.h"
 #include "identification/explain.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/apply.h"
@@ -155,9 +156,9 @@ std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierIn
                                                late->harm, identifier.name)};
 }
 
-/// What was found in log and fit, and the tests as data.
+/// What was found in log and fit, and the tests as data. Enters what the fit says of friction at speeds.
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
-                     const LackOfFitSettings& judging, const Answer& answer) {
+                     const LackOfFitSettings& judging, Answer& answer) {
   LackOfFit found;
   const std::vector<std::string> faults = input.log.faults();
   if (!faults.empty()) {
@@ -172,6 +173,8 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                                                  : LogView{};
     const IdentifierInput seen = answer.fit.torque_delay ? input.On(late) : input;
     found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, judging);
+    answer.inferred.at_speeds = SpeedFiguresOf(answer.fit, answer.inferred, found.model,
+                                               seen.measurements, seen.selection);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
       auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
       if (floor) found.causes.push_back(std::move(*floor));
@@ -181,6 +184,11 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
   }
   std::ranges::move(PreparationCauses(input, answer.fit, answer.inferred),
                     std::back_inserter(found.causes));
+  // the last floor asks what all of that leaves of the friction
+  if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
+    auto unknown = UnknownFriction(answer.inferred.at_speeds, found.causes);
+    if (unknown) found.causes.push_back(std::move(*unknown));
+  }
   return found;
 }
 
@@ -197,10 +205,11 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   Answer answer;
   double settling = 0;
   answer.fit = FitSettled(identifier, SelectSamples(identifier, given), answer.settled, settling);
+  const IdentifierInput input = InputOf(answer, identifier, given);
+  NameOneSpeed(input.measurements, input.selection, answer.fit);
   answer.inferred = Infer(answer.fit);
 
   // what is said about it, and what that leaves of it
-  const IdentifierInput input = InputOf(answer, identifier, given);
   LackOfFit found = FindCauses(identifier, input, judging, answer);
   if (answer.settled) {
     found.causes.push_back(OfTheLog(Source::preparation, SaySettling(settling)));
@@ -233,8 +242,13 @@ Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& i
 
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& given) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  const Fit fit = AtBounds(identifier.fit(input), input.measurements);
-  return ReportFit(fit, Infer(fit), input.log, input.measurements);
+  Fit fit = AtBounds(identifier.fit(input), input.measurements);
+  NameOneSpeed(input.measurements, input.selection, fit);
+  Inference inferred = Infer(fit);
+  const LogSamples& m = input.measurements;
+  inferred.at_speeds = SpeedFiguresOf(
+      fit, inferred, EvaluateModel(fit, inferred, m, input.selection), m, input.selection);
+  return ReportFit(fit, inferred, input.log, m);
 }
 
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,

@@ -306,8 +306,7 @@ Uncertainty OfTable(const NominalPart& part, Uncertainty known) {
   const Layout table = at.Reordered(&Layout::law, &Layout::heat, &Layout::rigid, &Layout::weights);
   std::vector<Eigen::Index> order = at.PlacesOf(table);
   order.resize(table.weights.begin);
-  known.covariance = known.covariance(order, order).eval();
-  return known;
+  return Picked(std::move(known), order);
 }
 
 /// Law, warming, gravity and maps of the last state: the model and its table.

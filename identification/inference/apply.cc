@@ -3,61 +3,64 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 namespace {
 
-/// What all rows do to one parameter, in its unit.
-struct Change {
-  double shift = 0;
-  double reach = 0;             // of either end of the interval
-  double below = 0, above = 0;  // how far the value may lie from itself, of rows that cover
-  bool has_interval = true;
-};
-
-/// One for each row of the fit's table.
-std::vector<Change> ChangesBy(const std::vector<Cause>& causes, std::size_t count) {
-  std::vector<Change> changes(count);
-  // a fit without numbers has none to change
-  if (count == 0) return changes;
-  for (const Cause& cause : causes) {
-    for (const std::size_t row : cause.without_interval) changes[row].has_interval = false;
-    if (cause.action == Action::drop_intervals) {
-      for (Change& change : changes) change.has_interval = false;
-    }
-    if (cause.action == Action::note || cause.bias.size() == 0) continue;
-    for (std::size_t i = 0; i < cause.rows.size(); ++i) {
-      const double bias = cause.bias[static_cast<Eigen::Index>(i)], reach = ReachOf(cause, i);
-      Change& change = changes[cause.rows[i]];
-      if (cause.action == Action::shift) change.shift += bias;
-      if (cause.action == Action::widen) change.reach += reach;
-      if (cause.action == Action::cover) (bias < 0 ? change.below : change.above) += reach;
-    }
-  }
-  return changes;
-}
-
-void Apply(const Change& change, ParameterInterval& known) {
-  known.value += change.shift;
-  known.widened += change.reach + change.below + change.above;
-  if (!change.has_interval) {
-    known.std.reset();
-    known.interval95.reset();
-  }
-  if (!known.interval95) return;
+/// Moves a value and its interval, if it has one.
+void Move(const FigureChange& change, double& value, std::array<double, 2>* interval,
+          std::vector<WidthPart>& parts) {
+  value += change.shift;
+  if (!interval) return;
 
   // noise around either end of what is covered: an interval that holds the one that is true
-  auto& [lower, upper] = *known.interval95;
-  const double half = known.HalfWidth(), middle = 0.5 * (lower + upper);
-  if (const double apart = change.below + change.above; apart > 0 && half > 0) {
+  auto& [lower, upper] = *interval;
+  const double half = 0.5 * (upper - lower), middle = 0.5 * (lower + upper);
+  const double apart = change.below + change.above;
+  if (apart > 0 && half > 0) {
     const double reach = half * ReachBeyondEnds(kNormal95 * apart / half) / kNormal95;
     lower = middle - change.below - reach;
     upper = middle + change.above + reach;
   }
+  const double covered = 0.5 * (upper - lower) - half;
   lower += change.shift - change.reach;
   upper += change.shift + change.reach;
+
+  // what covers shares what it adds to the half width
+  for (WidthPart part : change.parts) parts.push_back(part);
+  for (WidthPart part : change.covered) {
+    part.half_width *= apart > 0 ? covered / apart : 0;
+    parts.push_back(part);
+  }
+}
+
+void Apply(const FigureChange& change, ParameterInterval& known) {
+  if (!change.has_interval) {
+    known.std.reset();
+    known.interval95.reset();
+  }
+  known.widened += change.Reach();
+  Move(change, known.value, known.interval95 ? &*known.interval95 : nullptr, known.parts);
+}
+
+/// What all rows leave of friction at speeds: those that depend on a number without an interval go.
+void Apply(const std::vector<Cause>& causes, std::vector<SpeedFigure>& at_speeds) {
+  std::vector<bool> stays(at_speeds.size(), true);
+  for (const Cause& cause : causes) {
+    for (const std::size_t i : cause.without_speed) stays[i] = false;
+  }
+  std::vector<SpeedFigure> left;
+  for (std::size_t i = 0; i < at_speeds.size(); ++i) {
+    SpeedFigure& one = at_speeds[i];
+    const FigureChange change = ChangeOf(causes, one.derivatives);
+    if (!stays[i] || !change.has_interval) continue;
+    Move(change, one.at.value, &one.at.interval95, one.parts);
+    left.push_back(std::move(one));
+  }
+  at_speeds = std::move(left);
 }
 
 /// The row by which the answer is refused; nullptr where none does.
@@ -75,8 +78,12 @@ const Cause* RefusalOf(const std::vector<Cause>& causes) {
 Inference Apply(Inference answer, std::vector<Cause> causes) {
   std::ranges::stable_sort(causes, {}, &Cause::source);
   // the numbers
-  const std::vector<Change> changes = ChangesBy(causes, answer.parameters.size());
-  for (std::size_t i = 0; i < changes.size(); ++i) Apply(changes[i], answer.parameters[i]);
+  const auto count = std::ssize(answer.parameters);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    Apply(ChangeOf(causes, Eigen::VectorXd::Unit(count, i)),
+          answer.parameters[static_cast<std::size_t>(i)]);
+  }
+  Apply(causes, answer.at_speeds);
 
   // the status; values that are refused stay, without what would make them look sure
   const Cause* const refusal = RefusalOf(causes);
@@ -85,6 +92,7 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
     answer.message = refusal->sentence;
     answer.warnings.clear();
     answer.gives_friction = false;
+    answer.at_speeds.clear();
     for (ParameterInterval& one : answer.parameters) {
       one.std.reset();
       one.interval95.reset();
@@ -106,25 +114,48 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
   return answer;
 }
 
-double ReachOf(const Cause& cause, std::size_t i) {
-  if (cause.bias.size() == 0) return 0;
-  const auto at = static_cast<Eigen::Index>(i);
-  const double bias = std::abs(cause.bias[at]);
-  if (cause.action == Action::cover) return bias;
-  if (cause.action != Action::widen) return 0;
-  return bias + kNormal95 * (cause.spread.size() > 0 ? cause.spread[at] : 0);
+namespace {
+
+/// How far a figure may reach at most. by: [p] its derivatives by the cause's rows
+double MostOf(const Cause& cause, const Eigen::VectorXd& by) {
+  double most = 0;
+  for (Eigen::Index i = 0; i < by.size(); ++i) {
+    if (by[i] != 0) most += std::abs(by[i]) * cause.most[i];
+  }
+  return most;
 }
+
+}  // namespace
 
 FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives) {
   FigureChange change;
+  std::map<Source, double> widened;
   for (const Cause& cause : causes) {
-    if (cause.bias.size() == 0) continue;
+    // what has no number left leaves none of what depends on it
+    if (cause.action == Action::drop_intervals) change.has_interval = false;
+    for (const std::size_t row : cause.without_interval) {
+      if (derivatives[static_cast<Eigen::Index>(row)] != 0) change.has_interval = false;
+    }
+    if (cause.action == Action::note || cause.bias.size() == 0) continue;
+
     const Eigen::VectorXd by = derivatives(cause.rows);
     const double bias = by.dot(cause.bias);
     if (cause.action == Action::shift) change.shift += bias;
-    if (cause.action != Action::widen && cause.action != Action::cover) continue;
-    change.reach += std::abs(bias);
-    if (cause.spread.size() > 0) change.reach += kNormal95 * by.cwiseProduct(cause.spread).norm();
+    if (cause.action == Action::widen) {
+      double reach = std::abs(bias);
+      if (cause.spread.size() > 0) reach += kNormal95 * (by.transpose() * cause.spread).norm();
+      if (cause.most.size() > 0) reach = std::min(reach, MostOf(cause, by));
+      double& most = widened[cause.source];
+      most = std::max(most, reach);
+    }
+    if (cause.action == Action::cover && bias != 0) {
+      (bias < 0 ? change.below : change.above) += std::abs(bias);
+      change.covered.push_back({cause.source, std::abs(bias)});
+    }
+  }
+  for (const auto& [source, reach] : widened) {
+    change.reach += reach;
+    if (reach > 0) change.parts.push_back({source, reach});
   }
   return change;
 }

@@ -20,6 +20,12 @@ namespace warmjoint {
 
 /// What a row is about, in the order in which sentences are read.
 enum class Source {
+  // what an interval by noise is made of; no cause
+  noise,
+  white_noise,
+  autocorrelated_noise,
+  few_segments,
+  structure,
   // what refuses an answer by itself
   fit,
   bound,
@@ -29,6 +35,7 @@ enum class Source {
   impossible,
   late_torque,
   worse_than_mean,
+  unknown_friction,
   own_law,
   // what no test can see
   cold_start,
@@ -61,23 +68,35 @@ enum class Source {
 /// Names in estimate.json, of assumptions and of what makes intervals reach farther.
 inline std::span<const Word<Source>> WordsOf(Source) {
   using enum Source;
-  static constexpr std::array words{
-      Word{"cold_start", cold_start},        Word{"open_start", open_start},
-      Word{"no_slow_drift", slow_drift},     Word{"open_drift", open_drift},
-      Word{"open_curve", open_curve},        Word{"open_memory", open_memory},
-      Word{"no_dead_band", dead_band},       Word{"no_offset", offset},
-      Word{"angles_in_radians", degrees},    Word{"true_clock", clock},
-      Word{"held_losses", held_losses},      Word{"gaps", gaps},
-      Word{"hidden_steps", hidden_steps},    Word{"findings", findings},
-      Word{"hidden_means", hidden_means},    Word{"unadjusted_findings", unadjusted_findings},
-      Word{"velocity_noise", velocity_noise}};
+  static constexpr std::array words{Word{"noise", noise},
+                                    Word{"white_noise", white_noise},
+                                    Word{"few_segments", few_segments},
+                                    Word{"autocorrelated_noise", autocorrelated_noise},
+                                    Word{"structure", structure},
+                                    Word{"cold_start", cold_start},
+                                    Word{"open_start", open_start},
+                                    Word{"no_slow_drift", slow_drift},
+                                    Word{"open_drift", open_drift},
+                                    Word{"open_curve", open_curve},
+                                    Word{"open_memory", open_memory},
+                                    Word{"no_dead_band", dead_band},
+                                    Word{"no_offset", offset},
+                                    Word{"angles_in_radians", degrees},
+                                    Word{"true_clock", clock},
+                                    Word{"held_losses", held_losses},
+                                    Word{"gaps", gaps},
+                                    Word{"hidden_steps", hidden_steps},
+                                    Word{"findings", findings},
+                                    Word{"hidden_means", hidden_means},
+                                    Word{"unadjusted_findings", unadjusted_findings},
+                                    Word{"velocity_noise", velocity_noise}};
   return words;
 }
 
 /// What a row does to an answer.
 enum class Action {
   note,            // says something, changes nothing
-  widen,           // intervals reach farther by |bias| + 1.96 spread
+  widen,           // intervals reach farther by |bias| + 1.96 deviations of it
   cover,           // intervals hold the value, and the value with the bias, for noise around either
   drop_intervals,  // no number has an interval
   shift,           // values and intervals move by the bias
@@ -92,8 +111,11 @@ struct Cause {
   Action action = Action::note;
   std::vector<std::size_t> rows{};  // [p] of the fit's table that the bias is about
   Eigen::VectorXd bias{};  // [p] change of each value, were this taken into account; empty: of none
-  Eigen::VectorXd spread{};                     // [p] standard deviations of the bias; empty: 0
+  Eigen::MatrixXd spread{};  // [p x k] S, the bias' covariance is S S^T; empty: 0
+  /// [p] how far any parameter may be off: no figure reaches farther than all of them together; empty: any.
+  Eigen::VectorXd most{};
   std::vector<std::size_t> without_interval{};  // rows of the table that get none
+  std::vector<std::size_t> without_speed{};  // of the friction at speeds, those that are left out
   double size =
       0;  // how far off an assumption was taken to be, N.m or N, where it has no fixed size
   Status status = Status::ok;      // of one that refuses

@@ -51,7 +51,11 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
     if (parameter.estimated) {
       const double quantile = StudentQuantile(known.DegreesOfFreedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
-      if (parameter.has_interval) one = KnownWithin(parameter, deviation, quantile);
+      if (parameter.has_interval) {
+        one = KnownWithin(parameter, deviation, quantile);
+        const Eigen::VectorXd own = Eigen::VectorXd::Unit(known.covariance.rows(), column - 1);
+        one.parts = NoiseParts(known, own, one.HalfWidth());
+      }
     }
     all.push_back(one);
   }
@@ -128,6 +132,9 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   const auto rows = [&] { return whitening.Of(Kept(fit.jacobian(), fit.used)); };
   Uncertainty known = OfSquares(fit, whitening.Of(fit.residual()).col(0), rows);
   known.noise = whitening.noise();
+  // what noise of the same variance would do, were it white
+  const Eigen::MatrixXd plain = Kept(fit.jacobian(), fit.used);
+  known.white = known.noise.variance * Cofactor(plain.transpose() * plain);
   const auto samples = static_cast<double>(whitening.size());
   const auto count = static_cast<double>(fit.errors.cofactor.rows());
   known.degrees_of_freedom = std::min(
@@ -181,8 +188,51 @@ Uncertainty CovarianceOf(const Fit& fit) {
   Uncertainty known = CovarianceByNoise(fit);
   // structure that moves the friction little joins the errors as one more of them
   const Eigen::VectorXd& structure = fit.errors.structure;
-  if (structure.size() > 0) known.covariance += structure * structure.transpose();
+  if (structure.size() > 0) {
+    known.covariance += structure * structure.transpose();
+    known.structure = structure;
+  }
   return known;
+}
+
+std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorXd& slopes,
+                                  double half) {
+  const auto deviation = [&](const Eigen::MatrixXd& covariance) {
+    return std::sqrt(std::max(slopes.dot(covariance * slopes), 0.0));
+  };
+  const double all = deviation(known.covariance);
+  const bool is_told = known.white.rows() == slopes.size() && known.white.allFinite();
+  if (!is_told || !(all > 0)) return {{Source::noise, half}};
+
+  // each step as far as it leaves the interval, in its deviations
+  const double quantile = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
+  const bool few = known.by_samples.size() > 0;
+  const double before =
+      few ? StudentQuantile(known.samples_degrees_of_freedom, kIntervalLevel) : quantile;
+  const double bias = known.structure.size() > 0 ? known.structure.dot(slopes) : 0;
+  const double noise = std::sqrt(std::max(all * all - bias * bias, 0.0));
+  const std::pair<Source, double> steps[] = {
+      {Source::white_noise, before * deviation(known.white)},
+      {Source::autocorrelated_noise, few ? before * deviation(known.by_samples) : quantile * noise},
+      {Source::few_segments, quantile * noise},
+      {Source::structure, quantile * all}};
+
+  // one that makes it narrower takes that off what was there
+  std::vector<WidthPart> parts;
+  double reached = 0;
+  for (const auto& [by, reach] : steps) {
+    for (double over = reached - reach; over > 0 && !parts.empty();) {
+      const double taken = std::min(over, parts.back().half_width);
+      parts.back().half_width -= taken;
+      reached -= taken;
+      over -= taken;
+      if (parts.back().half_width <= 0) parts.pop_back();
+    }
+    if (reach > reached) parts.push_back({by, reach - reached});
+    reached = std::max(reached, reach);
+  }
+  for (WidthPart& part : parts) part.half_width *= half / reached;
+  return parts;
 }
 
 double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,

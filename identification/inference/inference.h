@@ -15,14 +15,30 @@
 
 namespace warmjoint {
 
+/// A part of the half width of an interval.
+struct WidthPart {
+  Source by = Source::noise;
+  double half_width = 0;
+};
+
 /// What is known of one row of the fit's table.
 struct ParameterInterval {
   double value = 0;  // of the fit, or moved by what the verdict found
   std::optional<double> std;
   std::optional<std::array<double, 2>> interval95;
   double widened = 0;  // by which each end of the interval lies farther out than noise has it
+  std::vector<WidthPart> parts{};  // which add up to the half width
 
   double HalfWidth() const { return interval95 ? 0.5 * ((*interval95)[1] - (*interval95)[0]) : 0; }
+};
+
+/// Friction at a speed, with what it depends on.
+struct SpeedFigure {
+  FrictionAtSpeed at;
+  Eigen::VectorXd derivatives;     // [P] by the value of each row of the fit's table
+  std::vector<WidthPart> parts{};  // which add up to the half width
+
+  double HalfWidth() const { return 0.5 * (at.interval95[1] - at.interval95[0]); }
 };
 
 /// Everything that is inferred from one fit.
@@ -32,6 +48,7 @@ struct Inference {
   std::vector<std::string> warnings;
   Uncertainty known;
   std::vector<ParameterInterval> parameters;  // [P] as the fit's table
+  std::vector<SpeedFigure> at_speeds;         // where they are known (speed_figures.h)
   std::vector<Cause> causes;                  // by which it became what it is
   bool gives_friction = false;                // whether the fit's friction may be used
   std::vector<Diagnostic> diagnostics;        // of the verdict, one for each test for lack of fit
@@ -48,6 +65,11 @@ Inference Infer(const Fit& fit);
 /// The fit with what noise puts beyond a bound set to it (bounds.h); the fit itself where there is nothing to set, or
 /// the whole interval lies beyond. measurements: of the fit.
 Fit AtBounds(Fit fit, const LogSamples& measurements);
+
+/// What an interval by noise is made of: what white noise makes, what its colour and unevenness add, what few segments do, and
+/// structure that counts as an error. slopes: [p] of the figure by the coordinates; half: of its interval
+std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorXd& slopes,
+                                  double half);
 
 /// Covariance of x, as the fit's error model says, for noise of the colour and the unevenness that
 /// the residual shows (uncertainty.h). [p x p] in the coordinates of the parameters.

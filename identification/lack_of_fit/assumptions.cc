@@ -231,8 +231,11 @@ void AddOpen(const OverBins& over, Examination& examination) {
   MatrixXd until_last = from_first;
   until_last.leftCols(kDrifts).colwise() -= at_end.col(0);
   until_last.col(kDrifts) -= at_end.col(1);
-  examination.Add(Source::open_drift, Action::note,
-                  Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors)));
+  // each by itself, with what it does to all parameters together
+  for (Index i = 0; i < factors.size(); ++i) {
+    examination.Add(Source::open_drift, Action::note, factors[i] * from_first.col(i));
+    examination.Add(Source::open_drift, Action::note, factors[i] * until_last.col(i));
+  }
 }
 
 constexpr double kTurn = 2 * std::numbers::pi, kDegree = kTurn / 360;  // rad

@@ -175,7 +175,12 @@ Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, con
   // the start where it is taken to be known, load and temperature where they are logged
   if (model.by_initial_energy.cols() > 0) known.initial = bins.Means(model.by_initial_energy);
   if (m.load) known.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
-  if (m.temperature) known.temperatures = bins.Means(*m.temperature);
+  if (m.temperature) {
+    // about the mean of the log: what a parameter moves by is then friction that the log knows, not that at 0 degC
+    const Eigen::VectorXd temperature = bins.Means(*m.temperature);
+    const double mean = bins.weight.dot(temperature) / bins.weight.sum();
+    known.temperatures = (temperature.array() - mean).matrix();
+  }
 
   // friction that follows the speed late, by half a hold to an eighth of the log
   known.duration = m.time[m.size() - 1] - m.time[0];

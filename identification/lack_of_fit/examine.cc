@@ -22,9 +22,12 @@ namespace warmjoint {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
 constexpr Index kRowsAColumn = 3;
+constexpr double kWorstTenth =
+    3.1622776601683795;  // why: sqrt(10), a tenth of the log may hold all squares of an effect
 constexpr double kRange =
     3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
 
@@ -173,7 +176,11 @@ class FrictionChange {
   FrictionChange(const OverBins& over, double friction)
       : root_(over.fit.root / (friction * std::sqrt(over.bins.weight.sum()))),
         warm_(over.derivatives.leftCols(over.model.of_friction)),
-        cold_(over.bins.Means(over.model.cold)) {}
+        cold_(over.bins.Means(over.model.cold)),
+        has_heat_(over.model.thermal.has_value()) {}
+
+  /// Whether a warming was fitted, which may have taken up a part of what was found.
+  bool HasHeat() const { return has_heat_; }
 
   /// The largest of three, rms over the kept samples as a share of the friction's: the change along
   /// the log J d, that of the cold curve dFn/dp d, and that of what heat takes off it, the
@@ -191,18 +198,28 @@ class FrictionChange {
   Eigen::VectorXd root_;  // [m] of the weights, over the friction's rms and the root of the samples
   Eigen::MatrixXd warm_;  // [m x q] dF/dx by law, heat and start
   Eigen::MatrixXd cold_;  // [m x d] dFn/dp
+  bool has_heat_;
 };
 
 /// How far a finding changes the friction, as the row of its test has it.
 double HarmOf(const Finding& finding, const FrictionChange& change,
               const Examination& examination) {
   const double effect = examination.Rms(finding) / examination.friction;
-  const Harm harm = finding.test->harm;
-  const bool by_size = harm == Harm::of_effect || harm == Harm::of_direction;
-  if (by_size || finding.moves.size() == 0) return effect;
+  if (finding.moves.size() == 0) return effect;
   const double moved = change.By(finding.moves);
-  if (harm == Harm::of_moves) return moved;
-  return std::max(effect, moved);
+  switch (finding.test->harm) {
+    case Harm::of_moves:
+      return moved;
+    case Harm::of_either:
+      return std::max(effect, moved);
+    case Harm::of_drift:
+      return change.HasHeat() ? moved : std::min(moved, kWorstTenth * effect);
+    case Harm::of_effect:
+    case Harm::of_effect_twice:
+    case Harm::of_direction:
+      break;
+  }
+  return effect;
 }
 
 /// Sums up how what was found moves the parameters, and how far that changes the friction.
@@ -210,15 +227,15 @@ void SumMoves(const OverBins& over, Examination& examination) {
   if (examination.Found().empty()) return;
   const Index p = std::ssize(examination.rows);
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(p);
-  // findings count as independent of each other: their variances add up
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
+  // findings count as independent of each other: their covariances add up
+  Eigen::MatrixXd spread(p, 0);
   for (const Finding& finding : examination.findings) {
     if (!finding.rejected || finding.moves.size() == 0) continue;
     bias += finding.moves.head(p);
-    variance += finding.move_deviations.head(p).cwiseAbs2();
+    spread = ConcatColumns(spread, finding.move_spread.topRows(p));
   }
   examination.Add(Source::findings, Action::widen, std::move(bias));
-  examination.causes.back().spread = variance.cwiseSqrt();
+  examination.causes.back().spread = std::move(spread);
 
   const FrictionChange change(over, examination.friction);
   for (Finding& finding : examination.findings) {
@@ -226,17 +243,25 @@ void SumMoves(const OverBins& over, Examination& examination) {
   }
 }
 
-/// What findings before adjustment move parameters by, with 95 % of it. They may be one and the same thing seen twice: the
-/// largest of them counts.
-void AddUnadjusted(Examination& examination) {
+/// What findings before adjustment move parameters by. They may be one and the same thing seen twice: a row for each. A parameter may
+/// move by what the friction changes: what it moves beyond that another one takes back.
+void AddUnadjusted(const OverBins& over, Examination& examination) {
   const std::vector<const Finding*> found = examination.FoundUnadjusted();
   if (found.empty()) return;
-  const Index p = std::ssize(examination.rows);
-  Eigen::VectorXd most = Eigen::VectorXd::Zero(p);
+  const Index p = std::ssize(examination.rows), q = over.derivatives.cols();
+  const FrictionChange change(over, examination.friction);
+  VectorXd own(p);  // of the friction, by a change of each parameter by 1
+  for (Index i = 0; i < p; ++i) own[i] = change.By(VectorXd::Unit(q, i));
   for (const Finding* one : found) {
-    most = most.cwiseMax(one->moves.head(p).cwiseAbs() + kNormal95 * one->move_deviations.head(p));
+    double variance = 0;
+    for (const auto& column : one->move_spread.colwise()) {
+      variance += std::pow(change.By(column), 2);
+    }
+    const double most = change.By(one->moves) + kNormal95 * std::sqrt(variance);
+    examination.Add(Source::unadjusted_findings, Action::widen, one->moves);
+    examination.causes.back().spread = one->move_spread.topRows(p);
+    examination.causes.back().most = (own.array() > 0).select(most / own.array(), kInfinity);
   }
-  examination.Add(Source::unadjusted_findings, Action::widen, std::move(most));
 }
 
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
@@ -326,11 +351,10 @@ std::vector<Finding> NotMade(const std::string& reason) {
   return table;
 }
 
-Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const LogSamples& m,
-                            const Selection& selection) {
+Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& fit,
+                            const Inference& by_noise, const LogSamples& m) {
   // the fit along the log, and why it may not be examined
   Examination examination;
-  const std::optional<FittedModel> model = EvaluateModel(fit, by_noise, m, selection);
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
   const std::string obstacle = Obstacle(model, bins);
   examination.findings = NotMade(obstacle);
@@ -357,7 +381,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& by_noise, const Log
 
   // what all of that does to the parameters
   SumMoves(over, examination);
-  AddUnadjusted(examination);
+  AddUnadjusted(over, examination);
   AddHiddenMeans(bins, over.fit, examination);
   return examination;
 }

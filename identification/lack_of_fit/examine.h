@@ -9,6 +9,7 @@
 
 #include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
+#include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/significance.h"
 
 namespace warmjoint {
@@ -39,9 +40,9 @@ struct Examination {
 };
 
 /// Makes all tests at one error level (significance.h). Where they cannot be made each says why.
-/// by_noise: what noise says of the fit; selection: samples at constant speed.
-Examination ExamineResidual(const Fit& fit, const Inference& by_noise,
-                            const LogSamples& measurements, const Selection& selection);
+/// model: of the fit, or none where it was refused; by_noise: what noise says of the fit.
+Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& fit,
+                            const Inference& by_noise, const LogSamples& measurements);
 
 /// The table of tests, none made: for one reason, or where that is empty each for its own.
 std::vector<Finding> NotMade(const std::string& reason);

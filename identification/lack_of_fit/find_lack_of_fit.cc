@@ -66,13 +66,17 @@ struct Examined {
   const Inference& by_noise;
 };
 
-/// The parameter that a row moves farthest, in half widths of its interval by noise, where that is
+/// The parameter that a row moves farthest, with 95 % of that, in half widths of its interval by noise, where that is
 /// beyond one; nothing where there is none.
 std::optional<MovedParameter> FarthestBeyond(const Cause& cause, const Examined& of) {
   std::optional<MovedParameter> farthest;
   double most = 1;
   for (std::size_t i = 0; i < cause.rows.size(); ++i) {
-    const double bias = cause.bias[static_cast<Eigen::Index>(i)];
+    const auto at = static_cast<Eigen::Index>(i);
+    double bias = cause.bias[at];
+    if (cause.spread.size() > 0) {
+      bias += std::copysign(kNormal95 * cause.spread.row(at).norm(), bias);
+    }
     const double beyond = std::abs(bias) / of.by_noise.parameters[cause.rows[i]].HalfWidth();
     // without an interval there is nothing to lie beyond
     if (!std::isfinite(beyond) || beyond <= most) continue;
@@ -87,9 +91,9 @@ std::string QuantityOf(const Finding& finding, const Examined& of) {
   return finding.test->quantity(finding, of.input.measurements);
 }
 
-/// How far a finding changes the friction, beside --relevance: half of that is allowed of what moves understate.
+/// How far a finding changes the friction, beside --relevance: half of that is allowed of what its effect understates.
 double Counted(const Finding& finding) {
-  return (finding.test->harm == Harm::of_either_twice ? 2 : 1) * finding.harm;
+  return (finding.test->harm == Harm::of_effect_twice ? 2 : 1) * finding.harm;
 }
 
 /// Why what was found is too much to live with; nothing where it is not.
@@ -146,7 +150,9 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
   // nobody knows how much of a drift, or of a warm start, the warming took up
   const bool drifts = Finds(examination, HeatRelation::confounded);
   const auto widen = [&](Source source) {
-    if (Cause* const open = Row(source, examination)) open->action = Action::widen;
+    for (Cause& open : examination.causes) {
+      if (open.source == source) open.action = Action::widen;
+    }
   };
   if (drifts) {
     row->without_interval = RowsOfWarming(of.fit);
@@ -195,16 +201,26 @@ void ExplainLog(const Examined& of, Examination& examination) {
     if (!moved) continue;
     row->sentence = ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, row->action);
   }
-  Cause* const row = Row(Source::unadjusted_findings, examination);
-  const auto moved = row ? FarthestBeyond(*row, of) : std::nullopt;
-  if (!moved) return;
+  // one sentence for all, with what moves a parameter farthest
   std::vector<std::string> quantities;
   bool recurs = true;
   for (const Finding* one : examination.FoundUnadjusted()) {
     quantities.push_back(QuantityOf(*one, of));
     recurs = recurs && Recurs(*one->test);
   }
-  row->sentence = ExplainUnadjusted(quantities, *moved, recurs ? kLongerTells : "");
+  Cause* said = nullptr;
+  std::optional<MovedParameter> farthest;
+  for (Cause& row : examination.causes) {
+    if (row.source != Source::unadjusted_findings) continue;
+    const auto moved = FarthestBeyond(row, of);
+    const auto size = [&](const MovedParameter& one) {
+      return std::abs(one.change / one.parameter.value);
+    };
+    if (!moved || (farthest && size(*moved) <= size(*farthest))) continue;
+    said = &row;
+    farthest.emplace(*moved);
+  }
+  if (said) said->sentence = ExplainUnadjusted(quantities, *farthest, recurs ? kLongerTells : "");
 }
 
 }  // namespace
@@ -216,14 +232,16 @@ LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& inp
   if (by_noise.status != Status::ok) {
     Examination none;
     none.findings = NotMade(fmt::format("the fit is {}", StatusName(by_noise.status)));
-    return {DiagnosticsOf(none, fit, unit), {}};
+    return {DiagnosticsOf(none, fit, unit), {}, {}};
   }
-  Examination examination = ExamineResidual(fit, by_noise, input.measurements, input.selection);
+  std::optional<FittedModel> model =
+      EvaluateModel(fit, by_noise, input.measurements, input.selection);
+  Examination examination = ExamineResidual(model, fit, by_noise, input.measurements);
   const Examined of{identifier, input, fit, by_noise};
   ActOnStart(of, judging.start, examination);
   ExplainLog(of, examination);
   ActOnFindings(of, judging, examination);
-  return {DiagnosticsOf(examination, fit, unit), std::move(examination.causes)};
+  return {DiagnosticsOf(examination, fit, unit), std::move(examination.causes), std::move(model)};
 }
 
 }  // namespace warmjoint

@@ -3,11 +3,13 @@
 
 #include <warmjoint/estimate.h>
 
+#include <optional>
 #include <vector>
 
 #include "identification/identifier.h"
 #include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
+#include "identification/lack_of_fit/fitted_model.h"
 
 namespace warmjoint {
 
@@ -22,6 +24,7 @@ struct LackOfFitSettings {
 struct LackOfFit {
   std::vector<Diagnostic> diagnostics;  // of every test
   std::vector<Cause> causes;
+  std::optional<FittedModel> model;  // that was examined; none where the fit was refused
 };
 
 /// Examines a fit by the table of tests for lack of fit (table.h), made at one error level for the log

@@ -54,25 +54,6 @@ JointTrajectory FinerTrajectory(const JointTrajectory& trajectory, double gear) 
   return finer;
 }
 
-/// dFn/dp, by central differences where the law is not linear in p. [N x d]
-Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,
-                                   const Eigen::VectorXd& velocity) {
-  if (IsLinear(law)) return LawColumns(law, velocity);
-  Eigen::MatrixXd derivatives(velocity.size(), static_cast<Eigen::Index>(values.size()));
-  for (size_t i = 0; i < values.size(); ++i) {
-    const double step = 1e-5 * (std::abs(values[i]) + 1e-3);
-    std::vector<double> above = values, below = values;
-    above[i] += step;
-    below[i] -= step;
-    for (Eigen::Index n = 0; n < velocity.size(); ++n) {
-      derivatives(n, static_cast<Eigen::Index>(i)) =
-          (law.force(velocity[n], above.data()) - law.force(velocity[n], below.data())) /
-          (2 * step);
-    }
-  }
-  return derivatives;
-}
-
 /// What maps add to law and warming. [N]
 Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, const LogSamples& m,
                          const Prediction& prediction) {
@@ -199,6 +180,24 @@ Eigen::VectorXd ByRow(const Fit& fit, size_t row) {
 }
 
 }  // namespace
+
+Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,
+                                   const Eigen::VectorXd& velocity) {
+  if (IsLinear(law)) return LawColumns(law, velocity);
+  Eigen::MatrixXd derivatives(velocity.size(), static_cast<Eigen::Index>(values.size()));
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double step = 1e-5 * (std::abs(values[i]) + 1e-3);
+    std::vector<double> above = values, below = values;
+    above[i] += step;
+    below[i] -= step;
+    for (Eigen::Index n = 0; n < velocity.size(); ++n) {
+      derivatives(n, static_cast<Eigen::Index>(i)) =
+          (law.force(velocity[n], above.data()) - law.force(velocity[n], below.data())) /
+          (2 * step);
+    }
+  }
+  return derivatives;
+}
 
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
                                          const LogSamples& m, const Selection& selection) {

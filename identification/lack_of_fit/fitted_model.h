@@ -37,6 +37,11 @@ struct FittedModel {
   bool has_bristle = false;        // whether the law sticks by a state of its own
 };
 
+/// dFn/dp of a law at speeds, by central differences where it is not linear in p. values: [d] p; velocity: [N] rad/s or m/s;
+/// returns [N x d]
+Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,
+                                   const Eigen::VectorXd& velocity);
+
 /// Nothing where the fit was refused. inference: of the fit; selection: samples at constant speed.
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
                                          const LogSamples& measurements,

@@ -50,6 +50,12 @@ MatrixXd NoQuieter(const MatrixXd& scatter, double least) {
          along.eigenvectors().transpose();
 }
 
+/// S of a scatter S S^T. [q x q]
+MatrixXd RootOf(const MatrixXd& scatter) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> along(scatter);
+  return along.eigenvectors() * along.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
 /// How many parts carry features: all of them where each carries as much, one where that one
 /// carries all. shares: [parts] squares of the features
 double CarryingParts(const VectorXd& shares) {
@@ -229,11 +235,7 @@ Finding GrowingFit::Test(const Features& features) const {
   const VectorXd& norms = fit_.norms;
   const MatrixXd give = -fit_.apart.mix.topRows(norms.size()) * (shared * own.mix);
   finding.moves = (give * b).cwiseQuotient(norms);
-  finding.move_deviations = (give * evidence.scatter * give.transpose())
-                                .diagonal()
-                                .cwiseMax(0)
-                                .cwiseSqrt()
-                                .cwiseQuotient(norms);
+  finding.move_spread = norms.cwiseInverse().asDiagonal() * give * RootOf(evidence.scatter);
   return finding;
 }
 

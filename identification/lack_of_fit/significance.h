@@ -27,7 +27,7 @@ struct Finding {
   double lag = 0;                 // of the torque behind the velocity, s; 0: none
   double alike = 0;               // share of an angle's part that acts alike in both directions
   Eigen::VectorXd moves;  // [p] change of the fit's parameters when the features join it; or empty
-  Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`
+  Eigen::MatrixXd move_spread;  // [p x k] S, the covariance of `moves` is S S^T
   double harm =
       0;  // of one that was rejected: how far it changes the friction, as a share of its rms (HarmOf)
 };

@@ -107,7 +107,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        Say<kSpeed>, RemedyForSpeed, "Does the residual depend on the speed?",
        "The law over speed is too simple: try --identifier stribeck, and record five speeds or "
        "more, the slowest below a twentieth of the fastest."},
-      {"energy", kHeldByTheFit, first, confounded, of_moves, SeenOver::energy, OfEnergy,
+      {"energy", kHeldByTheFit, first, confounded, of_drift, SeenOver::energy, OfEnergy,
        Say<kEnergy>, RemedyForWarming, "Does it depend on how warm the joint is?",
        "Warming is not followed: try --identifier energy-ml, on a log that begins cold and lasts "
        "until the torque settles."},
@@ -123,7 +123,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        SeenOver::time, OfTemperature, Say<kTemperature>, RemedyForTemperature,
        "Does it depend on the measured temperature?",
        "The surroundings warm the joint: record at a steady temperature."},
-      {"time", kHeldByTheFit, first, confounded, of_moves, SeenOver::time, OfTime, Say<kTime>,
+      {"time", kHeldByTheFit, first, confounded, of_drift, SeenOver::time, OfTime, Say<kTime>,
        RemedyForWarming, "Does it drift over time?",
        "Friction drifts: try a model that warms (--identifier energy-ml), or record for longer."},
       {"speed_by_energy", "the fit knows no warming", first, independent, of_moves,
@@ -135,11 +135,11 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        "Does friction follow the speed late?",
        "Friction still depends on the speed of a while ago: hold each speed for longer, so that it "
        "settles."},
-      {"step", kHeldByTheFit, first, confounded, of_moves, SeenOver::time, OfStep, Say<kStep>,
+      {"step", kHeldByTheFit, first, confounded, of_drift, SeenOver::time, OfStep, Say<kStep>,
        RemedyForStep, "Does it jump at some moment?",
        "Something changed in the middle of the log (load, controller, grease): record again, or "
        "cut the log there."},
-      {"lag", "too few samples follow a change of speed", lag, independent, of_either_twice,
+      {"lag", "too few samples follow a change of speed", lag, independent, of_effect_twice,
        SeenOver::time, nullptr, Lag, RemedyForLag, "Does the torque lag behind changes of speed?",
        "The torque column is filtered or delayed: raise --trim, so that samples after each change "
        "of speed are left out.",
@@ -180,7 +180,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
       {"hold_phase", kNoHolds, hold, independent, of_either, SeenOver::time, OfHoldPhase,
        Say<kPhase>, RemedyForHolds, "Does it change within each hold of constant speed?",
        "Torque settles within each hold: raise --trim, or hold each speed for longer."},
-      {"periodic", "the log is too short", last, independent, of_moves, SeenOver::time, OfPeriod,
+      {"periodic", "the log is too short", last, independent, of_effect, SeenOver::time, OfPeriod,
        Period, RemedyForPeriod, "Does it repeat in time?",
        "Something repeats in time: look for a controller that swings, or another joint that "
        "moves."}};

@@ -41,10 +41,11 @@ enum class Turn {
 /// What a fitted warming may have taken up of that which a test looks for; `starts`: that the log began warm.
 enum class HeatRelation { independent, confounded, starts };
 
-/// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange), its own
-/// size, where that is friction or where moves do not show it, or the larger; twice where moves understate it, as of
-/// a lag. Of a direction its own size, by which the friction of either direction is off.
-enum class Harm { of_moves, of_effect, of_direction, of_either, of_either_twice };
+/// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange); its own
+/// size, its effect, where that is friction or where moves do not show it; or the larger; twice its effect where that
+/// understates it, as of a lag. Of a direction its own size, by which the friction of either direction is off. Of a drift beside
+/// a law without heat the smaller of the moves and sqrt(10) times the effect, with heat the moves.
+enum class Harm { of_moves, of_effect, of_effect_twice, of_direction, of_either, of_drift };
 
 /// Over what residuals show what a test looks for.
 enum class SeenOver { time, position, velocity, energy, motor_angle };

@@ -96,7 +96,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
   return problem;
 }
 
-/// Bands of a fit of law and maps, and friction at speeds where they share a constant.
+/// Bands of a fit of law and maps, and friction at speeds.
 void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
               const Uncertainty& known, Fit& fit) {
   const Law& law = *task.law;
@@ -104,18 +104,14 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   MakeBands(law, problem, maps, known, fit);
   WidenUnresolved(maps.maps.front(), input.measurements,
                   StudentQuantile(known.degrees_of_freedom, kIntervalLevel), fit.bands.front());
-  const bool shares = std::ranges::any_of(
-      fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
-  std::vector<FrictionAtSpeed> friction_at_speeds =
-      FrictionAtSpeeds(law, maps, known, problem.points);
+  fit.friction_at_speeds = FrictionAtSpeeds(law, maps, known, problem.points);
   // beyond doubt below 0 in the mean of its places
   const auto drives = std::ranges::find_if(
-      friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
-  if (drives != friction_at_speeds.end()) {
+      fit.friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
+  if (drives != fit.friction_at_speeds.end()) {
     fit.causes.push_back(
         Voids(Status::inadequate_model, ExplainDrivingFriction(*drives, input.measurements, fit)));
   }
-  if (shares) fit.friction_at_speeds = std::move(friction_at_speeds);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/holes.h"
 #include "identification/ridge/local_rows.h"
+#include "identification/typical_speeds.h"
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/random_stream.h"
@@ -25,9 +26,6 @@ using Eigen::Index;
 constexpr Index kEnough = 1000;  // samples; why 1000: their mean is sure to 3 % of their spread
 // why: with 0.075 or 0.033 all bands of tests/studies/maps.yaml stay
 constexpr double kBlind = 0.05;  // share of kernels without data
-constexpr double kAlike = 0.2;   // of ln |v|; why: speeds nearer to each other are held as one
-constexpr int kRounds = 5;       // why: from the edge of kAlike to the middle of what is within
-constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lies about either
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
 bool IsAlikeInBothDirections(const FrictionMap& map) {
@@ -367,28 +365,6 @@ void WidenUnresolved(const FrictionMap& motor, const LogSamples& m, double reach
 
 namespace {
 
-/// Mean velocity of a group of points, rad/s or m/s. Summed here: Eigen 3.4 sums a view of some rows of a column of a
-/// matrix by rows over other elements.
-double MeanVelocity(const std::vector<Index>& group, const MapPoints& kept) {
-  double sum = 0;
-  for (const Index i : group) sum += kept(i, kVelocity);
-  return sum / static_cast<double>(group.size());
-}
-
-/// Those of some points about a speed that the joint held, from one of the speeds on to where they gather.
-std::vector<Index> Gather(double speed, const std::vector<Index>& one_direction,
-                          const MapPoints& kept) {
-  std::vector<Index> group;
-  for (int round = 0; round < kRounds; ++round) {
-    group.clear();
-    for (const Index i : one_direction) {
-      if (std::abs(std::log(std::abs(kept(i, kVelocity)) / speed)) <= kAlike) group.push_back(i);
-    }
-    speed = std::abs(MeanVelocity(group, kept));
-  }
-  return group;
-}
-
 /// a of the mean over the points of a group, or over every so manieth of many. [p + q]
 Eigen::RowVectorXd MeanOver(const std::vector<Index>& group, const Law& law, const MapFit& fit,
                             const MapPoints& kept) {
@@ -409,25 +385,13 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
   const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
   std::vector<FrictionAtSpeed> all;
-  for (const int direction : {1, -1}) {
-    const std::vector<Index> one_direction = Towards(direction, kept);
-    double latest = 0;
-    for (const double quantile : {kSlow, 0.5, kFast}) {
-      if (one_direction.empty()) continue;
-      Eigen::VectorXd speeds = kept(one_direction, kVelocity).cwiseAbs();
-      const std::vector<Index> group =
-          Gather(QuantileInPlace(speeds, quantile), one_direction, kept);
-      const double speed = MeanVelocity(group, kept);
-      // a joint that knows one speed has one figure
-      if (latest > 0 && !(std::log(std::abs(speed) / latest) > kAlike)) continue;
-      latest = std::abs(speed);
-      // linear in law and weights, so that its variance follows from their covariance
-      const Eigen::RowVectorXd row = MeanOver(group, law, fit, kept);
-      const double value = row * fit.x;
-      const double deviation = std::sqrt(std::max(0.0, double(row * covariance * row.transpose())));
-      all.push_back(
-          {speed, value, deviation, {value - reach * deviation, value + reach * deviation}});
-    }
+  for (const SpeedGroup& group : TypicalSpeeds(kept.col(kVelocity))) {
+    // linear in law and weights, so that its variance follows from their covariance
+    const Eigen::RowVectorXd row = MeanOver(group.samples, law, fit, kept);
+    const double value = row * fit.x;
+    const double deviation = std::sqrt(std::max(0.0, double(row * covariance * row.transpose())));
+    all.push_back(
+        {group.velocity, value, deviation, {value - reach * deviation, value + reach * deviation}});
   }
   return all;
 }

@@ -296,8 +296,7 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   std::iota(places.begin(), places.end(), 0);
   places.erase(places.begin() + maps.layout.weights.begin,
                places.begin() + maps.layout.weights.end());
-  known.covariance = known.covariance(places, places).eval();
-  return known;
+  return Picked(std::move(known), places);
 }
 
 /// Adds the warming to a fit of law and maps. known: JointCovariance

@@ -2,6 +2,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -120,21 +121,27 @@ void CheckAlike(const Measurements& a, const Measurements& b) {
          b.torque_unit, a.source, a.torque_unit);
 }
 
-/// The means over all kept samples whose velocity was averaged.
+/// Over all kept samples whose velocity was averaged: means, and the spread of their speeds within the recordings and from one
+/// to the next.
 std::optional<VelocityNoise> MeanNoise(const std::vector<PreparedLog>& recordings) {
-  VelocityNoise mean;
-  double count = 0;
+  double count = 0, noise = 0, error = 0, speed = 0, square = 0;
   for (const PreparedLog& one : recordings) {
-    if (!one.velocity_noise()) continue;
+    const std::optional<VelocityNoise>& own = one.velocity_noise();
+    if (!own) continue;
     const auto samples = static_cast<double>(one.constant_speed().selection.count());
-    const double share = samples / (count += samples);
-    const auto take = [share](double value, double& of) { of += share * (value - of); };
-    take(one.velocity_noise()->noise, mean.noise);
-    take(one.velocity_noise()->attenuation, mean.attenuation);
-    take(one.velocity_noise()->left, mean.left);
-    take(one.velocity_noise()->mean_speed, mean.mean_speed);
+    count += samples;
+    noise += samples * own->noise * own->noise;
+    error += samples * own->error * own->error;
+    speed += samples * own->mean_speed;
+    square += samples * (own->spread + own->mean_speed * own->mean_speed);
   }
-  return count > 0 ? std::optional(mean) : std::nullopt;
+  if (count == 0) return std::nullopt;
+  VelocityNoise mean{.noise = std::sqrt(noise / count),
+                     .mean_speed = speed / count,
+                     .error = std::sqrt(error / count)};
+  mean.spread = square / count - mean.mean_speed * mean.mean_speed;
+  mean.FindShares();
+  return mean;
 }
 
 /// Of the whole path, the share that no sample shows.

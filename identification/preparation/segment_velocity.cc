@@ -112,7 +112,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
 
   SegmentVelocity taken{
       measurements.velocity,
-      {pooled.velocity_noise, pooled.Attenuation(variance), 0, pooled.mean_speed}};
+      {.noise = pooled.velocity_noise, .mean_speed = pooled.mean_speed, .spread = pooled.spread}};
   double errors = 0;  // of a velocity, mean square over the samples
   // each segment moves at its own best velocity, and drifts where its slope is beyond doubt
   for (const Steady& one : all) {
@@ -127,7 +127,8 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
     }
   }
   // what the errors that remain take off a slope
-  taken.noise.left = pooled.Attenuation(errors);
+  taken.noise.error = std::sqrt(errors);
+  taken.noise.FindShares();
   return taken;
 }
 

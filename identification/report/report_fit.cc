@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/explain.h"
 #include "identification/fit.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
@@ -119,7 +120,7 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
         slopes.col(at.column) / ValueByCoordinate(fit.parameters[at.row], known.value);
   }
   for (Eigen::Index i = 0; i < by_value.rows(); ++i) {
-    errors.widened[i] = ChangeOf(inference.causes, by_value.row(i)).reach;
+    errors.widened[i] = ChangeOf(inference.causes, by_value.row(i)).Reach();
   }
   return errors;
 }
@@ -240,22 +241,21 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   return of;
 }
 
-/// What the half widths of intervals that reach farther than noise has them are made of, of each first the noise.
+/// What the half widths of intervals are made of, of each that has several parts.
 std::vector<HalfWidthPart> HalfWidths(const Fit& fit, const Inference& inference) {
-  std::vector<HalfWidthPart> parts;
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const std::string& name = fit.parameters[i].name;
-    const ParameterInterval& known = inference.parameters[i];
-    if (name.empty() || !known.interval95 || !(known.widened > 0)) continue;
-    parts.push_back({name, "noise", known.HalfWidth() - known.widened});
-    for (const Cause& cause : inference.causes) {
-      const auto at = std::ranges::find(cause.rows, i);
-      if (at == cause.rows.end()) continue;
-      const double reach = ReachOf(cause, static_cast<size_t>(at - cause.rows.begin()));
-      if (reach > 0) parts.push_back({name, std::string(NameOf(cause.source)), reach});
+  std::vector<HalfWidthPart> all;
+  const auto add = [&](const std::string& name, const std::vector<WidthPart>& parts) {
+    if (name.empty() || parts.size() < 2) return;
+    for (const WidthPart& part : parts) {
+      all.push_back({name, std::string(NameOf(part.by)), part.half_width});
     }
+  };
+  for (const SpeedFigure& one : inference.at_speeds) add(NameOfFriction(one.at), one.parts);
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    if (!inference.parameters[i].interval95) continue;
+    add(fit.parameters[i].name, inference.parameters[i].parts);
   }
-  return parts;
+  return all;
 }
 
 /// Moves a figure by what the causes did to the law's parameters. by_law: [d] its derivatives by these, which come first in
@@ -264,31 +264,23 @@ void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double&
            std::array<double, 2>& interval) {
   Eigen::VectorXd derivatives = Eigen::VectorXd::Zero(std::ssize(inference.parameters));
   derivatives.head(by_law.size()) = by_law;
-  const auto [shift, reach] = ChangeOf(inference.causes, derivatives);
+  const FigureChange change = ChangeOf(inference.causes, derivatives);
+  const double shift = change.shift, reach = change.Reach();
   value += shift;
   interval = {interval[0] + shift - reach, interval[1] + shift + reach};
 }
 
-/// Bands along maps, and friction at speeds, by the law that is reported.
-void AddMapFigures(const Fit& fit, const Inference& inference, const LogSamples& measurements,
-                   Estimate& estimate) {
-  estimate.bands = fit.bands;
-  for (size_t b = 0; b < estimate.bands.size(); ++b) {
-    MapBand& band = estimate.bands[b];
+/// Bands along maps, by the law that is reported.
+std::vector<MapBand> BandsOf(const Fit& fit, const Inference& inference) {
+  std::vector<MapBand> bands = fit.bands;
+  for (size_t b = 0; b < bands.size(); ++b) {
+    MapBand& band = bands[b];
     for (size_t g = 0; g < band.value.size(); ++g) {
       Carry(inference, fit.bands_by_law[b].row(static_cast<Eigen::Index>(g)), band.value[g],
             band.interval95[g]);
     }
   }
-  estimate.friction_at_speeds = fit.friction_at_speeds;
-  for (FrictionAtSpeed& one : estimate.friction_at_speeds) {
-    // resistance is the force times the direction
-    const Eigen::MatrixXd columns =
-        LawColumns(*FindLaw(fit.friction.law), Eigen::VectorXd::Constant(1, one.speed));
-    Carry(inference, Sign(one.speed) * columns.row(0), one.value, one.interval95);
-    one.speed_unit = kVelocityUnit.For(measurements.joint);
-    one.unit = measurements.torque_unit;
-  }
+  return bands;
 }
 
 }  // namespace
@@ -379,7 +371,10 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog
   // and what can be used elsewhere
   estimate.friction = ReportedFriction(fit, inference);
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
-  AddMapFigures(fit, inference, measurements, estimate);
+  estimate.bands = BandsOf(fit, inference);
+  for (const SpeedFigure& one : inference.at_speeds) {
+    estimate.friction_at_speeds.push_back(one.at);
+  }
   // without intervals there is no covariance either
   ParameterCovariance covariance = CovarianceOfValues(fit, inference);
   if (!covariance.parameters.empty()) estimate.covariance = std::move(covariance);

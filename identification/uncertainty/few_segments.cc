@@ -113,6 +113,8 @@ double FewestFreedom(const Selection& selection, Index p) {
 
 void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& residual,
                    const Selection& selection, Uncertainty& known) {
+  known.by_samples = known.covariance;
+  known.samples_degrees_of_freedom = known.degrees_of_freedom;
   // the scatter of what each segment says takes the place of an assumed noise
   const Index p = cofactor.rows();
   MatrixXd scatter = MatrixXd::Zero(p, p);

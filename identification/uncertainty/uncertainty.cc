@@ -65,6 +65,7 @@ Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
   if (uneven > kUneven) result.uneven = uneven;
 
   // white and even: (J^T R J) C is s^2 times the identity
+  result.white = residual.squaredNorm() / std::max(n - d, 1.0) * cofactor;
   if (result.noise.order() == 0 && result.uneven == 0) {
     result.degrees_of_freedom = n - d;
     result.covariance = residual.squaredNorm() / result.degrees_of_freedom * cofactor;
@@ -96,6 +97,13 @@ Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
   result.degrees_of_freedom = std::max(n / result.noise.variance_inflation - d, 1.0);
   result.covariance = n / (n - taken) * spread(scatter);
   return result;
+}
+
+Uncertainty Picked(Uncertainty known, const std::vector<Eigen::Index>& places) {
+  for (Eigen::MatrixXd* const one : {&known.covariance, &known.white, &known.by_samples}) {
+    if (one->size() > 0) *one = (*one)(places, places).eval();
+  }
+  return known;
 }
 
 double RoundingVariance(const Eigen::VectorXd& torque) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "identification/uncertainty/noise_model.h"
 
@@ -18,6 +19,12 @@ struct Uncertainty {
   NoiseModel noise;
   double uneven = 0;  // deviations by which the noise's variance changes; 0 where it may be even
 
+  // what it is made of
+  Eigen::MatrixXd white;       // [d x d] were the noise white and even; or empty: not known
+  Eigen::MatrixXd by_samples;  // [d x d] before few segments counted; or empty: they do not
+  double samples_degrees_of_freedom = 1;  // of that
+  Eigen::VectorXd structure;              // [d] an error that joined it; or empty
+
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
   /// Degrees of freedom of that.
@@ -25,6 +32,9 @@ struct Uncertainty {
     return each_degrees_of_freedom.size() > 0 ? each_degrees_of_freedom[i] : degrees_of_freedom;
   }
 };
+
+/// That of some parameters. places: [q] of them, in the order of the result
+Uncertainty Picked(Uncertainty known, const std::vector<Eigen::Index>& places);
 
 /// Covariance of x = argmin |y - f(x)|^2 for stationary noise: C (J^T R J) C, C = (J^T J)^-1, with
 /// R from an autoregressive model of the residual (noise_model.h). For white noise it is s^2 C.

@@ -3,8 +3,9 @@
 usage: real_logs.py WARMJOINT SHARED [IDENTIFIER]...        default: auto nominal-ls
 
 A half is every sample before or after the middle of the log. For each parameter of law and heat that has a 95 % interval in both halves, z is
-the difference over the root of the sum of squares of both standard errors (half an interval over 1.96). Beside it stands
-least squares by NumPy: viscous and asymmetric Coulomb friction, gravity and inertia, the first 70 % predicting the last 30 %.
+the difference over the root of the sum of squares of both standard errors (half an interval over 1.96). The same for the friction
+at the speeds below which 10, 50 and 90 % of the moving samples lie, forwards and backwards: between those of `friction_at_speeds`, or, of
+a program that tells none, by the parameters' covariance as wide as their intervals. Beside it stands least squares by NumPy: viscous and asymmetric Coulomb friction, gravity and inertia, the first 70 % predicting the last 30 %.
 """
 
 import json
@@ -27,8 +28,9 @@ LOGS = {
                ("timestamp", "actual_q_0", "actual_qd_0", "actual_current_0"), np.pi / 180),
     "xArm6": ("xarm6_thermal/j3_48deg_s.csv",
               "--map time=t,position=q_deg,velocity=v_deg,torque=i,temperature=temp --unit position=deg,velocity=deg/s,torque=A,"
-              "temperature=degC", None, 1),
+              "temperature=degC", None, np.pi / 180),
 }
+XARM = ("t", "q_deg", "v_deg", "i")
 FRICTION = ("viscous", "coulomb", "coulomb_positive", "coulomb_negative", "thermal_gain", "thermal_time_constant")
 
 
@@ -47,6 +49,52 @@ def least_squares(path, columns, to_radians):
     x = np.linalg.lstsq(rows[:n], tau[:n], rcond=None)[0]
     rest = tau[n:]
     return 100 * (1 - np.linalg.norm(rest - rows[n:] @ x) / np.linalg.norm(rest - rest.mean()))
+
+
+def speeds_of(path, columns, to_radians):
+    """Three speeds of the moving samples, rad/s or m/s."""
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    q = table[columns[1]]
+    v = np.abs((table[columns[2]] if columns[2] else np.gradient(q, table[columns[0]])) * to_radians)
+    return np.quantile(v[v > 0.05 * np.sqrt(np.mean(v**2))], (0.1, 0.5, 0.9))
+
+
+def friction_at(estimate, speeds):
+    """{(speed, state): (value, half width)} of an answer, between the speeds that it tells, with directions as signs."""
+    found = {}
+    if estimate["status"] != "ok":
+        return found
+    rows = estimate.get("friction_at_speeds")
+    if rows is None:
+        return by_covariance(estimate, speeds)
+    for sign in (1, -1):
+        for state in ("cold", "warm"):
+            known = sorted((abs(r["speed"]), r["value"], (r["interval95"][1] - r["interval95"][0]) / 2) for r in rows
+                           if np.sign(r["speed"]) == sign and (state == "warm") == bool(r.get("energy")))
+            for speed in speeds if known else ():
+                v, value, half = np.transpose(known)
+                found[sign * speed, state] = (np.interp(speed, v, value), np.interp(speed, v, half))
+    return found
+
+
+def by_covariance(estimate, speeds):
+    """The same, cold, of a law of levels and a slope."""
+    found, parameters, known = {}, estimate["parameters"], estimate.get("covariance")
+    if not known:
+        return found
+    for sign in (1, -1):
+        level = "coulomb" if "coulomb" in parameters else "coulomb_positive" if sign > 0 else "coulomb_negative"
+        of_law = [n for n in ("viscous", level) if n in parameters]
+        if not of_law or not all(n in known["parameters"] and parameters[n].get("interval95") for n in of_law):
+            continue
+        at = [known["parameters"].index(n) for n in of_law]
+        matrix = np.array(known["matrix"])[np.ix_(at, at)]
+        scale = np.array([np.diff(parameters[n]["interval95"])[0] / 2 for n in of_law]) / np.sqrt(np.diag(matrix))
+        for speed in speeds:
+            d = np.array([speed if n == "viscous" else 1 for n in of_law])
+            value = d @ [parameters[n]["value"] for n in of_law]
+            found[sign * speed, "cold"] = (value, np.sqrt(d @ (matrix * np.outer(scale, scale)) @ d))
+    return found
 
 
 def identify(program, path, arguments, identifier, folder):
@@ -78,7 +126,7 @@ def distances(one, other):
 
 def main():
     program, shared = sys.argv[1], pathlib.Path(sys.argv[2])
-    everything = []
+    everything, friction_z, half_widths = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         for identifier in sys.argv[3:] or ["auto", "nominal-ls"]:
             for name, (file, arguments, columns, unit) in LOGS.items():
@@ -87,15 +135,32 @@ def main():
                 parts = [identify(program, half, arguments, identifier, folder) for half in halves(path, folder)]
                 z = distances(*parts) if all(part["status"] == "ok" for part in parts) else {}
                 everything += z.values()
+                speeds = speeds_of(path, columns or XARM, unit)
+                at = friction_at(whole, speeds)
+                half_widths += [half / abs(value) for value, half in at.values()]
+                one, other = (friction_at(part, speeds) for part in parts)
+                off = {key: (one[key][0] - other[key][0]) / np.hypot(one[key][1] / 1.96, other[key][1] / 1.96)
+                       for key in one.keys() & other.keys()}
+                friction_z += off.values()
                 fit = (whole.get("metrics") or {}).get("fit")
                 ls = f"{least_squares(path, columns, unit):.1f} %" if columns else "-"
                 print(f"{name:8} {identifier:12} {whole['status']:16} Fit {fit if fit is None else round(fit, 1)} %, "
                       f"least squares held out {ls}; halves {parts[0]['status']}, {parts[1]['status']}:",
                       ", ".join(f"{n} z {value:.1f}" for n, value in z.items()))
+                print("    friction at", ", ".join(
+                    f"{speed:.3g} {state} {value:.4g} +- {100 * half / abs(value):.1f} %" +
+                    (f" (halves z {off[speed, state]:.1f})" if (speed, state) in off else "")
+                    for (speed, state), (value, half) in at.items()))
                 print("   ", whole["message"].replace("\n", "\n    "))
     size = np.abs(everything)
     if len(size):
         print(f"{len(size)} pairs: |z| <= 2 in {100 * np.mean(size <= 2):.0f} %, worst {size.max():.1f}")
+    if half_widths:
+        print(f"friction at speeds: {len(half_widths)} with a median half width of {100 * np.median(half_widths):.1f} %")
+    if friction_z:
+        z = np.abs(friction_z)
+        print(f"halves: {len(z)} pairs with a median |z| of {np.median(z):.2f}; |z| <= 2 in {100 * np.mean(z <= 2):.0f} %, "
+              f"worst {z.max():.1f}")
 
 
 if __name__ == "__main__":

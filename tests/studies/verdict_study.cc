@@ -16,6 +16,8 @@
 // every interval, made as much longer at both ends as the assumption moves the parameter, holds it; behind that stands
 // how often none of them leaves the truth more than three deviations outside, as an answer that is not confidently wrong,
 // and how often it reaches the truth of all parameters that it moves: the others' intervals miss as often as 5 % each.
+// Friction at speeds, beside the truth's law with the heat of its warmest moment, of truths without maps: coverage, how often it is
+// confidently wrong, median |z| (.67 is honest) and median half width as a share of the friction.
 // Ideal chi2: squares that the fit leaves of the torque without noise, over the noise's variance; median and quartiles
 // over the logs. Behind it the share that is confidently wrong of the logs where it is above 30.
 #include <fmt/format.h>
@@ -40,6 +42,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/seen_samples.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/sign.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
@@ -200,6 +203,44 @@ struct TestRates {
   double effects = 0;  // sum over rejections, shares of the friction's rms
 };
 
+/// What became of friction at speeds.
+struct SpeedRates {
+  Rate covered, far;
+  std::vector<double> z, half_widths;  // half widths over the friction
+
+  void Count(const Estimate& estimate, const Truth& truth) {
+    if (!truth.friction.maps.empty()) return;
+    const Law& law = *FindLaw(truth.friction.law);
+    const std::vector<double> values = LawValues(truth.friction);
+    Eigen::Index warmest = 0;
+    if (truth.energy.size() > 0) truth.energy.cwiseAbs().maxCoeff(&warmest);
+    for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+      double value = Sign(one.speed) * law.force(one.speed, values.data());
+      if (one.energy.value_or(0) != 0) value += truth.energy[warmest];
+      const auto [lower, upper] = one.interval95;
+      const double deviation = (upper - lower) / kIntervalWidth;
+      covered.Count(lower <= value && value <= upper);
+      far.Count(value < lower - kFarDeviations * deviation ||
+                value > upper + kFarDeviations * deviation);
+      z.push_back(std::abs(one.value - value) / deviation);
+      half_widths.push_back(0.5 * (upper - lower) / std::abs(value));
+    }
+  }
+
+  void Print() const {
+    if (z.empty()) return;
+    const auto median = [](const std::vector<double>& of) {
+      Eigen::VectorXd all =
+          Eigen::Map<const Eigen::VectorXd>(of.data(), static_cast<Eigen::Index>(of.size()));
+      return MedianInPlace(all);
+    };
+    fmt::print(
+        "    friction at speeds       {:16} confidently wrong {}, median |z| {:.2f}, median half "
+        "width {:.2g} %\n",
+        covered.Text(), far.Text(), median(z), 100 * median(half_widths));
+  }
+};
+
 /// Outcomes of one identifier in one variant.
 struct Outcomes {
   std::map<std::string, int> statuses;
@@ -212,8 +253,9 @@ struct Outcomes {
   Rate refused;                         // not ok
   Rate warned;                          // ok, with a test that rejects
   Rate wrong;                           // confidently
-  std::vector<double> chi2;             // ideal
-  Rate visibly_wrong;  // confidently, of the logs whose ideal chi2 is above kVisible
+  SpeedRates at_speeds;
+  std::vector<double> chi2;  // ideal
+  Rate visibly_wrong;        // confidently, of the logs whose ideal chi2 is above kVisible
 
   void Count(const Estimate& estimate, const Simulation& recording, const LogView& view,
              std::optional<double> ideal) {
@@ -234,6 +276,7 @@ struct Outcomes {
     refused.Count(!ok);
     warned.Count(ok && any);
     bool far = false;
+    if (ok) at_speeds.Count(estimate, recording.truth);
     if (ok) {
       const Score score =
           ScoreEstimate(estimate, view.measurements, view.selection, recording.truth);
@@ -273,6 +316,7 @@ struct Outcomes {
       fmt::print(", of the {} logs with ideal chi2 > {:.0f} {}", visibly_wrong.of, kVisible,
                  visibly_wrong.Text());
     fmt::print("\n");
+    at_speeds.Print();
     for (const auto& [name, rate] : reaches) {
       fmt::print("    {:24} reaches the truth {}, to three deviations {}, of what it moves {}\n",
                  name, rate.Text(), nears[name].Text(), moved[name].Text());

@@ -209,7 +209,7 @@ std::string EstimatesToText(const std::vector<Answered>& answers, const std::str
   std::vector<std::string> names;
   for (const Answered& answer : answers) {
     if (!answer.identified) continue;
-    for (const EstimatedParameter& one : ShownParameters(answer.identified->estimate)) {
+    for (const EstimatedParameter& one : OwnParameters(answer.identified->estimate)) {
       if (std::ranges::find(names, one.name) != names.end()) continue;
       names.push_back(one.name);
       table.header.push_back(one.unit == "1" ? one.name : one.name + " " + one.unit);
@@ -227,7 +227,7 @@ std::string EstimatesToText(const std::vector<Answered>& answers, const std::str
     cells[1] = StatusName(estimate.status);
     if (estimate.metrics) cells[2] = fmt::format("{:.4g}", estimate.metrics->rmse);
     if (estimate.holdout) cells[3] = fmt::format("{:.4g}", estimate.holdout->rmse);
-    for (const EstimatedParameter& one : ShownParameters(estimate)) {
+    for (const EstimatedParameter& one : OwnParameters(estimate)) {
       const auto column = std::ranges::find(names, one.name) - names.begin();
       cells[4 + static_cast<size_t>(column)] = fmt::format("{:.4g}", one.value);
     }

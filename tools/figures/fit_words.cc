@@ -21,7 +21,7 @@ std::string WithDigitsOf(double value, std::optional<double> deviation) {
   if (!std::isfinite(value) || !std::isfinite(*deviation)) return SignificantText(value, 4);
   const double digits =
       std::floor(std::log10(std::abs(value))) - std::floor(std::log10(*deviation)) + 2;
-  return SignificantText(value, static_cast<int>(std::clamp(digits, 2.0, 7.0)));
+  return SignificantText(value, static_cast<int>(std::clamp(digits, 2.0, 6.0)));
 }
 
 std::string IntervalText(const EstimatedParameter& parameter) {

@@ -6,12 +6,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <string_view>
+
+#include "identification/explain.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint {
 namespace {
 
-/// Whether only the prior of a map tells this parameter.
+/// Whether the parameter repeats others, for a program that steps by the sampling interval.
+bool IsOfOneStep(const EstimatedParameter& one) {
+  return one.name == kDiscreteGainName || one.name == kPoleName;
+}
+
+/// Whether only friction at speeds is known, and not this parameter of the law.
 bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
   if (estimate.friction_at_speeds.empty() || one.interval95) return false;
   const Law* law = estimate.friction ? FindLaw(estimate.friction->law) : nullptr;
@@ -74,17 +83,20 @@ std::string Shortened(const std::string& warning) {
 
 }  // namespace
 
+std::vector<EstimatedParameter> OwnParameters(const Estimate& estimate) {
+  std::vector<EstimatedParameter> own;
+  for (const EstimatedParameter& one : estimate.parameters) {
+    if (!IsShared(estimate, one) && !IsOfOneStep(one)) own.push_back(one);
+  }
+  return own;
+}
+
 std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate) {
   std::vector<EstimatedParameter> shown;
-  for (const EstimatedParameter& one : estimate.parameters) {
-    if (!IsShared(estimate, one)) shown.push_back(one);
-  }
   for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
-    std::string name = fmt::format("friction {} at {:.3g}",
-                                   one.speed < 0 ? "backwards" : "forwards", std::abs(one.speed));
-    if (!one.speed_unit.empty()) name += " " + one.speed_unit;
-    shown.push_back({std::move(name), one.value, one.unit, one.std, one.interval95});
+    shown.push_back({NameOfFriction(one), one.value, one.unit, one.std, one.interval95});
   }
+  std::ranges::move(OwnParameters(estimate), std::back_inserter(shown));
   return shown;
 }
 

@@ -8,9 +8,11 @@
 
 namespace warmjoint {
 
-/// The rows of every table of parameters. Those of the law that only the prior of a map tells are left
-/// out; "friction at 0.3 rad/s" at three speeds, which the data tell, stands behind the others in their
-/// place.
+/// The parameters, without those of the law of which only friction at speeds is known, and without the discrete pair, which
+/// repeats gain and time constant.
+std::vector<EstimatedParameter> OwnParameters(const Estimate& estimate);
+
+/// The rows of every table of one estimate: friction at speeds first, "friction forwards at 0.3 rad/s", then its parameters.
 std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate);
 
 /// All that an estimate says beside its status, a sentence each: its message, then its warnings.

@@ -173,13 +173,15 @@ struct MapBand {
   }
 };
 
-/// What law and maps brake with at one speed: the mean over the places where kept samples moved so.
+/// What law and maps brake with at one speed: with maps the mean over the places where kept samples moved so.
 struct FrictionAtSpeed {
   double speed = 0;
   double value = 0;
   double std = 0;
   std::array<double, 2> interval95{};
   std::string speed_unit{}, unit{};  // of a report; empty in a file that does not tell them
+  /// E with which the joint slides, N.m or N: 0 of a cold one, else that of the log's warmest moment; none where nothing warms.
+  std::optional<double> energy{};
 
   template <class A>
   void Serialize(A* a) {
@@ -189,6 +191,11 @@ struct FrictionAtSpeed {
     a->Field("interval95", &interval95, {.unit = "N.m", .needed = "give [lower, upper]"});
     a->Field("speed_unit", &speed_unit, {.at_default = AtDefault::left_out});
     a->Field("unit", &unit, {.at_default = AtDefault::left_out});
+    a->Field("energy", &energy,
+             {.unit = "N.m",
+              .meaning = "heat E: 0 of a cold joint, else that of the log's warmest moment; left "
+                         "out where nothing warms",
+              .at_default = AtDefault::left_out});
   }
 };
 
@@ -443,7 +450,7 @@ struct Estimate {
         "friction_at_speeds", &friction_at_speeds,
         LeftOut(
             "what law and maps brake with together at a low, the median and a high speed of each "
-            "direction, in place of a constant of the law that only a prior tells from a map"));
+            "direction, cold and, where a law warms, at the log's warmest moment"));
     a->Field("bands", &bands, LeftOut("law and maps together at the centres of each map"));
     a->Field("covariance", &covariance, OrNull("of the values with intervals, by noise alone"));
 

@@ -60,6 +60,14 @@ struct VelocityNoise {
   double attenuation = 0;  // share of a slope over |v| that this noise would hide
   double left = 0;         // the share that the noise of one velocity for a segment still hides
   double mean_speed = 0;   // mean |v| of the kept samples, rad/s or m/s
+  double error = 0;        // of the one velocity for a segment, rms over the samples, rad/s or m/s
+  double spread = 0;       // variance of the segments' |v|, (rad/s)^2 or (m/s)^2
+
+  /// Both shares, by the errors and the spread.
+  void FindShares() {
+    attenuation = noise * noise / (noise * noise + spread);
+    left = error * error / (error * error + spread);
+  }
 };
 
 /// What in a log contradicts itself (log_faults.h).

@@ -61,6 +61,56 @@ TEST(CheckEstimate, GivesTheFrictionOfTheNumbersThatItMoves) {
   EXPECT_EQ(estimate.friction->parameters.at("coulomb"), estimate.Find("coulomb")->value);
 }
 
+TEST(FrictionAtSpeeds, HoldsTheTruthColdAndWarm) {
+  const Friction truth = test::TableOne();
+  const Law& law = *FindLaw(truth.law);
+  const std::vector<double> values = LawValues(truth);
+  int held = 0, of = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Measurements m = test::RecordHour(truth, seed);
+    const Estimate estimate = test::Answer("energy-ml", m);
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    double warmest = 0;
+    for (const double energy : AlongMotion(truth).Predict(TrajectoryOf(LogSamples(m))).energy) {
+      if (std::abs(energy) > std::abs(warmest)) warmest = energy;
+    }
+    // three speeds of each direction, cold and warm
+    ASSERT_EQ(estimate.friction_at_speeds.size(), 12u);
+    for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+      const double cold = std::copysign(law.force(one.speed, values.data()), 1);
+      const double value = cold + (*one.energy == 0 ? 0 : warmest);
+      held += one.interval95[0] <= value && value <= one.interval95[1];
+      ++of;
+      EXPECT_LT(one.std, 0.02 * value);
+    }
+  }
+  // 95 % of 240 that are not independent: 8 of 20 logs may miss two or three each
+  EXPECT_GE(held, 0.88 * of);
+}
+
+TEST(FrictionAtSpeeds, IsAllThatALogOfOneSpeedTells) {
+  Eigen::VectorXd velocity(600);
+  for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity[i] = i / 20 % 2 == 0 ? 0.5 : -0.5;
+  const Measurements m = test::RecordFriction(test::Cold(), 1, velocity, 0.5, 1);
+  const Estimate estimate = test::Answer("nominal-ls", m, {{"law", "coulomb"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_FALSE(estimate.Find("coulomb")->interval95);
+  EXPECT_THAT(estimate.FullMessage(), testing::HasSubstr("one speed each way"));
+  ASSERT_EQ(estimate.friction_at_speeds.size(), 2u);
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    EXPECT_NEAR(one.value, 15 + 0.5 * 5, 4 * one.std);
+  }
+}
+
+TEST(FrictionAtSpeeds, RefusesFrictionThatIsNotKnown) {
+  // friction of 0.02 N.m beneath noise of 0.5 N.m
+  Friction none = test::Cold();
+  none.parameters = {{"viscous", 0.01}, {"coulomb", 0.02}};
+  const Estimate estimate = test::Answer(
+      "nominal-ls", test::RecordFriction(none, 1, test::AlternatingSpeeds(600, 3), 0.5, 3));
+  EXPECT_NE(estimate.status, Status::ok);
+}
+
 TEST(CheckEstimate, SaysWhyNothingWasExamined) {
   Estimate estimate = From(test::Cold(), 0.1);
   estimate.friction.reset();

@@ -54,6 +54,49 @@ TEST(Apply, AddsUpWhatRowsDo) {
   EXPECT_DOUBLE_EQ(answer.parameters[1].widened, 3.96);
 }
 
+TEST(Apply, CountsTheWorstOfTheRowsOfOneSource) {
+  const Inference answer = Apply(ByNoise(), {Moves(Source::open_drift, Action::widen, -3, 0),
+                                             Moves(Source::open_drift, Action::widen, 1, 2),
+                                             Moves(Source::gaps, Action::widen, 0.5, 0)});
+  EXPECT_DOUBLE_EQ((*answer.parameters[0].interval95)[1], 6 + 3 + 0.5);
+  EXPECT_DOUBLE_EQ((*answer.parameters[1].interval95)[1], 17 + 2);
+}
+
+TEST(Apply, MovesFrictionAtASpeedByWhatParametersDoTogether) {
+  Inference inference = ByNoise();
+  inference.at_speeds = {{{2, 25, 0.5, {24, 26}}, Eigen::Vector2d(2, 1)},
+                         {{1, 20, 0.5, {19, 21}}, Eigen::Vector2d(1, 1)}};
+  // a slope that goes with a level: 2 x 1 - 2; and its scatter the same way, 2 x 0.5 - 1
+  Cause row = Moves(Source::findings, Action::widen, 1, -2);
+  row.spread = Eigen::Vector2d(0.5, -1);
+  const Inference answer = Apply(inference, {row, Moves(Source::rounding, Action::shift, 1, 0)});
+  ASSERT_EQ(answer.at_speeds.size(), 2u);
+  EXPECT_DOUBLE_EQ(answer.at_speeds[0].at.value, 27);
+  EXPECT_DOUBLE_EQ(answer.at_speeds[0].at.interval95[0], 26);
+  EXPECT_DOUBLE_EQ(answer.at_speeds[1].at.interval95[1], 22 + 1 + 1.96 * 0.5);
+
+  // without a number that it depends on, or by name, there is none; nor of an answer that is refused
+  EXPECT_TRUE(Apply(inference, {{.without_interval = {1}}}).at_speeds.empty());
+  const Inference left = Apply(inference, {{.without_speed = {0}}});
+  ASSERT_EQ(left.at_speeds.size(), 1u);
+  EXPECT_EQ(left.at_speeds[0].at.speed, 1);
+  EXPECT_TRUE(Apply(inference, {Voids(Status::bad_data, "faulty")}).at_speeds.empty());
+}
+
+TEST(Apply, TellsPartsThatAddUpToTheHalfWidth) {
+  Inference inference = ByNoise();
+  inference.parameters[0].parts = {{Source::noise, 1}};
+  // what covers reaches to one side, and noise is then left on one side alone
+  const Inference answer = Apply(inference, {Moves(Source::held_losses, Action::cover, 10, 0),
+                                             Moves(Source::findings, Action::widen, 2, 0)});
+  double sum = 0;
+  for (const WidthPart& part : answer.parameters[0].parts) {
+    EXPECT_GT(part.half_width, 0);
+    sum += part.half_width;
+  }
+  EXPECT_NEAR(sum, answer.parameters[0].HalfWidth(), 1e-12);
+}
+
 TEST(Apply, CoversTheValueAndTheValueMoved) {
   const Inference far = Apply(ByNoise(), {Moves(Source::held_losses, Action::cover, 100, -100)});
   // of ends far apart each is left on one side alone: 1.645 of 1.96 half widths

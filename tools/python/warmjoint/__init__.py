@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
 from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
-from warmjoint.estimate import Estimate, Parameter, Prediction, Rejected, Residuals, Void, identifiers, identify, load
+from warmjoint.estimate import Estimate, FrictionAtSpeed, Parameter, Prediction, Rejected, Residuals, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
 from warmjoint.log import Check, Log, check, read
 
@@ -37,6 +37,6 @@ def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
 
 
-__all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected", "Residuals", "Run",
-           "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
+__all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
+           "Residuals", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
            "simulate"]

@@ -46,8 +46,27 @@ class Parameter:
     ci95: tuple[float, float] | None
 
     def __repr__(self) -> str:
-        interval = f" ({self.ci95[0]:.5g} .. {self.ci95[1]:.5g})" if self.ci95 else ""
-        return f"{self.name} = {self.value:.5g}{interval} {self.unit}"
+        interval = f" ({self.ci95[0]:.6g} .. {self.ci95[1]:.6g})" if self.ci95 else ""
+        return f"{self.name} = {self.value:.6g}{interval} {self.unit}"
+
+
+@dataclasses.dataclass(frozen=True)
+class FrictionAtSpeed:
+    """What the joint brakes with at a speed, N.m or N, with its standard deviation and its 95 % confidence interval."""
+
+    speed: float  # rad/s or m/s; below 0: backwards
+    value: float  # N.m or N, against the motion
+    std: float
+    ci95: tuple[float, float]
+    unit: str  # of value
+    speed_unit: str
+    heat: float | None  # E, N.m or N: 0 of a cold joint, else that of the log's warmest moment; None where nothing warms
+
+    def __repr__(self) -> str:
+        state = "" if self.heat is None else ", warm" if self.heat else ", cold"
+        way = "backwards" if self.speed < 0 else "forwards"
+        return (f"friction {way} at {abs(self.speed):.3g} {self.speed_unit}{state} = {self.value:.5g} "
+                f"({self.ci95[0]:.5g} .. {self.ci95[1]:.5g}) {self.unit}")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -163,6 +182,14 @@ class Estimate:
         return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "std", "lower", "upper", "unit"])
 
     @property
+    def friction_at_speeds(self) -> list[FrictionAtSpeed]:
+        """What the joint brakes with at a low, the median and a high speed of the log, forwards and backwards, cold and, where a
+        law warms, at the log's warmest moment. These are known where the parameters trade off; empty where no number is."""
+        return [FrictionAtSpeed(row["speed"], row["value"], row["std"], tuple(row["interval95"]), row.get("unit", ""),
+                                row.get("speed_unit", ""), row.get("energy"))
+                for row in self.data.get("friction_at_speeds") or []]
+
+    @property
     def metrics(self) -> dict[str, float]:
         """Agreement with all the data: rmse and mae in N.m or N, fit in %, fpe."""
         return dict(self.data["metrics"] or {})
@@ -257,12 +284,13 @@ class Estimate:
         return _core.estimate_to_json(self.data)
 
     def __repr__(self) -> str:
-        return "\n".join([f"<Estimate by {self.identifier}: {self.status}>", *(f"  {one!r}" for one in self._rows().values()),
-                          f"  {self.message}"])
+        return "\n".join([f"<Estimate by {self.identifier}: {self.status}>", *(f"  {one!r}" for one in self.friction_at_speeds),
+                          *(f"  {one!r}" for one in self._shown()), f"  {self.message}"])
 
     def _repr_html_(self) -> str:
+        at_speeds = [Parameter(repr(one).split(" = ")[0], one.value, one.unit, one.std, one.ci95) for one in self.friction_at_speeds]
         rows = "".join(f"<tr><th>{one.name}</th><td>{one.value:.5g}</td><td>{_interval(one)}</td><td>{one.unit}</td></tr>"
-                       for one in self._rows().values())
+                       for one in [*at_speeds, *self._shown()])
         return (f"<p><b>{self.status}</b> ({html.escape(self.identifier)}): {html.escape(self.message)}</p>"
                 f"<table><tr><th>parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>{rows}</table>")
 
@@ -285,6 +313,10 @@ class Estimate:
         files = (_core.recording(self.data) or {}).get("files")
         why = f"its recording {', '.join(files)} is not there" if files else "it was not made of a file"
         raise _core.BadInput(f"{what} needs the log, and {why}; give it: load(path, log=wj.read(...))")
+
+    def _shown(self) -> list[Parameter]:
+        """The parameters without the discrete pair, which repeats gain and time constant."""
+        return [one for name, one in self._rows().items() if name not in ("thermal_gain_discrete", "thermal_pole")]
 
     def _energies(self, initial: str | float) -> list[float]:
         if isinstance(initial, str):

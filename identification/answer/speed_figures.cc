@@ -1,0 +1,205 @@
+#include "identification/answer/speed_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/explain.h"
+#include "identification/fit_data.h"
+#include "identification/inference/apply.h"
+#include "identification/typical_speeds.h"
+#include "identification/uncertainty/tails.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Derivatives by the table's rows as those by the coordinates of the estimated ones. [p]
+VectorXd ByCoordinates(const Fit& fit, const VectorXd& derivatives) {
+  std::vector<double> slopes;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (!row.estimated) continue;
+    const bool by_logarithm = row.coordinate == Coordinate::logarithm;
+    slopes.push_back(derivatives[static_cast<Index>(i)] * (by_logarithm ? row.value : 1));
+  }
+  return Eigen::Map<const VectorXd>(slopes.data(), std::ssize(slopes));
+}
+
+/// Quantile for the fewest degrees of freedom of the coordinates that count.
+double QuantileFor(const Uncertainty& known, const VectorXd& slopes) {
+  double fewest = known.degrees_of_freedom;
+  if (known.each_degrees_of_freedom.size() == slopes.size()) {
+    fewest = kInfinity;
+    for (Index j = 0; j < slopes.size(); ++j) {
+      if (slopes[j] != 0) fewest = std::min(fewest, known.DegreesOfFreedom(j));
+    }
+  }
+  return StudentQuantile(fewest, kIntervalLevel);
+}
+
+/// What the heat of one moment adds to the friction, with its derivatives by the table's rows.
+struct WarmMoment {
+  double energy = 0;  // E, N.m or N
+  VectorXd derivatives;
+};
+
+/// That of the kept sample with the largest |E|; nothing where no heat was fitted.
+std::optional<WarmMoment> WarmestOf(const Fit& fit, const FittedModel& model, const LogSamples& m) {
+  if (!model.loop) return std::nullopt;
+  Index warmest = -1;
+  for (Index i = 0; i < m.size(); ++i) {
+    if (!model.selection.keep[i] || Sign(m.velocity[i]) == 0) continue;
+    if (warmest < 0 || std::abs(model.energy[i]) > std::abs(model.energy[warmest])) warmest = i;
+  }
+  if (warmest < 0) return std::nullopt;
+
+  // F = Fn + sign(v) E: what the heat adds to the derivatives of Fn
+  VectorXd along = model.derivatives.row(warmest).head(model.of_friction);
+  along.head(model.cold.cols()) -= model.cold.row(warmest).transpose();
+  WarmMoment moment{model.energy[warmest], VectorXd::Zero(std::ssize(fit.parameters))};
+  for (Index j = 0; j < along.size(); ++j) {
+    moment.derivatives[static_cast<Index>(model.rows[static_cast<size_t>(j)])] =
+        Sign(m.velocity[warmest]) * along[j];
+  }
+  return moment;
+}
+
+/// One figure; nothing where its error is not known.
+std::optional<SpeedFigure> FigureOf(const Fit& fit, const Inference& inferred, const LogSamples& m,
+                                    double speed, double value, VectorXd derivatives,
+                                    std::optional<double> energy) {
+  const VectorXd slopes = ByCoordinates(fit, derivatives);
+  const Uncertainty& known = inferred.known;
+  if (known.covariance.rows() != slopes.size()) return std::nullopt;
+  const double variance = slopes.dot(known.covariance * slopes);
+  if (!std::isfinite(variance)) return std::nullopt;
+  const double deviation = std::sqrt(std::max(variance, 0.0));
+  const double half = QuantileFor(known, slopes) * deviation;
+  return SpeedFigure{{speed,
+                      value,
+                      deviation,
+                      {value - half, value + half},
+                      std::string(kVelocityUnit.For(m.joint)),
+                      m.torque_unit,
+                      energy},
+                     std::move(derivatives),
+                     NoiseParts(known, slopes, half)};
+}
+
+/// Derivatives of the resistance at a speed by the law's rows of the table. [P]
+VectorXd ColdDerivatives(const Fit& fit, double speed) {
+  const Eigen::MatrixXd by_law = NominalDerivatives(
+      *FindLaw(fit.friction.law), LawValues(fit.friction), Eigen::VectorXd::Constant(1, speed));
+  VectorXd derivatives = VectorXd::Zero(std::ssize(fit.parameters));
+  Index j = 0;
+  for (size_t i = 0; i < fit.parameters.size() && j < by_law.cols(); ++i) {
+    if (fit.parameters[i].role != Role::law) continue;
+    derivatives[static_cast<Index>(i)] = Sign(speed) * by_law(0, j++);
+  }
+  return derivatives;
+}
+
+/// Those of a fit with maps, of which the table holds the law alone.
+std::vector<SpeedFigure> WithMaps(const Fit& fit, const LogSamples& m) {
+  std::vector<SpeedFigure> all;
+  for (const FrictionAtSpeed& one : fit.friction_at_speeds) {
+    SpeedFigure& figure = all.emplace_back(SpeedFigure{one, ColdDerivatives(fit, one.speed)});
+    figure.at.speed_unit = kVelocityUnit.For(m.joint);
+    figure.at.unit = m.torque_unit;
+    if (fit.friction.thermal) figure.at.energy = 0;
+    figure.parts = {{Source::noise, figure.HalfWidth()}};
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferred,
+                                        const std::optional<FittedModel>& model,
+                                        const LogSamples& m, const Selection& selection) {
+  if (inferred.status != Status::ok || !inferred.gives_friction) return {};
+  if (DropIntervals(inferred.causes)) return {};
+  if (!fit.friction.maps.empty()) return WithMaps(fit, m);
+
+  // cold, then warm
+  std::optional<WarmMoment> warmest;
+  if (model) warmest = WarmestOf(fit, *model, m);
+  const Law& law = *FindLaw(fit.friction.law);
+  const std::vector<double> values = LawValues(fit.friction);
+  const std::optional<double> cold = fit.friction.thermal ? std::optional(0.0) : std::nullopt;
+  std::vector<SpeedFigure> all;
+  const auto add = [&](std::optional<SpeedFigure> figure) {
+    if (figure) all.push_back(*std::move(figure));
+  };
+  const std::vector<SpeedGroup> groups = TypicalSpeeds(Kept(m.velocity, selection));
+  const auto resistance = [&](double v) { return Sign(v) * law.force(v, values.data()); };
+  for (const SpeedGroup& group : groups) {
+    const double v = group.velocity;
+    add(FigureOf(fit, inferred, m, v, resistance(v), ColdDerivatives(fit, v), cold));
+  }
+  for (const SpeedGroup& group : groups) {
+    if (!warmest) break;
+    const double v = group.velocity;
+    add(FigureOf(fit, inferred, m, v, resistance(v) + warmest->energy,
+                 ColdDerivatives(fit, v) + warmest->derivatives, warmest->energy));
+  }
+  return all;
+}
+
+void NameOneSpeed(const LogSamples& m, const Selection& selection, Fit& fit) {
+  if (fit.refusal || !fit.friction.maps.empty()) return;
+  // a law of levels alone, for which all speeds are one
+  const auto is_of_law = [](const FitParameter& row) { return row.role == Role::law; };
+  const bool is_level = std::ranges::all_of(fit.parameters, [&](const FitParameter& row) {
+    return !is_of_law(row) || row.part == LawPart::level;
+  });
+  if (!is_level) return;
+  const std::vector<SpeedGroup> groups = TypicalSpeeds(Kept(m.velocity, selection));
+  for (size_t i = 1; i < groups.size(); ++i) {
+    if (Sign(groups[i].velocity) == Sign(groups[i - 1].velocity)) return;
+  }
+  if (groups.empty()) return;
+
+  std::vector<std::string> names;
+  for (FitParameter& row : fit.parameters) {
+    if (!is_of_law(row)) continue;
+    row.has_interval = false;
+    names.push_back(row.name);
+  }
+  std::vector<double> speeds;
+  for (const SpeedGroup& group : groups) speeds.push_back(group.velocity);
+  fit.causes.push_back(
+      Remark(ExplainOneSpeed(names, speeds, std::string(kVelocityUnit.For(m.joint)))));
+}
+
+std::optional<Cause> UnknownFriction(const std::vector<SpeedFigure>& at_speeds,
+                                     const std::vector<Cause>& causes) {
+  std::vector<size_t> unknown;
+  std::vector<FrictionAtSpeed> left_out;
+  size_t counted = 0;
+  for (size_t i = 0; i < at_speeds.size(); ++i) {
+    const SpeedFigure& one = at_speeds[i];
+    const FigureChange change = ChangeOf(causes, one.derivatives);
+    if (!change.has_interval) continue;
+    ++counted;
+    const double half = one.HalfWidth() + change.Reach();
+    if (half < std::abs(one.at.value + change.shift)) continue;
+    unknown.push_back(i);
+    left_out.push_back(one.at);
+  }
+  if (unknown.empty()) return std::nullopt;
+  if (unknown.size() < counted) {
+    return Cause{.source = Source::unknown_friction,
+                 .without_speed = std::move(unknown),
+                 .sentence = ExplainLeftOutSpeeds(left_out)};
+  }
+  return Cause{.source = Source::unknown_friction,
+               .action = Action::refuse,
+               .status = Status::not_identifiable,
+               .sentence = ExplainUnknownFriction(left_out)};
+}
+
+}  // namespace warmjoint
