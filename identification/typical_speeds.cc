@@ -10,26 +10,22 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kAlike = 0.2;  // of ln |v|; why: speeds nearer to each other are held as one
-constexpr int kRounds = 5;      // why: from the edge of kAlike to the middle of what is within
+constexpr double kAlike =
+    1.2214027581601699;     // e^0.2, a ratio; why: speeds nearer to each other are held as one
+constexpr int kRounds = 5;  // why: from the edge of kAlike to the middle of what is within
 constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lies about either
 
-/// Those of some samples about a speed that the joint held, from one of the speeds on to where they gather.
-SpeedGroup Gather(double speed, const std::vector<Index>& one_direction,
-                  const Eigen::VectorXd& velocity) {
-  SpeedGroup group;
+/// Mean of the speeds about one of them, from there on to where they gather. rad/s or m/s
+double Gathered(double speed, const Eigen::VectorXd& speeds) {
   for (int round = 0; round < kRounds; ++round) {
-    group.samples.clear();
-    double sum = 0;
-    for (const Index i : one_direction) {
-      if (std::abs(std::log(std::abs(velocity[i]) / speed)) > kAlike) continue;
-      group.samples.push_back(i);
-      sum += velocity[i];
-    }
-    group.velocity = sum / static_cast<double>(group.samples.size());
-    speed = std::abs(group.velocity);
+    const auto near = speeds.array() >= speed / kAlike && speeds.array() <= speed * kAlike;
+    const Index count = near.count();
+    if (count == 0) break;
+    const double mean = near.select(speeds.array(), 0).sum() / static_cast<double>(count);
+    if (mean == speed) break;
+    speed = mean;
   }
-  return group;
+  return speed;
 }
 
 }  // namespace
@@ -42,15 +38,18 @@ std::vector<SpeedGroup> TypicalSpeeds(const Eigen::VectorXd& velocity) {
       if (Sign(velocity[i]) == direction) one_direction.push_back(i);
     }
     if (one_direction.empty()) continue;
+    Eigen::VectorXd speeds = velocity(one_direction).cwiseAbs();
     double latest = 0;
     for (const double quantile : {kSlow, 0.5, kFast}) {
-      Eigen::VectorXd speeds = velocity(one_direction).cwiseAbs();
-      SpeedGroup group = Gather(QuantileInPlace(speeds, quantile), one_direction, velocity);
-      const double speed = std::abs(group.velocity);
+      const double speed = Gathered(QuantileInPlace(speeds, quantile), speeds);
       // a joint that knows one speed has one figure
-      if (latest > 0 && !(std::log(speed / latest) > kAlike)) continue;
+      if (latest > 0 && !(speed > latest * kAlike)) continue;
       latest = speed;
-      all.push_back(std::move(group));
+      SpeedGroup& group = all.emplace_back(SpeedGroup{direction * speed, {}});
+      for (const Index i : one_direction) {
+        const double own = std::abs(velocity[i]);
+        if (own >= speed / kAlike && own <= speed * kAlike) group.samples.push_back(i);
+      }
     }
   }
   return all;

@@ -35,25 +35,6 @@ std::string RemedyOf(const std::string& test) {
   return "The residual shows " + test + ": look at its pictures.";
 }
 
-/// What an assumption takes for granted.
-std::string AssumptionOf(const std::string& name) {
-  if (name == "cold_start") return "The joint was as cold as its surroundings when the log began";
-  if (name == "no_slow_drift")
-    return "Nothing else drifted slowly, such as the temperature of the room";
-  if (name == "open_start")
-    return "The joint was cold when the log began; what the log itself says";
-  if (name == "open_drift") return "Nothing else drifted slowly; what the log itself says";
-  if (name == "open_curve") return "Friction bends over the speed no more than the log itself says";
-  if (name == "open_memory")
-    return "Friction follows the speed at once, as far as the log itself says";
-  if (name == "no_dead_band") return "The torque's sensor has no dead band";
-  if (name == "no_offset") return "The torque has no offset, which one direction alone cannot show";
-  if (name == "angles_in_radians")
-    return "Positions and speeds are in radians, not in degrees or revolutions";
-  if (name == "true_clock") return "The clock of the log is right to 1 %";
-  return name;
-}
-
 /// Terms of a page with their meaning.
 constexpr auto kTerms = std::to_array<std::pair<const char*, const char*>>({
     {"friction", "The torque that motion costs, against its direction. It falls as grease warms."},
@@ -174,9 +155,7 @@ Tree AssumptionsTable(const Estimate& estimate) {
   for (const EstimatedParameter& parameter : moved) header.push_back(parameter.name);
   std::vector<Row> rows;
   for (const Assumption& assumption : estimate.assumptions) {
-    // in plain words, with what it means here
-    Row row{AssumptionOf(assumption.name)};
-    if (!assumption.meaning.empty()) row[0] += " (" + assumption.meaning + ")";
+    Row row{assumption.meaning.empty() ? assumption.name : AsSentence(assumption.meaning)};
     bool any = false;
     for (const EstimatedParameter& parameter : moved) {
       const double move = MoveOf(assumption, parameter);

@@ -31,18 +31,6 @@ bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
 
 constexpr std::size_t kBriefly = 3;  // remarks
 
-/// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
-std::string AsSentence(std::string clause) {
-  const std::size_t word = clause.find_first_of(" :_.=");
-  const bool is_word = word == std::string::npos || clause[word] == ' ' || clause[word] == ':';
-  if (is_word && !clause.empty()) {
-    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
-  }
-  const bool stops =
-      !clause.empty() && std::string_view(".?!").find(clause.back()) != std::string_view::npos;
-  return stops ? clause : clause + ".";
-}
-
 /// Whether the stop at `i` ends a sentence: behind a word or a bracket and before a capital, so neither
 /// that of "0.5 N.m" nor that of "Eq. (22)".
 bool IsFullStop(std::string_view text, std::size_t i) {
@@ -98,6 +86,17 @@ std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate) {
   }
   std::ranges::move(OwnParameters(estimate), std::back_inserter(shown));
   return shown;
+}
+
+std::string AsSentence(std::string clause) {
+  const std::size_t word = clause.find_first_of(" :_.=");
+  const bool is_word = word == std::string::npos || clause[word] == ' ' || clause[word] == ':';
+  if (is_word && !clause.empty()) {
+    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
+  }
+  const bool stops =
+      !clause.empty() && std::string_view(".?!").find(clause.back()) != std::string_view::npos;
+  return stops ? clause : clause + ".";
 }
 
 std::vector<std::string> Remarks(const Estimate& estimate) {

@@ -15,6 +15,9 @@ std::vector<EstimatedParameter> OwnParameters(const Estimate& estimate);
 /// The rows of every table of one estimate: friction at speeds first, "friction forwards at 0.3 rad/s", then its parameters.
 std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate);
 
+/// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
+std::string AsSentence(std::string clause);
+
 /// All that an estimate says beside its status, a sentence each: its message, then its warnings.
 std::vector<std::string> Remarks(const Estimate& estimate);
 
