@@ -38,5 +38,5 @@ def __dir__() -> list[str]:
 
 
 __all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
-           "Residuals", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws", "load", "read", "run", "score",
-           "simulate"]
+           "Residuals", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws",
+           "load", "read", "run", "score", "simulate"]
