@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 Joint = Literal["rotary", "linear"]
 COLUMNS = ("time", "position", "velocity", "torque", "motor_position", "load", "temperature")
-READING = ("map", "joint", "unit", "scale", "columns", "rate", "gear", "torque_constant", "wrap", "trim", "shortest_hold")
+READING = ("map", "joint", "unit", "scale", "columns", "rate", "gear", "torque_constant", "wrap", "trim", "shortest_hold", "topic",
+           "joint_name")
 
 
 class Log:
@@ -207,8 +208,12 @@ def read(path: str | bytes | os.PathLike[Any] | Sequence[str | bytes | os.PathLi
     files = [path_of(one) for one in paths]
     settings = _settings(files, map=map, joint=joint, unit=unit, scale=scale, columns=columns, rate=rate,
                          gear=gear, torque_constant=torque_constant, wrap=wrap, trim=trim, shortest_hold=shortest_hold)
-    if not any(other_formats.is_other(one) or other_formats.may_hold_objects(one) for one in files):
-        return Log._of(_core.read_log(settings))
+    if not any(other_formats.is_other(one) for one in files):
+        try:
+            return Log._of(_core.read_log(settings))
+        except _core.BadInput:
+            if not any(other_formats.may_hold_objects(one) for one in files):
+                raise
     logs = [_read_one({**settings, "files": [one]}, topic, joint_name) for one in files]
     return Log._of(logs[0] if len(logs) == 1 else _core.join_logs(logs))
 
