@@ -25,7 +25,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // why: a person sets some hundred speeds at most, and a drive logs a thousand samples in some seconds
 constexpr Index kMostHolds = 1000;
 // why: a segment of constant speed needs a few samples; they are equal, so that more of them tell nothing more
-constexpr Index kSamplesOfHold = 20;
+constexpr Index kSamplesOfHold = 10;
 constexpr double kStepOfHold = 0.05;  // s
 // why: fewer samples are a clock that slipped, which is mended as such
 constexpr std::size_t kShortestEpisode = 10;
