@@ -1,7 +1,9 @@
 #include "identification/preparation/position_noise.h"
 
 #include <algorithm>
+#include <boost/sort/spreadsort/float_sort.hpp>
 #include <cmath>
+#include <cstdint>
 
 #include "models/foundation/robust_noise.h"
 
@@ -36,7 +38,8 @@ double CommonDivisor(const double* begin, const double* end, double rounding) {
     // by what each step misses a multiple, of a divisor that larger steps show more finely
     left = 0;
     for (const double* step = begin; step < end; ++step) {
-      const double multiple = std::round(*step / divisor);
+      // rounded by a conversion, which costs less than a call; a step is at most 2 / kLastBits divisors
+      const auto multiple = static_cast<double>(static_cast<std::int64_t>(*step / divisor + 0.5));
       const double beyond = std::abs(*step - multiple * divisor);
       if (beyond <= kMisfit * divisor) {
         divisor = *step / multiple;
@@ -66,17 +69,22 @@ double StepOfPosition(const VectorXd& position) {
   double* const few = begin + std::min<Index>(kFew, end - begin);
 
   // what has no divisor shows it by the smallest alone, without the order of all others
-  std::partial_sort(begin, few, end);
+  std::nth_element(begin, few, end);
+  std::sort(begin, few);
   if (CommonDivisor(begin, few, rounding) == 0) return 0;
-  std::sort(few, end);
+  boost::sort::spreadsort::float_sort(few, end);
   const double divisor = CommonDivisor(begin, end, rounding);
   return range > 0.5 * divisor ? divisor : 0;
 }
 
 PositionNoise MeasurePositionNoise(const VectorXd& position) {
+  return MeasurePositionNoise(position, StepOfPosition(position));
+}
+
+PositionNoise MeasurePositionNoise(const VectorXd& position, double resolution) {
   PositionNoise noise;
   const double floor = 1e-9 * (position.maxCoeff() - position.minCoeff());
-  noise.resolution = StepOfPosition(position);
+  noise.resolution = resolution;
   const double spread = ThirdDifferenceNoise(position, noise.resolution > 0);
   // rounding to steps leaves a deviation of step / sqrt(12); little more is taken for rounding alone
   const double rounding = noise.resolution / std::sqrt(12.0);
@@ -89,12 +97,12 @@ PositionNoise MeasurePositionNoise(const VectorXd& position) {
 RelativePosition FromFirst(const VectorXd& position) {
   const VectorXd moved = position.array() - position[0];
   const double smallest = StepOfPosition(moved);
-  if (smallest == 0) return {moved, 1};
+  if (smallest == 0) return {moved, 1, 0};
 
   // the resolution from the longest travel, where the rounding of numbers matters least
   const double travel = moved.cwiseAbs().maxCoeff();
   const double step = travel / std::round(travel / smallest);
-  return {(moved / step).array().round(), step};
+  return {(moved / step).array().round(), step, step};
 }
 
 }  // namespace warmjoint

@@ -24,11 +24,14 @@ double StepOfPosition(const Eigen::VectorXd& position);
 /// off by chance. Both are at least 1e-9 of the range, for numbers that are rounded in a file.
 /// position: [N] rad or m, within one recording.
 PositionNoise MeasurePositionNoise(const Eigen::VectorXd& position);
+/// The same where the resolution is known.
+PositionNoise MeasurePositionNoise(const Eigen::VectorXd& position, double resolution);
 
 /// Positions less the first, counted in steps.
 struct RelativePosition {
   Eigen::VectorXd steps;  // [N] whole numbers where the position is quantised
   double step = 1;        // its resolution, rad or m; 1 where it is not quantised
+  double resolution = 0;  // the same; 0 where it is not quantised
 };
 
 /// What is computed from the steps does not depend on where the sensor has its zero. position: [N]

@@ -62,11 +62,11 @@ void ShareAcceleration(const Eigen::VectorXd& time,
 class PlateauSearch {
  public:
   PlateauSearch(const Measurements& log, const ConstantSpeed& given) : time_(log.time) {
-    const auto [steps, step] = FromFirst(log.position);
+    const auto [steps, step, resolution] = FromFirst(log.position);
     found_.position = step * steps;
     found_.keep = given.selection.keep;
     found_.pieces = PiecesOf(time_);
-    found_.noise = MeasurePositionNoise(found_.position);
+    found_.noise = MeasurePositionNoise(found_.position, resolution);
     for (const Segment& one : given.selection.segments) Add(one, true);
     for (const Segment& one : given.rests) Add(one, false);
     std::ranges::sort(found_.plateaus, {}, &Plateau::begin);

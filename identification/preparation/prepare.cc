@@ -21,7 +21,7 @@ constexpr double kLargest = 1e30;  // of a velocity; beyond it squares and produ
 /// What moves at constant speed by the positions alone. The velocity of the log becomes their smoothed slope.
 ConstantSpeed FindFromPositions(Measurements& m) {
   // in steps of the encoder, so that the choice does not depend on where its zero is
-  const auto [steps, step] = FromFirst(m.position);
+  const auto [steps, step, resolution] = FromFirst(m.position);
   m.velocity = DeriveVelocity(m.time, steps, ChooseCutoff(m.time, steps));
   ConstantSpeed found = FindConstantSpeed(m);
   m.velocity *= step;
