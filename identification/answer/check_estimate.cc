@@ -146,7 +146,7 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
   const Fit fit = FitOf(estimate, input.measurements);
   const Inference claimed = InferenceOf(estimate, fit);
   // what the law lacks, and whether it could follow the log better by itself
-  auto [diagnostics, causes] = FindLackOfFit(identifier, input, fit, claimed, judging);
+  auto [diagnostics, causes, model] = FindLackOfFit(identifier, input, fit, claimed, judging);
   if (claimed.status == Status::ok && !IsRefused(causes)) {
     auto misfit = OwnLawCause(fit, claimed, input.measurements, input.selection, judging);
     if (misfit) causes.push_back(std::move(*misfit));
