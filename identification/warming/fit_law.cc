@@ -367,7 +367,7 @@ Fit Conclude(LawFit law) {
 }
 
 /// The fit to a torque that follows its motion at once, or behind a first-order lag.
-Fit FitInTime(const std::string& name, const IdentifierInput& given, HeatFit heat) {
+Fit FitLawInTime(const std::string& name, const IdentifierInput& given, HeatFit heat) {
   const bool warms = heat == HeatFit::estimated;
   const LinearTask task = BeginLinear(given, warms ? 3 : 0);
   if (task.refusal) return Refused(name, *task.refusal);
@@ -406,7 +406,7 @@ Fit FitInTime(const std::string& name, const IdentifierInput& given, HeatFit hea
 
 Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) {
   if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
-  const auto in_time = [&](const IdentifierInput& one) { return FitInTime(name, one, heat); };
+  const auto in_time = [&](const IdentifierInput& one) { return FitLawInTime(name, one, heat); };
   return MayBeLate(given) ? FitBehindDelay(given, in_time) : in_time(given);
 }
 
