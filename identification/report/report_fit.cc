@@ -340,15 +340,20 @@ Friction ReportedFriction(const Fit& fit, const Inference& inference) {
 
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
                    const LogSamples& measurements) {
+  Estimate estimate = ReportFit(fit, inference, measurements);
+  if (const auto& refusal = fit.refusal;
+      refusal && refusal->unconverged && inference.status == refusal->status) {
+    estimate.message += "; " + WhyNotConverged(log, *refusal->unconverged);
+  }
+  return estimate;
+}
+
+Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements) {
   // who answers, with which status, and why
   Estimate estimate;
   estimate.identifier = fit.identifier;
   estimate.status = inference.status;
   estimate.message = inference.message;
-  if (const auto& refusal = fit.refusal;
-      refusal && refusal->unconverged && inference.status == refusal->status) {
-    estimate.message += "; " + WhyNotConverged(log, *refusal->unconverged);
-  }
   estimate.warnings = inference.warnings;
   estimate.diagnostics = inference.diagnostics;
   estimate.assumptions = inference.assumptions;

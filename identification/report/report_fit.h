@@ -24,6 +24,8 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
 /// gravity, bands and the covariance of the values. measurements: what the fit saw.
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
                    const LogSamples& measurements);
+/// The same of a fit that no log is asked about which did not come to rest.
+Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements);
 
 /// The fit's friction with what the causes moved.
 Friction ReportedFriction(const Fit& fit, const Inference& inference);

@@ -1,0 +1,77 @@
+#include "identification/explain_robot.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "identification/model/robot_joint.h"
+
+namespace warmjoint {
+
+std::string SummaryOfJoint(const JointFit& fit, const JointColumns& c) {
+  return fmt::format(
+      "fitted {} samples with the description as prior{}{}, residual {:.3g} {}",
+      c.samples.keep.count(), fit.at.law.size == 4 ? ", friction that rises at low speed" : "",
+      fit.at.heat ? ", warming" : "", std::sqrt(fit.solved.noise.variance), c.torque_unit);
+}
+
+std::string ExplainDidNotMove(const std::string& joint, double travel, JointKind kind) {
+  return fmt::format("did not move: {} travels {:.3g} {}; log a motion of it", joint, travel,
+                     kPositionUnit.For(kind));
+}
+
+std::string ExplainLittleMotion(const std::string& joint, long samples, long needed) {
+  return fmt::format(
+      "{} moves clearly in {} samples, and {} are needed away from rests and reversals; log longer "
+      "strokes, or raise --cutoff",
+      joint, samples, needed);
+}
+
+std::string ExplainOneDirection(const std::string& joint) {
+  return fmt::format(
+      "{} moves in one direction alone, where friction and gravity act alike; log both", joint);
+}
+
+std::string ExplainBeyond(const std::vector<std::string>& rows) {
+  return fmt::format(
+      "{} below 0 with the whole interval: friction would drive the joint; check the sign of its "
+      "torque (--scale), the order of the joints and the description",
+      fmt::join(rows, " and "));
+}
+
+std::string ExplainUntold(double level, double reach, const std::string& unit) {
+  return fmt::format(
+      "Coulomb friction cannot be told: {:.3g} +- {:.3g} {}; log slower and faster motion in both "
+      "directions",
+      level, reach, unit);
+}
+
+std::string ExplainResidual(double left, double friction, const std::string& unit) {
+  return fmt::format(
+      "the residual of {:.3g} {} is more than half of the friction, {:.3g}: the description, the "
+      "joint's torque or its sign are not those of the log",
+      left, unit, friction);
+}
+
+std::string ExplainWorseHeldOut(double with, double without, const std::string& unit) {
+  return fmt::format(
+      "on held-out samples the residual is {:.3g} {} with friction and {:.3g} without: the log does "
+      "not repeat what was fitted; log more of the same kind of motion",
+      with, unit, without);
+}
+
+std::string ExplainTurnedSign(const std::string& joint) {
+  return fmt::format(
+      "torque and description of {} have opposite signs: its torque or its axis is turned; "
+      "--scale {}.torque=-1 turns the torque",
+      joint, joint);
+}
+
+std::string ExplainUnknownGain(const std::string& joint) {
+  return fmt::format(
+      "the gain of its current cannot be told, so friction is in A; give --torque-constant {}=N.m/A",
+      joint);
+}
+
+}  // namespace warmjoint

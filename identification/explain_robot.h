@@ -1,0 +1,36 @@
+// The sentences about the joints of a robot. Their numbers and conditions come from where a row (Cause) is made.
+#pragma once
+
+#include <warmjoint/friction.h>
+
+#include <string>
+#include <vector>
+
+namespace warmjoint {
+
+struct JointColumns;
+struct JointFit;
+
+/// What was done: a clause that begins the message.
+std::string SummaryOfJoint(const JointFit& fit, const JointColumns& columns);
+
+// why a joint has no numbers. travel: rad or m; counts of samples
+std::string ExplainDidNotMove(const std::string& joint, double travel, JointKind kind);
+std::string ExplainLittleMotion(const std::string& joint, long samples, long needed);
+std::string ExplainOneDirection(const std::string& joint);
+
+// why its numbers mean nothing. Torques in `unit`
+std::string ExplainBeyond(const std::vector<std::string>& rows);
+std::string ExplainUntold(double level, double reach, const std::string& unit);
+std::string ExplainResidual(double left, double friction, const std::string& unit);
+std::string ExplainWorseHeldOut(double with, double without, const std::string& unit);
+
+// what is to be known beside them
+std::string ExplainTurnedSign(const std::string& joint);
+std::string ExplainUnknownGain(const std::string& joint);
+inline constexpr const char* kNegativeRotor =
+    "the rotor's inertia is below 0: the torque may be late against the position, or the links "
+    "lighter than described; --cutoff lower makes it matter less";
+inline constexpr const char* kStillMoving = "the fit still moved when it was stopped";
+
+}  // namespace warmjoint

@@ -1,0 +1,68 @@
+// The friction of all joints of a robot: the contract's robot.json as a value.
+#pragma once
+
+#include <warmjoint/estimate.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace warmjoint {
+
+/// What of a joint stands beside its estimate. Torques in the log's unit.
+struct RobotJointSummary {
+  std::string joint;
+  std::string torque_unit;
+  double travel = 0;                      // rad or m
+  double top_speed = 0;                   // rad/s or m/s
+  double minutes = 0;                     // of clear motion
+  std::optional<double> gain;             // torque_unit for N.m or N of the description's torque
+  bool gain_is_known = false;             // to a factor of less than 2
+  std::optional<double> rms_held_out;     // on samples away from reversals that a second fit has not seen
+  std::optional<double> rms_moving;       // the same on all that moves
+  std::optional<double> rms_without_friction;  // held out: gain times rigid torque and an offset
+
+  /// Without its name, by which a file has it.
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("torque_unit", &torque_unit, {.needed = "give it as text"});
+    a->Field("travel", &travel, Needed("rad", "of the joint, or of the motor of a coupled one"));
+    a->Field("top_speed", &top_speed, Needed("rad/s", "after the low-pass"));
+    a->Field("minutes", &minutes, Needed("min", "of motion away from rests and reversals"));
+    a->Field("gain", &gain, OrNull("of the log's torque over that of the description"));
+    a->Field("gain_is_known", &gain_is_known, {.meaning = "to a factor of less than 2"});
+    a->Field("rms_held_out", &rms_held_out,
+             OrNull("of the residual where a second fit has not seen the samples, torque_unit"));
+    a->Field("rms_moving", &rms_moving, OrNull("the same with samples beside reversals"));
+    a->Field("rms_without_friction", &rms_without_friction,
+             OrNull("the same of gain times rigid torque, and an offset"));
+  }
+};
+
+/// A joint of a robot.
+struct RobotJointEstimate {
+  RobotJointSummary summary;
+  Estimate estimate;
+
+  /// The friction in N.m or N that simulations use; nothing where none is known, or only in amperes.
+  bool HasFriction() const { return estimate.friction && estimate.friction->torque_unit.empty(); }
+};
+
+/// What identify-robot answers.
+struct RobotEstimate {
+  std::string robot;              // file of the description
+  std::vector<std::string> log;   // files
+  std::vector<RobotJointEstimate> joints;  // in the order of the log
+  std::vector<std::string> notices;        // one sentence each
+
+  /// The joint of that name, or nullptr.
+  const RobotJointEstimate* Find(std::string_view joint) const;
+};
+
+/// {joints{NAME: an estimate}, summary{NAME: ...}, robot, log, notices[]}, and the inverse. Throws BadInput.
+std::string RobotEstimateToJson(const RobotEstimate& robot,
+                                const std::filesystem::path& target = {});
+RobotEstimate ReadRobotEstimate(const std::filesystem::path& file);
+
+}  // namespace warmjoint

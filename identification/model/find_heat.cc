@@ -1,0 +1,93 @@
+#include "identification/model/find_heat.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "identification/fit_data.h"
+#include "identification/model/robot_joint.h"
+#include "identification/uncertainty/tails.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kTries = 8;
+
+/// E at unit gain by given losses, times the direction of friction. loss: [N]
+VectorXd HeatColumn(const JointColumns& c, const VectorXd& loss, double tau) {
+  const double pole = std::exp(-c.step / tau);
+  VectorXd column(loss.size());
+  double e = 0;
+  std::size_t next = 0;
+  for (Index i = 0; i < loss.size(); ++i) {
+    if (next < c.samples.starts.size() && c.samples.starts[next] == i) e = 0, ++next;
+    column[i] = e;
+    e = pole * e + (1 - pole) * loss[i];
+  }
+  return column.cwiseProduct(c.Direction());
+}
+
+}  // namespace
+
+HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuestion& q) {
+  const Selection used{c.samples.keep, {}};
+  const VectorXd& time = c.samples.time;
+  const double length = time.tail(1)[0] - time[0];
+
+  // what the fit can do, weighted against its priors by rows of its own
+  const ModelRows rows = cold.model.Evaluate(cold.solved.x);
+  const MatrixXd j = Kept(rows.derivatives, used);
+  const double scale = cold.solved.noise.scale();
+  MatrixXd h = j.transpose() * j / scale;
+  h.diagonal() += cold.model.PriorPrecision();
+  const MatrixXd inverse = InverseScaled(h);
+  const auto rest_of = [&](const VectorXd& z) -> VectorXd {
+    return z - j * (inverse * (j.transpose() * z / scale));
+  };
+  const VectorXd e = Kept(cold.solved.residual, used);
+  const VectorXd kept_time = Kept(time, used);
+  const double block = std::max(5.0, length / 60);
+
+  // the losses of the cold friction, as it brakes
+  ModelRows friction{VectorXd::Zero(c.velocity.size()),
+                     MatrixXd::Zero(c.velocity.size(), cold.model.size())};
+  for (const auto& part : cold.model.blocks) {
+    if (part->MakesHeat()) part->Fill(cold.solved.x, friction);
+  }
+  const VectorXd level = c.sign.cwiseProduct(friction.force).cwiseMax(0.0);
+  const VectorXd loss = c.velocity.cwiseAbs().cwiseProduct(level);
+
+  HeatGuess best;
+  double blocks = 1;
+  for (int i = 0; i < kTries; ++i) {
+    const double tau = length / 30 * std::pow(30.0, i / (kTries - 1.0));
+    const VectorXd z = rest_of(Kept(HeatColumn(c, loss, tau), used));
+    const double squares = z.squaredNorm();
+    if (!(squares > 0)) continue;
+    const double k = z.dot(e) / squares;
+    // scores by blocks of time
+    std::map<Index, double> scores;
+    for (Index n = 0; n < e.size(); ++n) {
+      scores[static_cast<Index>((kept_time[n] - time[0]) / block)] += z[n] * (e[n] - k * z[n]);
+    }
+    double sum = 0;
+    for (const auto& [at, score] : scores) sum += score * score;
+    if (!(sum > 0)) continue;
+    const double wald = k * squares / std::sqrt(sum);
+    if (std::abs(wald) <= std::abs(best.deviations)) continue;
+    best = {false, wald, k, tau};
+    blocks = static_cast<double>(scores.size());
+  }
+  const double level_of_one = q.error_level / kTries / std::max(q.joints, 1);
+  // friction that falls, to one side
+  const double limit = StudentQuantile(std::max(blocks - 1, 1.0), 1 - 2 * level_of_one);
+  best.warms = best.deviations < -limit;
+  return best;
+}
+
+}  // namespace warmjoint

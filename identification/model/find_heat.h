@@ -1,0 +1,22 @@
+// Whether a joint's friction changes with the heat of its own losses, before a time constant is fitted.
+#pragma once
+
+namespace warmjoint {
+
+struct JointColumns;
+struct JointFit;
+struct JointQuestion;
+
+/// The best of a scan over time constants.
+struct HeatGuess {
+  bool warms = false;        // friction falls, beyond chance over all that was tried
+  double deviations = 0;     // of the gain at the best time constant
+  double gain = 0;           // N.m/W or N/W
+  double time_constant = 1;  // s
+};
+
+/// The gain of E by the losses of the cold fit, by least squares beside all its columns, for eight time constants from a thirtieth of the
+/// log to its length; its error by blocks of time, its limit by Student's t for eight tries on each joint of the robot.
+HeatGuess FindHeat(const JointColumns& columns, const JointFit& cold, const JointQuestion& question);
+
+}  // namespace warmjoint

@@ -1,0 +1,297 @@
+#include "identification/model/report_joint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/explain_robot.h"
+#include "identification/fit_data.h"
+#include "identification/inference/apply.h"
+#include "identification/inference/inference.h"
+#include "identification/report/report_fit.h"
+#include "identification/uncertainty/tails.h"
+#include "models/friction/parameter_rows.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
+constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
+/// Share of a friction that the residual may be. Why: beyond it the log's torque is not that of the model.
+constexpr double kLargestResidual = .5;
+
+/// The value that a row of the table stands for.
+double ValueOf(const JointFit& fit, Index row) {
+  const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
+  const double x = fit.solved.x[row];
+  if (unknown.coordinate != Coordinate::logarithm) return x;
+  return (row == fit.at.given.log_gain ? fit.at.given.sign : 1) * std::exp(x);
+}
+
+FitParameter ParameterOf(const JointFit& fit, Index row) {
+  const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
+  FitParameter parameter{.name = unknown.name,
+                         .role = unknown.role,
+                         .value = ValueOf(fit, row),
+                         .unit = unknown.unit,
+                         .coordinate = unknown.coordinate,
+                         .lower = unknown.role == Role::law ? unknown.lower : -kInfinity,
+                         .has_interval = !unknown.name.empty()};
+  parameter.part = unknown.part;
+  return parameter;
+}
+
+/// What brakes at the kept samples: law, load and heat. [n]
+VectorXd FrictionOf(const JointFit& fit, const Selection& used) {
+  ModelRows rows{VectorXd::Zero(fit.model.samples),
+                 Eigen::MatrixXd::Zero(fit.model.samples, fit.model.size())};
+  for (const auto& block : fit.model.blocks) {
+    if (block->MakesHeat()) block->Fill(fit.solved.x, rows);
+  }
+  if (fit.model.heat) fit.model.heat->Fill(fit.solved.x, ModelRows(rows), rows);
+  return Kept(rows.force, used);
+}
+
+Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
+  Friction friction;
+  const bool slows = fit.at.law.size == 4;
+  friction.law = slows ? "asymmetric_stribeck" : "asymmetric";
+  for (Index row = fit.at.law.begin; row < fit.at.law.end(); ++row) {
+    friction.parameters[fit.model.table[static_cast<std::size_t>(row)].name] = fit.solved.x[row];
+  }
+  if (slows) {
+    friction.parameters[std::string(kStribeckVelocityRow.name)] = kSlowShare * c.top_speed;
+    friction.parameters[std::string(kStribeckExponentRow.name)] = 2;
+  }
+  friction.load_gain = fit.solved.x[fit.at.load.begin];
+  if (fit.at.heat) {
+    friction.thermal = Thermal{fit.solved.x[fit.at.heat->begin],
+                               std::exp(fit.solved.x[fit.at.heat->begin + 1])};
+  }
+  return friction;
+}
+
+/// E at the last sample, and its derivatives by central differences.
+EndEnergy EndOf(const JointFit& fit) {
+  const auto end_at = [&](const VectorXd& x) {
+    ModelRows rows{VectorXd::Zero(fit.model.samples),
+                   Eigen::MatrixXd::Zero(fit.model.samples, fit.model.size())};
+    for (const auto& block : fit.model.blocks) {
+      if (block->MakesHeat()) block->Fill(x, rows);
+    }
+    return fit.model.heat->Fill(x, ModelRows(rows), rows).tail(1)[0];
+  };
+  EndEnergy end{end_at(fit.solved.x), VectorXd::Zero(fit.model.size())};
+  std::vector<Index> rows;
+  for (const Slice& slice : {fit.at.law, fit.at.load, *fit.at.heat}) {
+    for (Index row = slice.begin; row < slice.end(); ++row) rows.push_back(row);
+  }
+  for (const Index row : rows) {
+    const double reach = std::max(1e-3 * fit.Deviation(row), 1e-9);
+    VectorXd above = fit.solved.x, below = above;
+    above[row] += reach;
+    below[row] -= reach;
+    end.slopes[row] = (end_at(above) - end_at(below)) / (2 * reach);
+  }
+  return end;
+}
+
+/// The fit as all that judges and reports one reads it.
+Fit FitOf(const JointFit& fit, const JointColumns& c) {
+  Fit made;
+  made.identifier = "robot";
+  made.summary = SummaryOfJoint(fit, c);
+  made.friction = FrictionValue(fit, c);
+  made.used = {c.samples.keep, {}};
+  made.torque = Kept(c.samples.torque, made.used);
+  made.fitted = made.torque - Kept(fit.solved.residual, made.used);
+  for (Index row = 0; row < fit.model.size(); ++row) {
+    made.parameters.push_back(ParameterOf(fit, row));
+  }
+  made.count = static_cast<int>(fit.model.size());
+  made.effective_parameters = fit.known.effective_parameters;
+  Uncertainty known;
+  known.covariance = fit.known.covariance;
+  known.degrees_of_freedom = fit.known.degrees_of_freedom;
+  known.noise.variance = known.noise.innovation = fit.solved.noise.variance;
+  made.errors.known = std::move(known);
+  if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
+  return made;
+}
+
+/// Half width of an interval that noise gives a combination of rows.
+double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
+  const double deviation = std::sqrt(std::max(0.0, weights.dot(fit.known.covariance * weights)));
+  return StudentQuantile(fit.known.degrees_of_freedom, kIntervalLevel) * deviation;
+}
+
+VectorXd MeanCoulomb(const JointFit& fit) {
+  VectorXd weights = VectorXd::Zero(fit.model.size());
+  weights[fit.at.law.begin + 1] = weights[fit.at.law.begin + 2] = .5;
+  return weights;
+}
+
+/// What makes the numbers of a joint mean nothing, and what is to be said of them.
+std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c,
+                            const std::optional<JointHoldOut>& holdout, bool gain_is_known) {
+  std::vector<Cause> causes;
+  const Selection used{c.samples.keep, {}};
+  const auto refuse = [&](Status status, std::string sentence) {
+    causes.push_back({.source = Source::own_law,
+                      .action = Action::refuse,
+                      .status = status,
+                      .sentence = std::move(sentence)});
+  };
+  if (!fit.beyond.empty()) refuse(Status::inadequate_model, ExplainBeyond(fit.beyond));
+
+  // friction that is known to worse than itself, or less than what is left
+  const VectorXd mean = MeanCoulomb(fit);
+  const double level = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
+  const double friction = std::sqrt(FrictionOf(fit, used).array().square().mean());
+  const double left = std::sqrt(fit.solved.noise.variance);
+  if (reach > std::max(level, friction)) {
+    refuse(Status::not_identifiable, ExplainUntold(level, reach, c.torque_unit));
+  } else if (left > kLargestResidual * friction) {
+    refuse(Status::inadequate_model, ExplainResidual(left, friction, c.torque_unit));
+  }
+  if (holdout && holdout->metrics.rmse > holdout->without_friction) {
+    refuse(Status::inadequate_model,
+           ExplainWorseHeldOut(holdout->metrics.rmse, holdout->without_friction, c.torque_unit));
+  }
+
+  // what is to be known beside the numbers
+  const auto say = [&](std::string sentence) {
+    causes.push_back(Remark(std::move(sentence), SentenceIn::any_answer));
+  };
+  if (fit.at.given.sign < 0) say(ExplainTurnedSign(c.joint));
+  const Index rotor = fit.at.rotor.begin;
+  VectorXd by_rotor = VectorXd::Zero(fit.model.size());
+  by_rotor[rotor] = 1;
+  if (fit.Value(rotor) + HalfWidthOf(fit, by_rotor) < 0) say(kNegativeRotor);
+  if (c.torque_unit == "A" && !gain_is_known) say(ExplainUnknownGain(c.joint));
+  if (!fit.solved.converged) say(kStillMoving);
+  return causes;
+}
+
+/// The friction in N.m or N of one in amperes, seen through a gain.
+void ToTorque(double gain, Friction& friction) {
+  for (auto& [name, value] : friction.parameters) {
+    if (name == kStribeckVelocityRow.name || name == kStribeckExponentRow.name) continue;
+    value /= gain;
+  }
+}
+
+/// The mean of both directions, which a log tells better than their difference.
+EstimatedParameter MeanRow(const JointFit& fit, const JointColumns& c, bool has_interval) {
+  const VectorXd mean = MeanCoulomb(fit);
+  const double value = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
+  EstimatedParameter row{std::string(kCoulombRow.name), value, c.torque_unit, {}, {}};
+  if (!has_interval) return row;
+  row.std = reach / StudentQuantile(fit.known.degrees_of_freedom, kIntervalLevel);
+  row.interval95 = {{value - reach, value + reach}};
+  return row;
+}
+
+}  // namespace
+
+std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& c,
+                                         double share) {
+  if (share <= 0) return std::nullopt;
+  const Index n = c.velocity.size(), cut = n - static_cast<Index>(share * static_cast<double>(n));
+  ModelSamples train = c.samples;
+  train.keep.tail(n - cut) = false;
+  Selection test{c.samples.keep, {}};
+  test.keep.head(cut) = false;
+  if (train.keep.count() < kFewest + fit.known.effective_parameters || test.count() < kFewest) {
+    return std::nullopt;
+  }
+  const SolvedModel again = FitAgain(fit, c, train);
+  JointHoldOut found;
+  const VectorXd measured = Kept(c.samples.torque, test);
+  found.metrics = ComputeMetrics(measured, measured - Kept(again.residual, test),
+                                 static_cast<int>(fit.model.size()),
+                                 fit.known.effective_parameters);
+  Selection moving = test;
+  constexpr double at_rest = .02;  // of the top speed
+  moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;
+  moving.keep.head(cut) = false;
+  found.moving = std::sqrt(Kept(again.residual, moving).array().square().mean());
+
+  // gain and offset alone
+  Eigen::MatrixXd columns(n, 2);
+  columns << c.rigid.force, VectorXd::Ones(n);
+  const Eigen::MatrixXd seen = Kept(columns, {train.keep, {}});
+  const VectorXd x =
+      SolveScaled(seen.transpose() * seen, seen.transpose() * Kept(c.samples.torque, {train.keep, {}}));
+  found.without_friction = std::sqrt((measured - Kept(columns, test) * x).array().square().mean());
+  return found;
+}
+
+std::string WhyNothing(const JointColumns& c, double travel) {
+  if (travel < kLeastTravel) return ExplainDidNotMove(c.joint, travel, c.kind);
+  const auto& keep = c.samples.keep;
+  const Index forwards = (keep && c.velocity.array() > 0).count();
+  const Index backwards = (keep && c.velocity.array() < 0).count();
+  if (forwards + backwards < kFewest) return ExplainLittleMotion(c.joint, forwards + backwards, kFewest);
+  if (std::min(forwards, backwards) < kFewest / 2) return ExplainOneDirection(c.joint);
+  return "";
+}
+
+RobotJointEstimate ReportNothing(const JointColumns& c, RobotJointSummary summary, Status status,
+                                 std::string message) {
+  RobotJointEstimate made{std::move(summary), {}};
+  made.summary.joint = c.joint;
+  made.estimate.identifier = "robot";
+  made.estimate.status = status;
+  made.estimate.message = std::move(message);
+  return made;
+}
+
+RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
+                               RobotJointSummary summary,
+                               const std::optional<JointHoldOut>& holdout) {
+  const double gain = ValueOf(fit, fit.at.given.log_gain);
+  VectorXd by_gain = VectorXd::Zero(fit.model.size());
+  by_gain[fit.at.given.log_gain] = 1;
+  summary.gain = gain;
+  summary.gain_is_known = HalfWidthOf(fit, by_gain) < std::log(2.0);
+
+  // judged as any fit is
+  const Fit made = FitOf(fit, c);
+  Inference inference =
+      Apply(Infer(made), CausesOf(fit, c, holdout, summary.gain_is_known));
+  LogSamples m;
+  m.joint = c.kind;
+  m.torque_unit = c.torque_unit;
+  m.time = c.samples.time;
+  m.velocity = c.velocity;
+  m.position = c.position;
+  m.torque = c.samples.torque;
+  RobotJointEstimate answer{std::move(summary), ReportFit(made, inference, m)};
+  Estimate& estimate = answer.estimate;
+  if (!estimate.parameters.empty()) {
+    estimate.parameters.push_back(MeanRow(fit, c, estimate.status == Status::ok));
+  }
+  if (holdout) {
+    estimate.holdout = holdout->metrics;
+    answer.summary.rms_held_out = holdout->metrics.rmse;
+    answer.summary.rms_moving = holdout->moving;
+    answer.summary.rms_without_friction = holdout->without_friction;
+  } else {
+    estimate.without_holdout = "too few samples move";
+  }
+  if (estimate.friction && c.torque_unit == "A") {
+    if (answer.summary.gain_is_known) {
+      ToTorque(std::abs(gain), *estimate.friction);
+    } else {
+      estimate.friction->torque_unit = "A";
+    }
+  }
+  return answer;
+}
+
+}  // namespace warmjoint

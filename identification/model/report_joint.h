@@ -1,0 +1,35 @@
+// The estimate of a joint of a robot, with what makes it worthless or says less than it seems.
+#pragma once
+
+#include <warmjoint/robot_estimate.h>
+
+#include <optional>
+
+#include "identification/model/robot_joint.h"
+
+namespace warmjoint {
+
+/// How a second fit does on samples that it has not seen. Torques in the log's unit.
+struct JointHoldOut {
+  Metrics metrics;                    // away from reversals
+  double moving = 0;                  // rms of all that moves
+  double without_friction = 0;        // rms of gain times rigid torque and an offset
+};
+
+/// share: of the samples' end that is held out. Nothing where too few samples are left on either side.
+std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& columns,
+                                         double share);
+
+/// Why the log tells nothing of a joint; empty where it may.
+std::string WhyNothing(const JointColumns& columns, double travel);
+
+/// A joint without an estimate.
+RobotJointEstimate ReportNothing(const JointColumns& columns, RobotJointSummary summary,
+                                 Status status, std::string message);
+
+/// The estimate. Friction is in N.m (N) where the log has it so, or where the gain of its current is known; else in the log's unit.
+RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& columns,
+                               RobotJointSummary summary,
+                               const std::optional<JointHoldOut>& holdout);
+
+}  // namespace warmjoint

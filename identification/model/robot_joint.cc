@@ -1,0 +1,226 @@
+#include "identification/model/robot_joint.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "identification/fit_data.h"
+#include "identification/model/find_heat.h"
+#include "identification/uncertainty/tails.h"
+#include "models/friction/parameter_rows.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Log gain about that of the robot's other motors: a factor of e, since motors of one robot are alike and not equal.
+constexpr double kGainSpread = 1;
+constexpr double kGainStep = .5;   // of the log gain in one iteration: a factor of 1.6
+/// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
+constexpr double kRippleShare = .2;
+
+std::string UnitFor(const JointUnit& unit, const JointColumns& c) {
+  // a viscous friction of a current is A.s/rad
+  std::string text(unit.For(c.kind));
+  const std::string_view torque = kTorqueUnit.For(c.kind);
+  if (text.starts_with(torque)) text.replace(0, torque.size(), c.torque_unit);
+  return text;
+}
+
+Unknown LawUnknown(const ParameterInfo& info, const JointColumns& c) {
+  return {.name = std::string(info.name),
+          .role = Role::law,
+          .unit = UnitFor(info.unit, c),
+          .lower = 0,
+          .part = info.part};
+}
+
+/// What only a prior holds, about 0.
+Unknown Nuisance(double deviation) {
+  Unknown row;
+  row.role = Role::gravity;
+  row.prior = Normal{0, deviation};
+  return row;
+}
+
+/// Columns of the law over the samples. [N x 3], and one more where friction rises at low speed
+MatrixXd LawColumnsOf(const JointColumns& c, bool slows) {
+  MatrixXd columns(c.velocity.size(), slows ? 4 : 3);
+  columns.leftCols(3) << c.velocity, c.forwards, -c.backwards;
+  if (slows) columns.col(3) = c.slow;
+  return columns;
+}
+
+/// Adds a joint's blocks to a model without heat.
+void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestion& q, bool slows,
+               double level, JointFit& fit) {
+  Model& model = fit.model;
+  model.samples = c.velocity.size();
+  std::vector<Unknown> law;
+  for (const ParameterInfo& info : {kViscousRow, kCoulombPositiveRow, kCoulombNegativeRow}) {
+    law.push_back(LawUnknown(info, c));
+  }
+  if (slows) law.push_back(LawUnknown(kStaticRiseRow, c));
+  fit.at.law = model.Append(law);
+  fit.at.load = model.Append({{.name = "load_gain", .role = Role::gravity, .unit = "1", .lower = 0}});
+  fit.at.rotor = model.Append(
+      {{.name = "rotor_inertia",
+        .role = Role::inertia,
+        .unit = c.torque_unit + (c.kind == JointKind::rotary ? ".s^2/rad" : ".s^2/m")}});
+
+  // the rigid part, its gain about that of the robot's other joints
+  const double start = guess.IsSure() ? std::abs(guess.value) : q.middle_gain;
+  fit.at.given.sign = guess.IsSure() && guess.value < 0 ? -1 : 1;
+  fit.at.given.log_gain =
+      model
+          .Append({{.name = "gain",
+                    .role = Role::gravity,
+                    .unit = c.torque_unit + "/(" + std::string(kTorqueUnit.For(c.kind)) + ")",
+                    .coordinate = Coordinate::logarithm,
+                    .start = std::log(start),
+                    .prior = Normal{std::log(q.middle_gain), kGainSpread},
+                    .largest_step = kGainStep}})
+          .begin;
+  const Unknown direction = Nuisance(1);
+  fit.at.given.z = model.Append(
+      std::vector<Unknown>(static_cast<std::size_t>(c.rigid.directions.cols()), direction));
+  const Unknown harmonic = Nuisance(kRippleShare * level);
+  fit.at.ripple =
+      model.Append(std::vector<Unknown>(static_cast<std::size_t>(c.ripple.cols()), harmonic));
+
+  model.blocks = {
+      std::make_shared<LinearBlock>(fit.at.law, LawColumnsOf(c, slows), true),
+      std::make_shared<LoadBlock>(fit.at.load.begin, fit.at.given, c.carried, c.Direction()),
+      std::make_shared<LinearBlock>(fit.at.rotor, c.acceleration, false),
+      std::make_shared<GivenBlock>(fit.at.given, c.rigid),
+  };
+  if (c.ripple.cols() > 0) {
+    model.blocks.push_back(std::make_shared<LinearBlock>(fit.at.ripple, c.ripple, false));
+  }
+}
+
+void AddHeat(const JointColumns& c, const HeatGuess& guess, JointFit& fit) {
+  const auto& [gain, tau] = Thermal::parameters;
+  const std::string unit(c.kind == JointKind::rotary ? "N.m/W" : "N/W");
+  fit.at.heat = fit.model.Append(
+      {{.name = std::string(gain.name), .role = Role::heat, .unit = unit, .start = guess.gain},
+       {.name = std::string(tau.name),
+        .role = Role::heat,
+        .unit = "s",
+        .coordinate = Coordinate::logarithm,
+        .start = std::log(guess.time_constant),
+        .largest_step = .5}});
+  fit.model.heat = HeatBlock{.gain = fit.at.heat->begin,
+                             .log_time_constant = fit.at.heat->begin + 1,
+                             .step = c.step,
+                             .speed = c.velocity.cwiseAbs(),
+                             .sign = c.sign,
+                             .direction = c.Direction(),
+                             .starts = c.samples.starts};
+}
+
+/// Everything but the directions of the description: what a first fit holds, while the noise is not known.
+std::vector<Index> Directions(const JointPlaces& at) {
+  std::vector<Index> held;
+  for (Index i = at.given.z.begin; i < at.given.z.end(); ++i) held.push_back(i);
+  return held;
+}
+
+/// First with the description as it is, then with all free.
+void SolveFresh(const JointColumns& c, JointFit& fit) {
+  fit.solved = Solve(fit.model, c.samples, fit.model.Start(), Directions(fit.at));
+  fit.solved = Solve(fit.model, c.samples, fit.solved.x);
+}
+
+/// The model in all parts but heat, fitted.
+JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q, bool slows) {
+  // the ridge of the ripple is a share of the level, which a fit without it tells
+  JointColumns plain;
+  double level = 1;
+  if (c.ripple.cols() > 0) {
+    JointFit first;
+    plain = c;
+    plain.ripple.resize(c.ripple.rows(), 0);
+    AddBlocks(plain, guess, q, slows, level, first);
+    SolveFresh(c, first);
+    const double mean = (first.Value(first.at.law.begin + 1) + first.Value(first.at.law.begin + 2)) / 2;
+    level = std::max(mean, std::sqrt(first.solved.noise.variance));
+  }
+  JointFit fit;
+  AddBlocks(c, guess, q, slows, level, fit);
+  SolveFresh(c, fit);
+  return fit;
+}
+
+/// The same fit with one more block at the end of the table.
+void SolveOn(const JointColumns& c, JointFit& fit) {
+  VectorXd x = fit.model.Start();
+  x.head(fit.solved.x.size()) = fit.solved.x;
+  fit.solved = Solve(fit.model, c.samples, x);
+}
+
+/// Rows of the law that the data put beyond their bound with their whole interval.
+void FindBeyond(const JointColumns& c, JointFit& fit) {
+  if (fit.solved.at_bound.empty()) return;
+  Model unbound = fit.model;
+  for (const Index i : fit.solved.at_bound) {
+    unbound.table[static_cast<std::size_t>(i)].lower = -kInfinity;
+  }
+  const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
+  const SolvedCovariance known = CovarianceOf(unbound, c.samples, free);
+  const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
+  for (const Index i : fit.solved.at_bound) {
+    if (free.x[i] + reach * std::sqrt(known.covariance(i, i)) >= 0) continue;
+    fit.beyond.push_back(fit.model.table[static_cast<std::size_t>(i)].name);
+  }
+}
+
+}  // namespace
+
+GainGuess GuessGain(const JointColumns& c) {
+  // least squares with the description as it is
+  const Selection used{c.samples.keep, {}};
+  MatrixXd columns(c.velocity.size(), 5);
+  columns << c.rigid.force, c.velocity, c.forwards, -c.backwards, c.acceleration;
+  columns = Kept(columns, used);
+  const VectorXd y = Kept(c.samples.torque, used);
+  const MatrixXd h = columns.transpose() * columns;
+  const VectorXd x = SolveScaled(h, columns.transpose() * y);
+  const NoiseScale noise = NoiseScaleOf(y - columns * x);
+  const double deviation = std::sqrt(InverseScaled(h)(0, 0) * noise.scale());
+  return {x[0], deviation > 0 ? std::abs(x[0]) / deviation : 0};
+}
+
+JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {
+  JointFit fit = FitCold(c, guess, q, false);
+  fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+  if (q.slows) {
+    // friction that rises at low speed, where the log tells it
+    JointFit slow = FitCold(c, guess, q, true);
+    slow.known = CovarianceOf(slow.model, c.samples, slow.solved);
+    const Index rise = slow.at.law.begin + 3;
+    const double reach = StudentQuantile(slow.known.degrees_of_freedom, 1 - q.error_level / q.joints);
+    if (slow.Value(rise) > reach * slow.Deviation(rise)) fit = std::move(slow);
+  }
+  if (q.warms) {
+    const HeatGuess heat = FindHeat(c, fit, q);
+    fit.warming = heat.deviations;
+    if (heat.warms) {
+      AddHeat(c, heat, fit);
+      SolveOn(c, fit);
+      fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+    }
+  }
+  FindBeyond(c, fit);
+  return fit;
+}
+
+SolvedModel FitAgain(const JointFit& fit, const JointColumns&, const ModelSamples& samples) {
+  return Solve(fit.model, samples, fit.solved.x);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,88 @@
+// The friction of one joint of a robot: its rigid torque as given columns that may be wrong, friction, rotor, ripple and heat.
+#pragma once
+
+#include <warmjoint/friction.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/model/model.h"
+#include "identification/model/solve.h"
+
+namespace warmjoint {
+
+/// What of a joint's filtered log a fit sees: N samples, even in time within each recording. All columns passed the filter of the torque.
+struct JointColumns {
+  std::string joint;
+  JointKind kind = JointKind::rotary;
+  std::string torque_unit = "N.m";
+  double step = 0;                              // s
+  double top_speed = 0;                         // rad/s or m/s
+  Eigen::VectorXd position, velocity, acceleration;  // [N] of the motor where joints are coupled; rad or m
+  Eigen::VectorXd sign;                         // [N] of the velocity, unfiltered
+  Eigen::VectorXd forwards, backwards;          // [N] 1 where it moves so, through the filter
+  Eigen::VectorXd slow;                         // [N] exp(-(v / (share of the top speed))^2) in its direction, through the filter
+  Eigen::MatrixXd ripple;                       // [N x 4h] harmonics of the motor's angle in each direction; or [N x 0]
+  GivenForce rigid;                             // gravity, Coriolis and inertia by the description, N.m or N
+  GivenForce carried;                           // without inertia: what loads the joint
+  ModelSamples samples;
+
+  /// Direction in which friction brakes, through the filter. [N]
+  Eigen::VectorXd Direction() const { return forwards - backwards; }
+};
+
+/// What is asked of the fit of a joint.
+struct JointQuestion {
+  double middle_gain = 1;    // of the robot's joints, torque_unit for N.m or N
+  bool warms = true;         // whether warming is looked for
+  bool slows = true;         // whether a rise of friction at low speed is looked for
+  double error_level = .01;  // of the claim that one of all joints warms
+  int joints = 1;            // of the robot that move
+};
+
+/// The gain as a joint tells it by itself, the description taken as true.
+struct GainGuess {
+  double value = 1;
+  double deviations = 0;  // |value| over its standard deviation
+
+  /// Why 5: noise alone does not reach it, and what the description has wrong moves it by a tenth.
+  bool IsSure() const { return deviations > 5; }
+};
+
+GainGuess GuessGain(const JointColumns& columns);
+
+/// Where the unknowns of a joint's model stand.
+struct JointPlaces {
+  Slice law;  // viscous, coulomb_positive, coulomb_negative and, where it slows, static_rise
+  Slice load, rotor;
+  GivenPlaces given;
+  Slice ripple;
+  std::optional<Slice> heat;
+};
+
+/// A joint's friction as it was fitted.
+struct JointFit {
+  Model model;
+  JointPlaces at;
+  SolvedModel solved;
+  SolvedCovariance known;
+  double warming = 0;           // by how many deviations friction changes with the heat of its losses, at the best tau
+  std::vector<std::string> beyond;  // rows of the law whose whole interval lies beyond their bound
+
+  double Value(Eigen::Index row) const { return solved.x[row]; }
+  double Deviation(Eigen::Index row) const { return std::sqrt(known.covariance(row, row)); }
+};
+
+/// The fit. guess: of its gain.
+JointFit FitJoint(const JointColumns& columns, const GainGuess& guess, const JointQuestion& question);
+
+/// The same structure fitted to other samples of the log, from the given fit on.
+SolvedModel FitAgain(const JointFit& fit, const JointColumns& columns, const ModelSamples& samples);
+
+/// Share of the top speed at which the rise of friction has fallen to 1/e. Why .08: joints of seven robots rise at .04 to .15 of their top speed, and
+/// their logs tell its size, not its place.
+inline constexpr double kSlowShare = .08;
+
+}  // namespace warmjoint

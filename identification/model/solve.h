@@ -1,0 +1,61 @@
+// Gauss-Newton's fit of a model with priors and bounds, and the covariance of its unknowns.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/model/model.h"
+
+namespace warmjoint {
+
+/// What a model is fitted to.
+struct ModelSamples {
+  Eigen::VectorXd time;                          // [N] s
+  Eigen::VectorXd torque;                        // [N]
+  Eigen::Array<bool, Eigen::Dynamic, 1> keep;    // [N] that count
+  std::vector<Eigen::Index> starts;              // first samples of all recordings but the first
+};
+
+/// How much a sample says: 1 / (variance x autocorrelation time).
+struct NoiseScale {
+  double variance = 1;
+  double correlation = 1;  // samples: 1 + 2 sum of the autocorrelations until they fall below 0.05
+
+  double scale() const { return variance * correlation; }
+};
+
+struct SolvedModel {
+  Eigen::VectorXd x;                  // [P]
+  Eigen::VectorXd residual;           // [N] torque - force
+  NoiseScale noise;
+  std::vector<Eigen::Index> at_bound;  // unknowns that are held at theirs
+  bool converged = false;
+  int iterations = 0;
+};
+
+/// Least squares weighted by the noise, whose scale follows from the residual, plus the priors, from x on, within the bounds. held: unknowns
+/// that stay as they are.
+SolvedModel Solve(const Model& model, const ModelSamples& samples, Eigen::VectorXd x,
+                  const std::vector<Eigen::Index>& held = {});
+
+struct SolvedCovariance {
+  Eigen::MatrixXd covariance;    // [P x P] of x
+  double degrees_of_freedom = 1;  // of Student's quantile: blocks of time less 1
+  double effective_parameters = 0;
+  double block = 0;               // s
+};
+
+/// Sandwich H^-1 (sum over blocks of time of (J^T e)(J^T e)^T B / (B - 1) + prior) H^-1, H = J^T J / scale + prior. Blocks last four times the residual's
+/// correlation, .5 s at least and a twentieth of the log at most.
+SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
+                              const SolvedModel& solved);
+
+/// Variance about 0 and autocorrelation time of a residual's kept samples. e: [n]
+NoiseScale NoiseScaleOf(const Eigen::VectorXd& e);
+
+/// x = H^-1 b of a positive semidefinite H of any scale; directions that H does not know stay 0.
+Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& b);
+/// The inverse in the same sense.
+Eigen::MatrixXd InverseScaled(const Eigen::MatrixXd& h);
+
+}  // namespace warmjoint

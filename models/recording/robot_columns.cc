@@ -1,0 +1,265 @@
+#include "models/recording/robot_columns.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
+
+namespace warmjoint {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// words of column names, the likeliest first
+const Words kPositions{"q", "pos", "position", "positions", "angle", "theta", "winkel"};
+const Words kTorques{"torque", "tau",  "trq", "effort",   "moment",  "force", "drehmoment",
+                     "mom",    "load", "current", "currents", "iq", "cur", "strom", "i"};
+const Words kCurrents{"current", "currents", "iq", "cur", "strom", "i"};
+/// What was asked for and not measured, or of another place.
+const Words kNotMeasured{"target", "desired", "des",   "ref", "reference", "cmd",   "command",
+                         "commanded", "goal", "setpoint", "soll", "control", "external", "ext",
+                         "limit", "max", "min", "error", "err", "friction", "gravity"};
+const Words kTimes{"time", "timestamp", "t", "stamp", "time_s", "zeit"};
+
+bool Holds(const Words& words, const std::string& word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+/// The words of a name in lower case: of letters that stand together.
+Words WordsIn(const std::string& name) {
+  Words words;
+  bool inside = false;
+  for (const char c : name) {
+    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    if (letter && !inside) words.emplace_back();
+    if (letter) words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    inside = letter;
+  }
+  return words;
+}
+
+/// Columns whose names differ in what tells the joint alone.
+struct Family {
+  std::string key;             // with {} in its place
+  Words columns;               // one for each joint, in their order
+  Words joints;                // whose they are; empty: by number, from the base outwards
+};
+
+/// By the joints' names.
+std::vector<Family> NamedFamilies(const Words& names, const Words& joints) {
+  std::map<std::string, std::map<std::size_t, std::string>> found;
+  for (const std::string& name : names) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const std::size_t at = name.find(joints[j]);
+      // "joint1" stands in "joint10", too
+      const std::size_t end = at + joints[j].size();
+      if (at == std::string::npos || (end < name.size() && std::isdigit(name[end]))) continue;
+      found[name.substr(0, at) + "{}" + name.substr(end)][j] = name;
+    }
+  }
+  std::vector<Family> families;
+  for (const auto& [key, members] : found) {
+    Family family{key, {}, {}};
+    for (const auto& [joint, name] : members) {
+      family.columns.push_back(name);
+      family.joints.push_back(joints[joint]);
+    }
+    families.push_back(std::move(family));
+  }
+  return families;
+}
+
+/// By numbers, from 0 or from 1 on without a gap.
+std::vector<Family> NumberedFamilies(const Words& names) {
+  std::map<std::string, std::map<std::size_t, std::string>> found;
+  for (const std::string& name : names) {
+    for (std::size_t at = 0; at < name.size(); ++at) {
+      if (!std::isdigit(name[at])) continue;
+      std::size_t end = at;
+      while (end < name.size() && std::isdigit(name[end])) ++end;
+      if (end - at <= 2) {
+        const std::size_t number = std::stoul(name.substr(at, end - at));
+        found[name.substr(0, at) + "{}" + name.substr(end)][number] = name;
+      }
+      at = end;
+    }
+  }
+  std::vector<Family> families;
+  for (const auto& [key, members] : found) {
+    const std::size_t first = members.begin()->first;
+    if (first > 1) continue;
+    Family family{key, {}, {}};
+    for (const auto& [number, name] : members) {
+      if (number != first + family.columns.size()) break;
+      family.columns.push_back(name);
+    }
+    if (family.columns.size() > 1) families.push_back(std::move(family));
+  }
+  return families;
+}
+
+/// How well a family's words fit: the place of the first that does, then how many there are besides.
+std::optional<std::pair<std::size_t, std::size_t>> FitOf(const Family& family, const Words& wanted) {
+  const Words words = WordsIn(family.key);
+  std::optional<std::size_t> best;
+  for (const std::string& word : words) {
+    if (Holds(kNotMeasured, word)) return std::nullopt;
+    const auto at = std::ranges::find(wanted, word);
+    if (at == wanted.end()) continue;
+    const auto place = static_cast<std::size_t>(at - wanted.begin());
+    best = std::min(best.value_or(place), place);
+  }
+  if (!best) return std::nullopt;
+  return std::pair(*best, words.size());
+}
+
+/// The best of the families that speak of `what`.
+Family Choose(const std::vector<Family>& families, const Words& wanted, const char* what,
+              const Words& names, const Place& place) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<const Family*>> ranked;
+  for (const Family& family : families) {
+    if (const auto fit = FitOf(family, wanted)) ranked[*fit].push_back(&family);
+  }
+  if (ranked.empty()) {
+    Refuse(place,
+           "has no columns of the joints' {}s that can be told by their names; it has: {}. Name "
+           "them: --map '{}=NAME_{{j}}', {{j}} from 0 on",
+           what, ExcerptOfList(names), what);
+  }
+  const std::vector<const Family*>& best = ranked.begin()->second;
+  if (best.size() > 1) {
+    Refuse(place, "has several columns that may be the joints' {}s: {} and {}. Choose: --map '{}={}'",
+           what, best[0]->columns[0], best[1]->columns[0], what, best[0]->columns[0]);
+  }
+  return *best.front();
+}
+
+/// The columns that a pattern names.
+Family Mapped(const std::string& pattern, const Words& joints) {
+  Family family{pattern, {}, joints};
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    family.columns.push_back(ColumnOfJoint(pattern, joints, j));
+  }
+  return family;
+}
+
+/// Which joints both families are of, with a notice where that was taken to be so.
+void Join(const Family& position, const Family& torque, const Words& joints, RobotColumns& found) {
+  const auto column = [&](const Family& family, const std::string& joint) -> std::string {
+    const Words& order = family.joints.empty() ? joints : family.joints;
+    const auto at = static_cast<std::size_t>(std::ranges::find(order, joint) - order.begin());
+    return at < order.size() && at < family.columns.size() ? family.columns[at] : "";
+  };
+  for (const std::string& joint : joints) {
+    const std::string q = column(position, joint), y = column(torque, joint);
+    if (q.empty() || y.empty()) continue;
+    found.joints.push_back(joint);
+    ColumnTexts map;
+    map["position"] = q;
+    map["torque"] = y;
+    found.maps.push_back(std::move(map));
+  }
+  if (!position.joints.empty() && !torque.joints.empty()) return;
+  const std::size_t numbered = std::min(position.columns.size(), torque.columns.size());
+  if (numbered == joints.size()) return;
+  found.notices.push_back(
+      fmt::format("the log numbers {} joints and the robot has {}: taken as {}, from the base "
+                  "outwards (--joints names others)",
+                  numbered, joints.size(), fmt::join(found.joints, ", ")));
+}
+
+std::optional<std::string> FindTime(const Words& names) {
+  for (const std::string& time : kTimes) {
+    for (const std::string& name : names) {
+      std::string lower = name.substr(0, name.find_first_of(" [("));
+      std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+      if (lower == time) return name;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The text of braces for joint j.
+std::string Expanded(const std::string& inside, const Words& joints, std::size_t j) {
+  if (inside == "j") return std::to_string(j);
+  if (inside == "name") return joints[j];
+  const auto refuse = [&](std::size_t count) {
+    Refuse({"--map"}, "{{{}}} stands for {} joints, and there are {}", Excerpt(inside), count,
+           joints.size());
+  };
+  if (const std::size_t dots = inside.find(".."); dots != std::string::npos) {
+    const auto first = ParseNumber(inside.substr(0, dots)), last = ParseNumber(inside.substr(dots + 2));
+    if (first && last && *last >= *first) {
+      const auto count = static_cast<std::size_t>(*last - *first) + 1;
+      if (count < joints.size()) refuse(count);
+      return fmt::format("{:.0f}", *first + static_cast<double>(j));
+    }
+  }
+  Words parts(1);
+  for (const char c : inside) {
+    if (c == '|') parts.emplace_back();
+    else parts.back() += c;
+  }
+  if (parts.size() > 1) {
+    if (parts.size() < joints.size()) refuse(parts.size());
+    return parts[j];
+  }
+  Refuse({"--map"}, "{{{}}} is none of {{j}}, {{name}}, {{0..5}} and {{a|b|c}}", Excerpt(inside));
+}
+
+}  // namespace
+
+std::string ColumnOfJoint(const std::string& pattern, const Words& joints, std::size_t j) {
+  std::string column;
+  std::size_t at = 0;
+  for (std::size_t open; (open = pattern.find('{', at)) != std::string::npos;) {
+    const std::size_t close = pattern.find('}', open);
+    if (close == std::string::npos) break;
+    column += pattern.substr(at, open - at);
+    column += Expanded(pattern.substr(open + 1, close - open - 1), joints, j);
+    at = close + 1;
+  }
+  if (at == 0 && joints.size() > 1) {
+    Refuse({"--map"}, "'{}' names one column for {} joints; put {{j}} where their number stands",
+           Excerpt(pattern), joints.size());
+  }
+  return column + pattern.substr(at);
+}
+
+RobotColumns FindRobotColumns(const Words& names, const Words& joints, const ColumnTexts& map,
+                              const Place& place) {
+  std::vector<Family> families = NamedFamilies(names, joints);
+  std::ranges::move(NumberedFamilies(names), std::back_inserter(families));
+  const auto find = [&](const char* what, const Words& wanted) {
+    const auto said = map.find(what);
+    if (said != map.end()) return Mapped(said->second, joints);
+    return Choose(families, wanted, what, names, place);
+  };
+  const Family position = find("position", kPositions), torque = find("torque", kTorques);
+
+  RobotColumns found;
+  const Words words = WordsIn(torque.key);
+  found.torque_is_current = std::ranges::any_of(
+      words, [](const std::string& word) { return Holds(kCurrents, word); });
+  Join(position, torque, joints, found);
+  const auto said = map.find("time");
+  const auto time = said != map.end() ? std::optional(said->second) : FindTime(names);
+  for (ColumnTexts& one : found.maps) {
+    if (time) one["time"] = *time;
+    // nothing else counts
+    for (const char* other : {"velocity", "motor_position", "load", "temperature"}) one[other] = "";
+  }
+  if (found.joints.empty()) {
+    Refuse(place, "positions {} and torques {} are of different joints", position.key, torque.key);
+  }
+  return found;
+}
+
+}  // namespace warmjoint
