@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/explain_robot.h"
+#include "identification/model/explain_robot.h"
+#include "identification/answer/speed_figures.h"
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
@@ -45,15 +46,23 @@ FitParameter ParameterOf(const JointFit& fit, Index row) {
   return parameter;
 }
 
-/// What brakes at the kept samples: law, load and heat. [n]
-VectorXd FrictionOf(const JointFit& fit, const Selection& used) {
+/// What brakes: law, load and heat. energy: gets E, where there is heat. [N]
+VectorXd FrictionAlong(const JointFit& fit, const VectorXd& x, VectorXd& energy) {
   ModelRows rows{VectorXd::Zero(fit.model.samples),
                  Eigen::MatrixXd::Zero(fit.model.samples, fit.model.size())};
   for (const auto& block : fit.model.blocks) {
-    if (block->MakesHeat()) block->Fill(fit.solved.x, rows);
+    if (block->MakesHeat()) block->Fill(x, rows);
   }
-  if (fit.model.heat) fit.model.heat->Fill(fit.solved.x, ModelRows(rows), rows);
-  return Kept(rows.force, used);
+  if (fit.model.heat) energy = fit.model.heat->Fill(x, ModelRows(rows), rows);
+  return rows.force;
+}
+
+/// For pictures.
+JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
+  JointSeries series{c.samples.time, c.velocity, {}, {}, {}, c.samples.keep};
+  series.fitted = FrictionAlong(fit, fit.solved.x, series.energy);
+  series.measured = series.fitted + fit.solved.residual;
+  return series;
 }
 
 Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
@@ -78,12 +87,9 @@ Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
 /// E at the last sample, and its derivatives by central differences.
 EndEnergy EndOf(const JointFit& fit) {
   const auto end_at = [&](const VectorXd& x) {
-    ModelRows rows{VectorXd::Zero(fit.model.samples),
-                   Eigen::MatrixXd::Zero(fit.model.samples, fit.model.size())};
-    for (const auto& block : fit.model.blocks) {
-      if (block->MakesHeat()) block->Fill(x, rows);
-    }
-    return fit.model.heat->Fill(x, ModelRows(rows), rows).tail(1)[0];
+    VectorXd energy;
+    FrictionAlong(fit, x, energy);
+    return energy.tail(1)[0];
   };
   EndEnergy end{end_at(fit.solved.x), VectorXd::Zero(fit.model.size())};
   std::vector<Index> rows;
@@ -136,7 +142,7 @@ VectorXd MeanCoulomb(const JointFit& fit) {
 }
 
 /// What makes the numbers of a joint mean nothing, and what is to be said of them.
-std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c,
+std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const JointSeries& series,
                             const std::optional<JointHoldOut>& holdout, bool gain_is_known) {
   std::vector<Cause> causes;
   const Selection used{c.samples.keep, {}};
@@ -151,7 +157,7 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c,
   // friction that is known to worse than itself, or less than what is left
   const VectorXd mean = MeanCoulomb(fit);
   const double level = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
-  const double friction = std::sqrt(FrictionOf(fit, used).array().square().mean());
+  const double friction = std::sqrt(Kept(series.fitted, used).array().square().mean());
   const double left = std::sqrt(fit.solved.noise.variance);
   if (reach > std::max(level, friction)) {
     refuse(Status::not_identifiable, ExplainUntold(level, reach, c.torque_unit));
@@ -260,10 +266,6 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   summary.gain = gain;
   summary.gain_is_known = HalfWidthOf(fit, by_gain) < std::log(2.0);
 
-  // judged as any fit is
-  const Fit made = FitOf(fit, c);
-  Inference inference =
-      Apply(Infer(made), CausesOf(fit, c, holdout, summary.gain_is_known));
   LogSamples m;
   m.joint = c.kind;
   m.torque_unit = c.torque_unit;
@@ -271,7 +273,16 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   m.velocity = c.velocity;
   m.position = c.position;
   m.torque = c.samples.torque;
-  RobotJointEstimate answer{std::move(summary), ReportFit(made, inference, m)};
+
+  // judged as any fit is
+  const Fit made = FitOf(fit, c);
+  JointSeries series = SeriesOf(fit, c);
+  Inference inferred = Infer(made);
+  inferred.at_speeds = SpeedFiguresOf(made, inferred, std::nullopt, m, made.used);
+  std::vector<Cause> causes = CausesOf(fit, c, series, holdout, summary.gain_is_known);
+  if (auto floor = UnknownFriction(inferred.at_speeds, causes)) causes.push_back(std::move(*floor));
+  const Inference inference = Apply(std::move(inferred), std::move(causes));
+  RobotJointEstimate answer{std::move(summary), ReportFit(made, inference, m), std::move(series)};
   Estimate& estimate = answer.estimate;
   if (!estimate.parameters.empty()) {
     estimate.parameters.push_back(MeanRow(fit, c, estimate.status == Status::ok));

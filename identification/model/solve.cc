@@ -115,7 +115,10 @@ NoiseScale NoiseScaleOf(const VectorXd& e) {
   if (n < 8) return noise;
   noise.variance = std::max(e.squaredNorm() / static_cast<double>(n), 1e-300);
   // autocorrelations by the square of the spectrum, padded so that the ends do not meet
-  std::vector<double> padded(static_cast<std::size_t>(2 * n), 0.0);
+  // to a power of two, which the transform is fast for
+  std::size_t length = 16;
+  while (length < static_cast<std::size_t>(2 * n)) length *= 2;
+  std::vector<double> padded(length, 0.0);
   VectorXd::Map(padded.data(), n) = e.array() - e.mean();
   std::vector<std::complex<double>> spectrum;
   Eigen::FFT<double> fft;

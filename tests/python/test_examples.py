@@ -19,6 +19,7 @@ ROTARY = ["models/robots/rotary/rotary.xml", "hinge", "models/robots/rotary/fric
     (["warm_robot.py", *ROTARY, "1"], ["mujoco"], "\n     1               15.1"),  # cold 17.5 N.m; (20) to (22) by hand: 15.18
     (["worlds.py", *ROTARY], ["mujoco.batch"], "\n0.01             0.08"),  # m v^2 / 2 = 1.8 J over 15 N.m and more
     (["train.py"], ["mujoco.batch", "gymnasium"], "rad in the mean"),
+    (["robot_joints.py", "robot.csv"], [], "joint 2: ok\n  viscous"),
     (["compare_identifiers.py", "run"], ["mujoco"], "\nnominal-ls   error over all parameters  158."),
 ], ids=lambda given: given[0])
 def test_an_example_runs(arguments, needed, said, recording, tmp_path):
@@ -26,6 +27,11 @@ def test_an_example_runs(arguments, needed, said, recording, tmp_path):
         pytest.importorskip(module)
     (tmp_path / "models").symlink_to(ROOT / "models")
     (tmp_path / "log.csv").symlink_to(recording)
+    with open(recording, encoding="utf-8") as log, open(tmp_path / "robot.csv", "w", encoding="utf-8") as wide:
+        header, *rows = (line.rstrip("\n").split(",") for line in log if not line.startswith("#"))
+        at = [header.index(name) for name in ("time", "position", "torque")]
+        wide.write("t,q1,tau1,q2,tau2\n")
+        wide.writelines(",".join(row[i] for i in (*at, *at[1:])) + "\n" for row in rows)
     done = subprocess.run([sys.executable, ROOT / "tools/examples" / arguments[0], *arguments[1:]], cwd=tmp_path,
                           env=os.environ, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -14,6 +14,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
 #include "tools/identify/carried_heat.h"
+#include "tools/robot/robot_friction.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {
@@ -22,6 +23,8 @@ namespace {
 struct AttachArguments {
   std::string model;
   std::vector<std::string> joints;
+  std::string robot;                    // robot.json
+  std::vector<std::string> constants;   // of its joints
   std::string initial = "cold";
   AttachOptions options;
   std::vector<std::string> armatures;
@@ -61,6 +64,20 @@ std::optional<JointKind> KindOfFile(const std::string& file) {
   return KindOfUnits(units);
 }
 
+/// The frictions of a robot's answer, in N.m or N by [NAME=]VALUE of --torque-constant.
+std::vector<FrictionForJoint> ReadRobot(const AttachArguments& arguments,
+                                        std::vector<std::string>& warnings) {
+  NumberOfJoints constants;
+  for (const std::string& text : arguments.constants) {
+    const std::size_t equals = text.find('=');
+    const std::string joint = equals == std::string::npos ? "" : text.substr(0, equals);
+    const auto value = ParseFinite(equals == std::string::npos ? text : text.substr(equals + 1));
+    if (!value) Refuse({"--torque-constant"}, "'{}' is not [JOINT=]NUMBER, N.m/A", Excerpt(text));
+    constants[joint] = *value;
+  }
+  return FrictionsOfRobot(arguments.robot, constants, arguments.initial, warnings);
+}
+
 /// NAME=VALUE of --armature.
 ArmatureForJoints ReadArmature(const std::string& text) {
   const auto [joints, value] = ReadPair(text, "--armature", "NAME=VALUE or PATTERN=VALUE");
@@ -91,6 +108,13 @@ ExitStatus Attach(const AttachArguments& arguments) {
   std::vector<std::string> warnings;
   const std::filesystem::path model = FindRobot(arguments.model, "MODEL");
   std::vector<std::filesystem::path> inputs{model};
+  if (arguments.joints.empty() && arguments.robot.empty()) {
+    Refuse({"attach"}, "needs --joint NAME=FILE, or --friction robot.json for all joints");
+  }
+  if (!arguments.robot.empty()) {
+    frictions = ReadRobot(arguments, warnings);
+    inputs.emplace_back(arguments.robot);
+  }
   for (const std::string& text : arguments.joints) {
     frictions.push_back(ReadJoint(text, arguments.initial, warnings));
     inputs.emplace_back(text.substr(text.find('=') + 1));
@@ -145,7 +169,11 @@ Command AddAttachCommand(CLI::App& program) {
   AddValue(*parser, "--joint", "JOINT=FILE", arguments->joints,
            "NAME=FILE or PATTERN=FILE (a regular expression): estimate.json or another "
            "friction file for these joints")
-      ->required()
+      ->take_all();
+  AddValue(*parser, "--friction", "FILE", arguments->robot,
+           "robot.json of identify-robot: friction for all joints that it knows");
+  AddValue(*parser, "--torque-constant", "JOINT=NUMBER", arguments->constants,
+           "N.m/A at the joint, for frictions of robot.json that are in A: .1 or J4=.1")
       ->take_all();
 
   // how it acts, and how warm it begins

@@ -33,6 +33,7 @@ Command AddSimulateCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
+Command AddIdentifyRobotCommand(CLI::App& program);
 Command AddPredictCommand(CLI::App& program);
 Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);

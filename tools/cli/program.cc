@@ -27,7 +27,7 @@ std::vector<Command> AddCommands(CLI::App& program) {
       AddConvertCommand(program), AddCheckCommand(program),  AddIdentifyCommand(program),
       AddPredictCommand(program), AddAttachCommand(program), AddRunCommand(program),
       AddStatusCommand(program),  AddMergeCommand(program),  AddCompareCommand(program),
-      AddPlotCommand(program),    AddReportCommand(program),
+      AddPlotCommand(program),    AddReportCommand(program), AddIdentifyRobotCommand(program),
   };
 }
 

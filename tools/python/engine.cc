@@ -1,11 +1,13 @@
 // warmjoint._engine: what needs MuJoCo 4.0: simulation, suites and their leaderboards.
 #include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
+#include <warmjoint/identify_robot.h>
 #include <warmjoint/simulation.h>
 #include <warmjoint/suite.h>
 
@@ -15,9 +17,11 @@
 #include <utility>
 #include <vector>
 
+#include "identification/model/robot_estimate.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
+#include "tools/robot/robot_figure.h"
 
 namespace warmjoint::python {
 namespace {
@@ -84,6 +88,38 @@ nb::dict RunInPython(const std::string& suite, const std::string& output, nb::ha
   return dict;
 }
 
+using GivenColumn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+/// columns: of one log in memory; none: the files of `source`. Returns (robot.json, {joint: figure}).
+nb::object IdentifyRobotInPython(const std::string& robot, nb::handle source,
+                                 const std::map<std::string, GivenColumn>& columns,
+                                 nb::handle given) {
+  const auto read = FieldsFromPython<RecordingSource>(source, "log");
+  const auto settings = FieldsFromPython<RobotSettings>(given, "identify_robot");
+  std::map<std::string, std::vector<double>> values;
+  for (const auto& [name, column] : columns) {
+    values[name].assign(column.data(), column.data() + column.size());
+  }
+  RobotEstimate answer;
+  if (columns.empty()) {
+    // readers of HDF5 and MATLAB fork, which only the thread that calls may do
+    nb::gil_scoped_release released;
+    answer = IdentifyRobot(robot, read, settings);
+  } else {
+    answer = Interruptibly([=](const auto& stop) {
+      return IdentifyRobot(robot, values, read.read, settings,
+                           [&](const std::string&) { stop(); });
+    });
+  }
+  Tree figures = Tree::object();
+  for (const RobotJointEstimate& one : answer.joints) {
+    if (auto made = figures::MakeJointFigure(one)) {
+      figures[one.summary.joint] = figures::FigureJson(*std::move(made));
+    }
+  }
+  return nb::make_tuple(ToPython(RobotEstimateToTree(answer)), ToPython(figures));
+}
+
 }  // namespace
 }  // namespace warmjoint::python
 
@@ -101,6 +137,10 @@ NB_MODULE(_engine, module) {
       nb::sig("def run(suite: str, output: str, options: dict[str, object], functions: dict[str, "
               "collections.abc.Callable[[dict[str, typing.Any]], str]], watch: "
               "collections.abc.Callable[[int, int], None]) -> dict[str, typing.Any]"));
+  module.def("identify_robot", &python::IdentifyRobotInPython,
+             nb::sig("def identify_robot(robot: str, source: dict[str, object], columns: dict[str, "
+                     "numpy.typing.NDArray[numpy.float64]], settings: dict[str, object]) -> "
+                     "tuple[dict[str, typing.Any], dict[str, dict[str, typing.Any]]]"));
   module.def("leaderboard", [](const std::string& directory, const std::string& format) {
     return FormatLeaderboard(directory, format);
   });

@@ -3,6 +3,7 @@
 
 #include <warmjoint/estimate.h>
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,10 +41,21 @@ struct RobotJointSummary {
   }
 };
 
+/// A joint along its log, filtered, for pictures. All [N], torques in the log's unit.
+struct JointSeries {
+  Eigen::VectorXd time;      // s
+  Eigen::VectorXd velocity;  // rad/s or m/s
+  Eigen::VectorXd measured;  // torque less all that is no friction
+  Eigen::VectorXd fitted;    // friction
+  Eigen::VectorXd energy;    // E; empty where nothing warms
+  Eigen::Array<bool, Eigen::Dynamic, 1> kept;  // away from rests and reversals
+};
+
 /// A joint of a robot.
 struct RobotJointEstimate {
   RobotJointSummary summary;
   Estimate estimate;
+  std::optional<JointSeries> series{};  // of a fit; not in files
 
   /// The friction in N.m or N that simulations use; nothing where none is known, or only in amperes.
   bool HasFriction() const { return estimate.friction && estimate.friction->torque_unit.empty(); }

@@ -19,6 +19,7 @@ from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulat
 from warmjoint.estimate import Estimate, FrictionAtSpeed, Parameter, Prediction, Rejected, Residuals, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
 from warmjoint.log import Check, Log, check, read
+from warmjoint.robot import RobotEstimate, identify_robot, load_robot
 
 if TYPE_CHECKING:
     from warmjoint.mujoco_attach import attach, bind
@@ -38,5 +39,5 @@ def __dir__() -> list[str]:
 
 
 __all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
-           "Residuals", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify", "laws",
-           "load", "read", "run", "score", "simulate"]
+           "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify",
+           "identify_robot", "laws", "load", "load_robot", "read", "run", "score", "simulate"]

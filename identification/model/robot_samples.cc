@@ -1,4 +1,4 @@
-#include "identification/preparation/robot_samples.h"
+#include "identification/model/robot_samples.h"
 
 #include <algorithm>
 #include <cmath>

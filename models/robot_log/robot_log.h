@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "models/recording/robot_columns.h"
+#include "models/robot_log/robot_columns.h"
 
 namespace warmjoint {
 

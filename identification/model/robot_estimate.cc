@@ -1,4 +1,4 @@
-#include "identification/robot_estimate.h"
+#include "identification/model/robot_estimate.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

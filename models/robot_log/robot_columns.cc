@@ -1,4 +1,4 @@
-#include "models/recording/robot_columns.h"
+#include "models/robot_log/robot_columns.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

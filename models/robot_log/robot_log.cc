@@ -1,4 +1,4 @@
-#include "models/recording/robot_log.h"
+#include "models/robot_log/robot_log.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "identification/explain_robot.h"
+#include "identification/model/explain_robot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

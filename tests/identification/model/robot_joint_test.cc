@@ -1,0 +1,144 @@
+// The fit of a joint whose rigid torque is given and may be wrong, on columns made of a known truth.
+#include "identification/model/robot_joint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "identification/model/report_joint.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// A truth, in N.m, s and rad.
+struct Truth {
+  double viscous = 2, forwards = 5, backwards = 4, load = .05, rotor = .8, gain = 1;
+  double thermal_gain = 0, tau = 100;
+};
+
+/// 20 minutes of a joint at 10 Hz: gravity and inertia of a description that is wrong by one deviation in each of four directions.
+JointColumns Columns(const Truth& truth, unsigned seed) {
+  constexpr Index n = 12000;
+  constexpr double h = .1, noise = .3;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  JointColumns c;
+  c.joint = "elbow";
+  c.step = h;
+  c.samples.time = VectorXd::LinSpaced(n, 0, h * (n - 1));
+  const Eigen::ArrayXd t = c.samples.time.array();
+  c.position = 1.2 * (.31 * t).sin() + .5 * (.83 * t + 1).sin();
+  c.velocity = 1.2 * .31 * (.31 * t).cos() + .5 * .83 * (.83 * t + 1).cos();
+  c.acceleration = -1.2 * .31 * .31 * (.31 * t).sin() - .5 * .83 * .83 * (.83 * t + 1).sin();
+  c.sign = c.velocity.array().sign();
+  c.forwards = (c.velocity.array() > 0).cast<double>();
+  c.backwards = (c.velocity.array() < 0).cast<double>();
+  c.top_speed = c.velocity.cwiseAbs().maxCoeff();
+  c.slow = (-(c.velocity.array() / (kSlowShare * c.top_speed)).square()).exp() * c.sign.array();
+  c.ripple.resize(n, 0);
+  const Eigen::ArrayXd q = c.position.array();
+  Eigen::MatrixXd directions(n, 4);
+  directions << q.sin().matrix(), q.cos().matrix(), (.7 * q).sin().matrix(), c.acceleration;
+  c.rigid = {20 * q.sin().matrix() + 2 * c.acceleration, directions};
+  Eigen::MatrixXd carried = directions;
+  carried.col(3).setZero();
+  c.carried = {20 * q.sin().matrix(), carried};
+
+  // the log of a robot that is not as described
+  VectorXd z(4);
+  for (double& one : z) one = normal(random);
+  const VectorXd rigid = c.rigid.At(z), load = c.carried.At(z);
+  c.samples.torque.resize(n);
+  double energy = 0;
+  const double pole = std::exp(-h / truth.tau);
+  for (Index i = 0; i < n; ++i) {
+    const double s = c.sign[i], v = c.velocity[i];
+    const double level = truth.viscous * std::abs(v) + (s > 0 ? truth.forwards : truth.backwards) +
+                         truth.load * std::abs(load[i]);
+    const double friction = s * std::max(level + energy, 0.0);
+    c.samples.torque[i] = truth.gain * rigid[i] + truth.rotor * c.acceleration[i] + friction +
+                          noise * normal(random);
+    energy = pole * energy + (1 - pole) * truth.thermal_gain * std::abs(v) * (level + energy);
+  }
+  c.samples.keep = c.velocity.array().abs() > .02 * c.top_speed;
+  return c;
+}
+
+JointFit Fit(const JointColumns& c, bool warms = false) {
+  JointQuestion question;
+  question.warms = warms;
+  question.slows = false;
+  return FitJoint(c, GuessGain(c), question);
+}
+
+/// By how many deviations a value is off.
+double Off(const JointFit& fit, Index row, double truth) {
+  return (fit.Value(row) - truth) / fit.Deviation(row);
+}
+
+TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
+  // 20 logs: squares of deviations of each parameter from the truth are chi-squared of 20, 45.3 by chance in 1 of 1000
+  const Truth truth;
+  VectorXd squares = VectorXd::Zero(5);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const JointColumns c = Columns(truth, seed);
+    const JointFit fit = Fit(c);
+    const Index law = fit.at.law.begin;
+    const VectorXd off{{Off(fit, law, truth.viscous), Off(fit, law + 1, truth.forwards),
+                        Off(fit, law + 2, truth.backwards), Off(fit, fit.at.load.begin, truth.load),
+                        Off(fit, fit.at.given.log_gain, std::log(truth.gain))}};
+    squares += off.cwiseAbs2();
+  }
+  EXPECT_LT(squares.maxCoeff(), 45.3) << squares.transpose();
+}
+
+TEST(RobotJoint, KnowsTheMeanOfBothDirectionsBetterThanTheirDifference) {
+  const JointFit fit = Fit(Columns({}, 3));
+  const Index up = fit.at.law.begin + 1, down = up + 1;
+  const auto& c = fit.known.covariance;
+  const double mean = c(up, up) + c(down, down) + 2 * c(up, down);
+  const double difference = c(up, up) + c(down, down) - 2 * c(up, down);
+  EXPECT_LT(mean, difference);
+}
+
+TEST(RobotJoint, FindsWarmingWhereItIsAndNotWhereItIsNot) {
+  Truth truth;
+  EXPECT_FALSE(Fit(Columns(truth, 5), true).at.heat);
+  truth.thermal_gain = -.5;
+  const JointFit fit = Fit(Columns(truth, 5), true);
+  ASSERT_TRUE(fit.at.heat);
+  EXPECT_LT(std::abs(Off(fit, fit.at.heat->begin, truth.thermal_gain)), 4);
+  EXPECT_LT(std::abs(Off(fit, fit.at.heat->begin + 1, std::log(truth.tau))), 4);
+}
+
+TEST(RobotJoint, TellsATurnedTorque) {
+  JointColumns c = Columns({}, 2);
+  c.samples.torque = -c.samples.torque;
+  EXPECT_LT(GuessGain(c).value, 0);
+}
+
+TEST(RobotJoint, IsReportedWithBothDirectionsAndTheirMean) {
+  const JointColumns c = Columns({}, 4);
+  const JointFit fit = Fit(c);
+  const RobotJointEstimate answer = ReportJoint(fit, c, {}, HoldOutJoint(fit, c, .4));
+  ASSERT_EQ(answer.estimate.status, Status::ok) << answer.estimate.message;
+  EXPECT_TRUE(answer.HasFriction());
+  EXPECT_NEAR(answer.estimate.Find("coulomb")->value, 4.5, .2);
+  EXPECT_LT(*answer.summary.rms_held_out, .35);
+  EXPECT_GT(*answer.summary.rms_without_friction, 2);
+}
+
+TEST(RobotJoint, IsRefusedWhereItMovesOneWayOrNotAtAll) {
+  JointColumns c = Columns({}, 1);
+  EXPECT_EQ(WhyNothing(c, 3), "");
+  EXPECT_NE(WhyNothing(c, .01).find("did not move"), std::string::npos);
+  c.samples.keep = c.samples.keep && c.velocity.array() > 0;
+  EXPECT_NE(WhyNothing(c, 3).find("one direction"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace warmjoint

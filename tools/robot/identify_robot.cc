@@ -1,0 +1,180 @@
+#include <warmjoint/identify_robot.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "identification/model/report_joint.h"
+#include "tools/robot/find_faults.h"
+#include "tools/robot/joint_data.h"
+#include "tools/robot/payload.h"
+#include "tools/robot/robot_data.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+
+/// Does it for 0, ..., count - 1, several at once.
+template <typename Work>
+void ForEachAtOnce(Index count, const Work& work) {
+  std::atomic<Index> next{0};
+  std::exception_ptr thrown;
+  std::mutex one;
+  const auto run = [&] {
+    for (Index i; (i = next++) < count;) {
+      try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(one);
+        if (!thrown) thrown = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const Index threads = std::clamp<Index>(std::thread::hardware_concurrency(), 1, 8);
+    for (Index i = 1; i < std::min(threads, count); ++i) others.emplace_back(run);
+    run();
+  }
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+/// The middle gain of the joints that know theirs; 1 where none does.
+double MiddleGain(const std::vector<GainGuess>& guesses) {
+  std::vector<double> sure;
+  for (const GainGuess& one : guesses) {
+    if (one.IsSure()) sure.push_back(std::abs(one.value));
+  }
+  if (sure.empty()) return 1;
+  std::ranges::sort(sure);
+  const std::size_t half = sure.size() / 2;
+  return sure.size() % 2 == 1 ? sure[half] : (sure[half - 1] + sure[half]) / 2;
+}
+
+RobotJointSummary SummaryOf(const JointColumns& c, double travel) {
+  RobotJointSummary summary;
+  summary.joint = c.joint;
+  summary.torque_unit = c.torque_unit;
+  summary.travel = travel;
+  summary.top_speed = c.top_speed;
+  summary.minutes = static_cast<double>(c.samples.keep.count()) * c.step / 60;
+  return summary;
+}
+
+/// A joint from its columns to its estimate, in two parts: the gain first, since those of all joints are a prior of each.
+struct Joint {
+  JointColumns columns;
+  RobotJointSummary summary;
+  std::string nothing;  // why its log tells nothing
+  bool dead = false;    // its torque cannot be used
+  GainGuess guess;
+};
+
+Joint Prepare(const RobotData& data, const RobotRows& rows, Index j) {
+  Joint joint{ColumnsOf(data, rows, j), {}, {}, false, {}};
+  double travel = 0;
+  for (const RobotSamples& s : rows.samples) travel = std::max(travel, s.travel[j]);
+  joint.summary = SummaryOf(joint.columns, travel);
+  joint.nothing = WhyNothing(joint.columns, travel);
+  for (const RobotLog& log : data.logs) {
+    const std::string& dead = log.dead[static_cast<std::size_t>(j)];
+    if (dead.empty()) continue;
+    joint.dead = true;
+    joint.nothing = dead;
+  }
+  if (joint.nothing.empty()) joint.guess = GuessGain(joint.columns);
+  return joint;
+}
+
+RobotJointEstimate Answer(const Joint& joint, const JointQuestion& question, double holdout) {
+  if (!joint.nothing.empty()) {
+    const Status status = joint.dead ? Status::bad_data : Status::not_identifiable;
+    return ReportNothing(joint.columns, joint.summary, status, joint.nothing);
+  }
+  const JointFit fit = FitJoint(joint.columns, joint.guess, question);
+  return ReportJoint(fit, joint.columns, joint.summary, HoldOutJoint(fit, joint.columns, holdout));
+}
+
+RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& source,
+                       const RobotSettings& settings, const RobotWatch& watch) {
+  const auto tell = [&](const char* words) {
+    if (watch) watch(words);
+  };
+  tell("reading the description and the log");
+  const RobotData data = ReadRobotData(robot, source, settings);
+  tell("rigid torque along the motion");
+  RobotRows rows = MakeRows(data, settings);
+  const bool is_asked = settings.tool.known == ToolKnown::unknown;
+  const Eigen::VectorXd deviations = rows.deviations;
+  if (is_asked) rows.deviations = FreeLastLink(data, deviations);
+
+  const Index n = std::ssize(data.robot.joints);
+  std::vector<Joint> joints(static_cast<std::size_t>(n));
+  ForEachAtOnce(n, [&](Index j) { joints[static_cast<std::size_t>(j)] = Prepare(data, rows, j); });
+  std::vector<GainGuess> guesses;
+  for (const Joint& joint : joints) guesses.push_back(joint.guess);
+  JointQuestion question;
+  question.middle_gain = MiddleGain(guesses);
+  question.joints = static_cast<int>(std::ranges::count_if(
+      joints, [](const Joint& joint) { return joint.nothing.empty(); }));
+
+  tell("looking for faults of the log");
+  for (const RobotFault& fault : FindFaults(data, rows, settings.gear)) {
+    for (const Index j : fault.joints) {
+      Joint& joint = joints[static_cast<std::size_t>(j)];
+      joint.dead = true;
+      joint.nothing = fmt::format("with that undone its residual falls by more than half: {}", fault.sentence);
+    }
+  }
+
+  tell("fitting each joint");
+  RobotEstimate answer;
+  answer.robot = robot.string();
+  answer.log = source.recording.files;
+  answer.notices = data.notices;
+  answer.joints.resize(joints.size());
+  ForEachAtOnce(n, [&](Index j) {
+    const auto at = static_cast<std::size_t>(j);
+    answer.joints[at] = Answer(joints[at], question, settings.holdout);
+  });
+
+  // a load that nobody told
+  if (settings.tool.known == ToolKnown::given) return answer;
+  tell("looking for a load");
+  std::vector<Index> fitted;
+  for (Index j = 0; j < n; ++j) {
+    if (joints[static_cast<std::size_t>(j)].nothing.empty()) fitted.push_back(j);
+  }
+  if (fitted.empty() || settings.inertials == 0) return answer;
+  rows.deviations = deviations;
+  const Payload payload = FindPayload(data, rows, guesses, fitted, question);
+  if (is_asked || payload.is_shown) answer.notices.push_back(ExplainPayload(payload, is_asked));
+  return answer;
+}
+
+}  // namespace
+
+RobotEstimate IdentifyRobot(const std::filesystem::path& robot, const RecordingSource& source,
+                            const RobotSettings& settings, const RobotWatch& watch) {
+  return Identify(robot, {source}, settings, watch);
+}
+
+RobotEstimate IdentifyRobot(const std::filesystem::path& robot,
+                            const std::map<std::string, std::vector<double>>& columns,
+                            const ReadSettings& read, const RobotSettings& settings,
+                            const RobotWatch& watch) {
+  RobotSource source;
+  source.recording.files = {"log"};
+  source.recording.read = read;
+  source.columns = &columns;
+  return Identify(robot, source, settings, watch);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,131 @@
+#include "tools/robot/joint_data.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "sim/robot/regressor.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows of all logs, one behind the other. part: of one log, [N x m]
+template <typename Part>
+MatrixXd Stacked(const RobotRows& rows, const Part& part) {
+  std::vector<MatrixXd> parts;
+  Index count = 0;
+  for (std::size_t i = 0; i < rows.samples.size(); ++i) {
+    parts.push_back(part(i));
+    count += parts.back().rows();
+  }
+  if (parts.size() == 1) return std::move(parts.front());
+  MatrixXd all(count, parts.front().cols());
+  Index at = 0;
+  for (const MatrixXd& one : parts) {
+    all.middleRows(at, one.rows()) = one;
+    at += one.rows();
+  }
+  return all;
+}
+
+/// Parameters of a point mass at the last link. kg, m
+InertialParameters PointMass(double mass, const std::vector<double>& at) {
+  const Eigen::Vector3d c(at[0], at[1], at[2]);
+  const Eigen::Matrix3d inertia =
+      mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  InertialParameters p;
+  p << mass, mass * c, inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2),
+      inertia(1, 2);
+  return p;
+}
+
+}  // namespace
+
+Index LastLink(const RobotDescription& robot) {
+  Index last = 0;
+  std::ptrdiff_t most = 0;
+  for (Index k = 0; k < std::ssize(robot.links); ++k) {
+    const auto movers = std::ranges::count_if(robot.joints, [&](const RobotJoint& joint) {
+      return robot.Moves(joint, robot.links[static_cast<std::size_t>(k)]);
+    });
+    if (movers >= most) last = k, most = movers;
+  }
+  return last;
+}
+
+RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
+  RobotRows rows;
+  const Index n = std::ssize(data.robot.joints);
+  VectorXd gears(n);
+  for (Index j = 0; j < n; ++j) {
+    gears[j] = NumberOf(settings.gear, data.robot.joints[static_cast<std::size_t>(j)].name, 0);
+  }
+  for (const RobotLog& log : data.logs) {
+    rows.samples.push_back(PrepareRobot({log.step, log.time, log.position, log.torque, log.logged},
+                                        data.coupling, gears, {.cutoff = settings.cutoff}));
+    const RobotSamples& s = rows.samples.back();
+    rows.motions.emplace_back(data.robot, s.joint_position, s.joint_velocity, s.joint_acceleration);
+  }
+  rows.parameters = data.robot.Parameters();
+  rows.deviations = settings.inertials * data.robot.Spreads();
+  if (settings.tool.known == ToolKnown::given) {
+    rows.parameters.segment<10>(10 * LastLink(data.robot)) +=
+        PointMass(settings.tool.mass, settings.tool.centre);
+  }
+  return rows;
+}
+
+JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
+                       MatrixXd* seen) {
+  const auto joint = static_cast<std::size_t>(j);
+  JointColumns c;
+  c.joint = data.robot.joints[joint].name;
+  c.kind = data.robot.joints[joint].kind;
+  c.torque_unit = data.torque_units[joint];
+  c.step = rows.samples.front().step;
+  const auto column = [&](MatrixXd RobotSamples::*of) -> VectorXd {
+    return Stacked(rows, [&](std::size_t i) -> MatrixXd { return (rows.samples[i].*of).col(j); });
+  };
+  c.position = column(&RobotSamples::position);
+  c.velocity = column(&RobotSamples::velocity);
+  c.acceleration = column(&RobotSamples::acceleration);
+  c.sign = column(&RobotSamples::sign);
+  c.forwards = column(&RobotSamples::forwards);
+  c.backwards = column(&RobotSamples::backwards);
+  c.slow = column(&RobotSamples::slow);
+  c.ripple = Stacked(rows, [&](std::size_t i) { return rows.samples[i].ripple[joint]; });
+  c.samples.torque = column(&RobotSamples::torque);
+
+  // time goes on from log to log, a step apart
+  const Index count = c.velocity.size();
+  c.samples.time.resize(count);
+  c.samples.keep.resize(count);
+  Index at = 0;
+  double begin = 0;
+  for (const RobotSamples& s : rows.samples) {
+    const Index size = s.time.size();
+    c.samples.time.segment(at, size) = s.time.array() - s.time[0] + begin;
+    c.samples.keep.segment(at, size) = s.keep.col(j);
+    c.top_speed = std::max(c.top_speed, s.top[j]);
+    if (at > 0) c.samples.starts.push_back(at);
+    at += size;
+    begin = c.samples.time[at - 1] + c.step;
+  }
+
+  // torque of the motor, of the joints that it drives, by the description and by what that may have wrong
+  const VectorXd weights = data.coupling.inverse().col(j);
+  const auto regressor = [&](Accelerations which) {
+    return Stacked(rows, [&](std::size_t i) { return rows.motions[i].Regressor(weights, which); });
+  };
+  const MatrixXd y = regressor(Accelerations::counted), still = regressor(Accelerations::left_out);
+  const MatrixXd basis = DirectionsSeen(y, rows.deviations).basis;
+  if (seen) *seen = basis;
+  c.rigid = {y * rows.parameters, y * basis};
+  c.carried = {still * rows.parameters, still * basis};
+  return c;
+}
+
+}  // namespace warmjoint

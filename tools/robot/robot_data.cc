@@ -1,0 +1,199 @@
+#include "tools/robot/robot_data.h"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
+#include "models/recording/read_recording.h"
+#include "models/robot_log/robot_columns.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+
+/// Beyond which no joint stands whose description has no narrower limits: four turns, as the last joints of some arms have.
+constexpr double kFarthest = 4 * 2 * std::numbers::pi;  // rad
+constexpr double kBesideLimit = .5;  // rad that a joint may stand beyond its limits in a log
+
+/// The joint's own part of a file, or of columns in memory.
+ReadJoint ReaderOf(const RobotSource& source, const std::string& file) {
+  if (source.columns) {
+    return [&source, file](const ReadSettings& own) {
+      return MakeRecording(*source.columns, own, file);
+    };
+  }
+  return [file](const ReadSettings& own) { return ReadRecordingFile(file, own); };
+}
+
+std::vector<std::string> NamesIn(const RobotSource& source, const std::string& file) {
+  if (!source.columns) return NamesOfColumns(file, source.recording.read);
+  std::vector<std::string> names;
+  for (const auto& [name, values] : *source.columns) names.push_back(name);
+  return names;
+}
+
+/// Whether a rotary joint stands where it could not, were its positions in rad; by 1 where they were in degrees.
+bool IsInDegrees(const RobotDescription& robot, const RobotLog& log, std::string& joint) {
+  bool beyond = false;
+  for (Index j = 0; j < log.position.cols(); ++j) {
+    const RobotJoint& one = robot.joints[static_cast<std::size_t>(j)];
+    if (one.kind != JointKind::rotary) continue;
+    double farthest = kFarthest;
+    if (one.range) {
+      const auto& [lower, upper] = *one.range;
+      farthest = std::min(farthest, std::max(std::abs(lower), std::abs(upper)) + kBesideLimit);
+    }
+    const double reached = log.position.col(j).cwiseAbs().maxCoeff();
+    // a count of something else is no degree either
+    if (reached * std::numbers::pi / 180 > farthest) return false;
+    if (reached > farthest && !beyond) joint = one.name;
+    beyond = beyond || reached > farthest;
+  }
+  return beyond;
+}
+
+/// Takes the options of single joints, and tells the unit of each torque.
+void TakeOptions(const RobotSettings& settings, RobotData& data) {
+  const Index n = std::ssize(data.robot.joints);
+  for (Index j = 0; j < n; ++j) {
+    const RobotJoint& joint = data.robot.joints[static_cast<std::size_t>(j)];
+    const double constant = NumberOf(settings.torque_constant, joint.name, 0);
+    const std::string& unit = data.logs.front().torque_unit;
+    if (constant != 0 && unit != "A" && !unit.empty()) {
+      Refuse({"--torque-constant"},
+             "makes torque of a current, and the torques of the log are in {}; give --unit torque=A "
+             "where they are in amperes",
+             unit);
+    }
+    const double factor = NumberOf(settings.torque_scale, joint.name, 1) * (constant != 0 ? constant : 1);
+    for (RobotLog& log : data.logs) {
+      log.torque.col(j) *= factor;
+      log.position.col(j) *= NumberOf(settings.position_scale, joint.name, 1);
+    }
+    const bool is_torque = constant != 0 || unit == "N.m" || unit == "N" || unit.empty();
+    data.torque_units.push_back(is_torque ? std::string(kTorqueUnit.For(joint.kind)) : unit);
+  }
+}
+
+void CheckNames(const NumberOfJoints& numbers, const char* option, const RobotDescription& robot) {
+  std::vector<std::string> names;
+  for (const RobotJoint& joint : robot.joints) names.push_back(joint.name);
+  for (const auto& [joint, value] : numbers) {
+    if (joint.empty() || std::ranges::find(names, joint) != names.end()) continue;
+    Refuse({option}, "the log holds no joint '{}'{}", Excerpt(joint), Suggestion(joint, names));
+  }
+}
+
+}  // namespace
+
+double NumberOf(const NumberOfJoints& numbers, const std::string& joint, double otherwise) {
+  for (const std::string& name : {joint, std::string()}) {
+    if (const auto found = numbers.find(name); found != numbers.end()) return found->second;
+  }
+  return otherwise;
+}
+
+Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
+                             const std::vector<RobotJoint>& joints) {
+  const Index n = std::ssize(joints);
+  Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(n, n);
+  std::vector<std::string> names;
+  for (const RobotJoint& joint : joints) names.push_back(joint.name);
+  const auto place = [&](const std::string& name) {
+    const auto at = std::ranges::find(names, name);
+    if (at == names.end()) {
+      Refuse({"--coupling"}, "the log holds no joint '{}'{}", Excerpt(name), Suggestion(name, names));
+    }
+    return at - names.begin();
+  };
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      Refuse({"--coupling"}, "is '{}'; it must say by what a motor turns, as J6=J5+J6", Excerpt(text));
+    }
+    const Index row = place(text.substr(0, equals));
+    coupling.row(row).setZero();
+    for (std::size_t at = equals + 1; at < text.size();) {
+      // a sign, perhaps a factor, a name
+      double factor = 1;
+      if (text[at] == '+' || text[at] == '-') factor = text[at++] == '-' ? -1 : 1;
+      const std::size_t end = std::min(text.find_first_of("+-", at), text.size());
+      std::string term = text.substr(at, end - at);
+      if (const std::size_t times = term.find('*'); times != std::string::npos) {
+        const auto number = ParseNumber(term.substr(0, times));
+        if (!number) Refuse({"--coupling"}, "'{}' is no factor", Excerpt(term.substr(0, times)));
+        factor *= *number;
+        term = term.substr(times + 1);
+      }
+      coupling(row, place(term)) += factor;
+      at = end;
+    }
+  }
+  if (std::abs(coupling.determinant()) < 1e-9) {
+    Refuse({"--coupling"}, "leaves motors that turn alike: no motion of the joints follows from theirs");
+  }
+  return coupling;
+}
+
+RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& source,
+                        const RobotSettings& settings) {
+  ReadModel model = ReadRobotModel(robot);
+  const std::vector<std::string> joints = settings.joints.empty() ? model.joints : settings.joints;
+  const std::vector<std::string>& files = source.recording.files;
+
+  // which columns, by the first file
+  ReadSettings read = source.recording.read;
+  const RobotColumns columns = FindRobotColumns(NamesIn(source, files.at(0)), joints, read.map,
+                                                {InputName(files[0])});
+  RobotData data{.robot = DescribeRobot(std::move(model), columns.joints),
+                 .logs = {},
+                 .torque_units = {},
+                 .coupling = {},
+                 .notices = columns.notices};
+  data.notices.insert(data.notices.begin(), data.robot.notices.begin(), data.robot.notices.end());
+  data.coupling = ReadCoupling(settings.coupling, data.robot.joints);
+  for (const auto& [numbers, option] :
+       {std::pair(&settings.gear, "--gear"), std::pair(&settings.torque_constant, "--torque-constant"),
+        std::pair(&settings.torque_scale, "--scale"), std::pair(&settings.position_scale, "--scale")}) {
+    CheckNames(*numbers, option, data.robot);
+  }
+  if (columns.torque_is_current && !read.unit.contains("torque")) {
+    read.unit["torque"] = "A";
+    data.notices.push_back(fmt::format("'{}' is taken as a current in A by its name (--unit torque=...)",
+                                       columns.maps[0].at("torque")));
+  }
+
+  std::vector<JointKind> kinds;
+  for (const RobotJoint& joint : data.robot.joints) kinds.push_back(joint.kind);
+  const auto read_all = [&] {
+    data.logs.clear();
+    for (const std::string& file : files) {
+      data.logs.push_back(ReadRobotLog(ReaderOf(source, file), read, columns, kinds));
+    }
+  };
+  read_all();
+  std::string joint;
+  if (!read.unit.contains("position") && IsInDegrees(data.robot, data.logs.front(), joint)) {
+    read.unit["position"] = "deg";
+    read_all();
+    data.notices.push_back(
+        fmt::format("positions are taken in degrees: in rad {} would stand where it cannot (--unit "
+                    "position=rad)",
+                    joint));
+  }
+  for (const RobotLog& log : data.logs) {
+    for (const std::string& note : log.notes) data.notices.push_back(log.source + ": " + note);
+  }
+  TakeOptions(settings, data);
+  return data;
+}
+
+}  // namespace warmjoint
