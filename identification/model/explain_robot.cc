@@ -56,7 +56,8 @@ std::string ExplainResidual(double left, double friction, const std::string& uni
 
 std::string ExplainWorseHeldOut(double with, double without, const std::string& unit) {
   return fmt::format(
-      "on held-out samples the residual is {:.3g} {} with friction and {:.3g} without: the log does "
+      "on held-out samples the residual is {:.3g} {} with friction and {:.3g} without: the log "
+      "does "
       "not repeat what was fitted; log more of the same kind of motion",
       with, unit, without);
 }
@@ -70,7 +71,8 @@ std::string ExplainTurnedSign(const std::string& joint) {
 
 std::string ExplainUnknownGain(const std::string& joint) {
   return fmt::format(
-      "the gain of its current cannot be told, so friction is in A; give --torque-constant {}=N.m/A",
+      "the gain of its current cannot be told, so friction is in A; give --torque-constant "
+      "{}=N.m/A",
       joint);
 }
 

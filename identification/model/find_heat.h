@@ -17,6 +17,7 @@ struct HeatGuess {
 
 /// The gain of E by the losses of the cold fit, by least squares beside all its columns, for eight time constants from a thirtieth of the
 /// log to its length; its error by blocks of time, its limit by Student's t for eight tries on each joint of the robot.
-HeatGuess FindHeat(const JointColumns& columns, const JointFit& cold, const JointQuestion& question);
+HeatGuess FindHeat(const JointColumns& columns, const JointFit& cold,
+                   const JointQuestion& question);
 
 }  // namespace warmjoint

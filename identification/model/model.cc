@@ -69,9 +69,8 @@ VectorXd HeatBlock::Fill(const VectorXd& x, const ModelRows& friction, ModelRows
   }
   add(gain, [&](Index i) { return cooling * speed[i] * (level[i] + energy[i]); });
   const double bend = pole * step / tau;
-  add(log_time_constant, [&](Index i) {
-    return bend * (energy[i] - k * speed[i] * (level[i] + energy[i]));
-  });
+  add(log_time_constant,
+      [&](Index i) { return bend * (energy[i] - k * speed[i] * (level[i] + energy[i])); });
   rows.force += direction.cwiseProduct(energy);
   return energy;
 }

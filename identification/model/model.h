@@ -88,10 +88,10 @@ class LoadBlock : public Block {
 /// losses held over a step. Adds s E.
 struct HeatBlock {
   Eigen::Index gain = 0, log_time_constant = 0;
-  double step = 0;                  // s
-  Eigen::VectorXd speed;            // [N] |v|, rad/s or m/s
-  Eigen::VectorXd sign;             // [N] of v
-  Eigen::VectorXd direction;        // [N] s: of the force, as the log shows it
+  double step = 0;                   // s
+  Eigen::VectorXd speed;             // [N] |v|, rad/s or m/s
+  Eigen::VectorXd sign;              // [N] of v
+  Eigen::VectorXd direction;         // [N] s: of the force, as the log shows it
   std::vector<Eigen::Index> starts;  // samples at which the joint is cold again
 
   /// friction: force and derivatives of the blocks that make heat. Returns E, [N].
@@ -100,7 +100,7 @@ struct HeatBlock {
 
 /// A model of a torque.
 struct Model {
-  std::vector<Unknown> table;                        // [P]
+  std::vector<Unknown> table;  // [P]
   std::vector<std::shared_ptr<const Block>> blocks;
   std::optional<HeatBlock> heat;
   Eigen::Index samples = 0;  // N

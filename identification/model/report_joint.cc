@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/model/explain_robot.h"
 #include "identification/answer/speed_figures.h"
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
+#include "identification/model/explain_robot.h"
 #include "identification/report/report_fit.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"
@@ -20,7 +20,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
+constexpr Index kFewest = 30;         // why 30: of fewer, colour and structure of noise stay unseen
 constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
 /// Share of a friction that the residual may be. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
@@ -78,8 +78,8 @@ Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
   }
   friction.load_gain = fit.solved.x[fit.at.load.begin];
   if (fit.at.heat) {
-    friction.thermal = Thermal{fit.solved.x[fit.at.heat->begin],
-                               std::exp(fit.solved.x[fit.at.heat->begin + 1])};
+    friction.thermal =
+        Thermal{fit.solved.x[fit.at.heat->begin], std::exp(fit.solved.x[fit.at.heat->begin + 1])};
   }
   return friction;
 }
@@ -204,8 +204,7 @@ EstimatedParameter MeanRow(const JointFit& fit, const JointColumns& c, bool has_
 
 }  // namespace
 
-std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& c,
-                                         double share) {
+std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& c, double share) {
   if (share <= 0) return std::nullopt;
   const Index n = c.velocity.size(), cut = n - static_cast<Index>(share * static_cast<double>(n));
   ModelSamples train = c.samples;
@@ -218,9 +217,9 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
   const SolvedModel again = FitAgain(fit, c, train);
   JointHoldOut found;
   const VectorXd measured = Kept(c.samples.torque, test);
-  found.metrics = ComputeMetrics(measured, measured - Kept(again.residual, test),
-                                 static_cast<int>(fit.model.size()),
-                                 fit.known.effective_parameters);
+  found.metrics =
+      ComputeMetrics(measured, measured - Kept(again.residual, test),
+                     static_cast<int>(fit.model.size()), fit.known.effective_parameters);
   Selection moving = test;
   constexpr double at_rest = .02;  // of the top speed
   moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;
@@ -231,8 +230,8 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
   Eigen::MatrixXd columns(n, 2);
   columns << c.rigid.force, VectorXd::Ones(n);
   const Eigen::MatrixXd seen = Kept(columns, {train.keep, {}});
-  const VectorXd x =
-      SolveScaled(seen.transpose() * seen, seen.transpose() * Kept(c.samples.torque, {train.keep, {}}));
+  const VectorXd x = SolveScaled(seen.transpose() * seen,
+                                 seen.transpose() * Kept(c.samples.torque, {train.keep, {}}));
   found.without_friction = std::sqrt((measured - Kept(columns, test) * x).array().square().mean());
   return found;
 }
@@ -242,7 +241,8 @@ std::string WhyNothing(const JointColumns& c, double travel) {
   const auto& keep = c.samples.keep;
   const Index forwards = (keep && c.velocity.array() > 0).count();
   const Index backwards = (keep && c.velocity.array() < 0).count();
-  if (forwards + backwards < kFewest) return ExplainLittleMotion(c.joint, forwards + backwards, kFewest);
+  if (forwards + backwards < kFewest)
+    return ExplainLittleMotion(c.joint, forwards + backwards, kFewest);
   if (std::min(forwards, backwards) < kFewest / 2) return ExplainOneDirection(c.joint);
   return "";
 }

@@ -11,9 +11,9 @@ namespace warmjoint {
 
 /// How a second fit does on samples that it has not seen. Torques in the log's unit.
 struct JointHoldOut {
-  Metrics metrics;                    // away from reversals
-  double moving = 0;                  // rms of all that moves
-  double without_friction = 0;        // rms of gain times rigid torque and an offset
+  Metrics metrics;              // away from reversals
+  double moving = 0;            // rms of all that moves
+  double without_friction = 0;  // rms of gain times rigid torque and an offset
 };
 
 /// share: of the samples' end that is held out. Nothing where too few samples are left on either side.

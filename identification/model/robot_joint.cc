@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 /// Log gain about that of the robot's other motors: a factor of e, since motors of one robot are alike and not equal.
 constexpr double kGainSpread = 1;
-constexpr double kGainStep = .5;   // of the log gain in one iteration: a factor of 1.6
+constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor of 1.6
 /// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
 constexpr double kRippleShare = .2;
 
@@ -66,7 +66,8 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   }
   if (slows) law.push_back(LawUnknown(kStaticRiseRow, c));
   fit.at.law = model.Append(law);
-  fit.at.load = model.Append({{.name = "load_gain", .role = Role::gravity, .unit = "1", .lower = 0}});
+  fit.at.load =
+      model.Append({{.name = "load_gain", .role = Role::gravity, .unit = "1", .lower = 0}});
   fit.at.rotor = model.Append(
       {{.name = "rotor_inertia",
         .role = Role::inertia,
@@ -137,7 +138,8 @@ void SolveFresh(const JointColumns& c, JointFit& fit) {
 }
 
 /// The model in all parts but heat, fitted.
-JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q, bool slows) {
+JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
+                 bool slows) {
   // the ridge of the ripple is a share of the level, which a fit without it tells
   JointColumns plain;
   double level = 1;
@@ -147,7 +149,8 @@ JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuest
     plain.ripple.resize(c.ripple.rows(), 0);
     AddBlocks(plain, guess, q, slows, level, first);
     SolveFresh(c, first);
-    const double mean = (first.Value(first.at.law.begin + 1) + first.Value(first.at.law.begin + 2)) / 2;
+    const double mean =
+        (first.Value(first.at.law.begin + 1) + first.Value(first.at.law.begin + 2)) / 2;
     level = std::max(mean, std::sqrt(first.solved.noise.variance));
   }
   JointFit fit;
@@ -203,7 +206,8 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
     JointFit slow = FitCold(c, guess, q, true);
     slow.known = CovarianceOf(slow.model, c.samples, slow.solved);
     const Index rise = slow.at.law.begin + 3;
-    const double reach = StudentQuantile(slow.known.degrees_of_freedom, 1 - q.error_level / q.joints);
+    const double reach =
+        StudentQuantile(slow.known.degrees_of_freedom, 1 - q.error_level / q.joints);
     if (slow.Value(rise) > reach * slow.Deviation(rise)) fit = std::move(slow);
   }
   if (q.warms) {

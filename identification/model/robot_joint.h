@@ -18,15 +18,17 @@ struct JointColumns {
   std::string joint;
   JointKind kind = JointKind::rotary;
   std::string torque_unit = "N.m";
-  double step = 0;                              // s
-  double top_speed = 0;                         // rad/s or m/s
-  Eigen::VectorXd position, velocity, acceleration;  // [N] of the motor where joints are coupled; rad or m
-  Eigen::VectorXd sign;                         // [N] of the velocity, unfiltered
-  Eigen::VectorXd forwards, backwards;          // [N] 1 where it moves so, through the filter
-  Eigen::VectorXd slow;                         // [N] exp(-(v / (share of the top speed))^2) in its direction, through the filter
-  Eigen::MatrixXd ripple;                       // [N x 4h] harmonics of the motor's angle in each direction; or [N x 0]
-  GivenForce rigid;                             // gravity, Coriolis and inertia by the description, N.m or N
-  GivenForce carried;                           // without inertia: what loads the joint
+  double step = 0;       // s
+  double top_speed = 0;  // rad/s or m/s
+  Eigen::VectorXd position, velocity,
+      acceleration;                     // [N] of the motor where joints are coupled; rad or m
+  Eigen::VectorXd sign;                 // [N] of the velocity, unfiltered
+  Eigen::VectorXd forwards, backwards;  // [N] 1 where it moves so, through the filter
+  Eigen::VectorXd
+      slow;  // [N] exp(-(v / (share of the top speed))^2) in its direction, through the filter
+  Eigen::MatrixXd ripple;  // [N x 4h] harmonics of the motor's angle in each direction; or [N x 0]
+  GivenForce rigid;        // gravity, Coriolis and inertia by the description, N.m or N
+  GivenForce carried;      // without inertia: what loads the joint
   ModelSamples samples;
 
   /// Direction in which friction brakes, through the filter. [N]
@@ -68,7 +70,8 @@ struct JointFit {
   JointPlaces at;
   SolvedModel solved;
   SolvedCovariance known;
-  double warming = 0;           // by how many deviations friction changes with the heat of its losses, at the best tau
+  double warming =
+      0;  // by how many deviations friction changes with the heat of its losses, at the best tau
   std::vector<std::string> beyond;  // rows of the law whose whole interval lies beyond their bound
 
   double Value(Eigen::Index row) const { return solved.x[row]; }
@@ -76,7 +79,8 @@ struct JointFit {
 };
 
 /// The fit. guess: of its gain.
-JointFit FitJoint(const JointColumns& columns, const GainGuess& guess, const JointQuestion& question);
+JointFit FitJoint(const JointColumns& columns, const GainGuess& guess,
+                  const JointQuestion& question);
 
 /// The same structure fitted to other samples of the log, from the given fit on.
 SolvedModel FitAgain(const JointFit& fit, const JointColumns& columns, const ModelSamples& samples);

@@ -14,8 +14,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kThin = 4;      // samples kept per period of the cut-off: twice what a filter of second order leaves
-constexpr double kEnds = .3;     // s left out at each end: three periods of 10 Hz, in which the filter knows one side alone
+constexpr double kThin =
+    4;  // samples kept per period of the cut-off: twice what a filter of second order leaves
+constexpr double kEnds =
+    .3;  // s left out at each end: three periods of 10 Hz, in which the filter knows one side alone
 constexpr double kAtRest = .02;  // of the top speed
 
 /// The filter of a log, or none where its rate is too low for one.
@@ -103,13 +105,13 @@ RobotSamples PrepareRobot(const RobotMotionLog& log, const MatrixXd& coupling,
 
   for (Index j = 0; j < n; ++j) {
     const VectorXd u = speed.col(j);
-    const VectorXd forwards = (u.array() > 0).cast<double>(), backwards = (u.array() < 0).cast<double>();
+    const VectorXd forwards = (u.array() > 0).cast<double>(),
+                   backwards = (u.array() < 0).cast<double>();
     samples.sign.col(j) = (forwards - backwards)(thin);
     samples.forwards.col(j) = low_pass.Of(forwards)(thin);
     samples.backwards.col(j) = low_pass.Of(backwards)(thin);
     const double bend = std::max(kSlowShare * samples.top[j], 1e-12);
-    const VectorXd slow =
-        (-(u / bend).array().square()).exp() * (forwards - backwards).array();
+    const VectorXd slow = (-(u / bend).array().square()).exp() * (forwards - backwards).array();
     samples.slow.col(j) = low_pass.Of(slow)(thin);
     const auto moving = (u.array().abs() > std::max(kAtRest * samples.top[j], 1e-9)) && log.logged;
     samples.keep.col(j) = AllWithin(moving, static_cast<Index>(rate / filter.cutoff))(thin);

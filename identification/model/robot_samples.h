@@ -14,15 +14,17 @@ struct RobotFilter {
 
 /// Samples of the n motors of a robot (of its joints, where none is coupled).
 struct RobotSamples {
-  double step = 0;        // s, of the thinned samples
-  Eigen::VectorXd time;   // [N] s
-  Eigen::MatrixXd joint_position, joint_velocity, joint_acceleration;  // [N x n] of the joints, for the rigid part
-  Eigen::MatrixXd position, velocity, acceleration;                    // [N x n] of the motors
-  Eigen::MatrixXd torque;                                              // [N x n]
-  Eigen::MatrixXd sign;                 // [N x n] of the velocity, unfiltered
-  Eigen::MatrixXd forwards, backwards;  // [N x n] 1 where it moves so, filtered
-  Eigen::MatrixXd slow;                 // [N x n] exp(-(v / (share of the top speed))^2) sign(v), filtered
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> keep;  // [N x n] away from rests, reversals and gaps
+  double step = 0;       // s, of the thinned samples
+  Eigen::VectorXd time;  // [N] s
+  Eigen::MatrixXd joint_position, joint_velocity,
+      joint_acceleration;                            // [N x n] of the joints, for the rigid part
+  Eigen::MatrixXd position, velocity, acceleration;  // [N x n] of the motors
+  Eigen::MatrixXd torque;                            // [N x n]
+  Eigen::MatrixXd sign;                              // [N x n] of the velocity, unfiltered
+  Eigen::MatrixXd forwards, backwards;               // [N x n] 1 where it moves so, filtered
+  Eigen::MatrixXd slow;  // [N x n] exp(-(v / (share of the top speed))^2) sign(v), filtered
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>
+      keep;                             // [N x n] away from rests, reversals and gaps
   Eigen::VectorXd top;                  // [n] speed, rad/s or m/s
   Eigen::VectorXd travel;               // [n] rad or m
   std::vector<Eigen::MatrixXd> ripple;  // [n] of [N x 4 harmonics], or [N x 0]
@@ -30,10 +32,10 @@ struct RobotSamples {
 
 /// What was recorded, on an even clock.
 struct RobotMotionLog {
-  double step = 0;           // s
-  Eigen::VectorXd time;      // [M]
-  Eigen::MatrixXd position;  // [M x n] of the joints, rad or m
-  Eigen::MatrixXd torque;    // [M x n] of the motors
+  double step = 0;                               // s
+  Eigen::VectorXd time;                          // [M]
+  Eigen::MatrixXd position;                      // [M x n] of the joints, rad or m
+  Eigen::MatrixXd torque;                        // [M x n] of the motors
   Eigen::Array<bool, Eigen::Dynamic, 1> logged;  // [M]
 };
 

@@ -20,8 +20,8 @@ constexpr double kRests = 1e-4;
 
 /// What a step is made of.
 struct Normals {
-  MatrixXd h;    // [P x P]
-  VectorXd b;    // [P]
+  MatrixXd h;       // [P x P]
+  VectorXd b;       // [P]
   double cost = 0;  // at a given scale
 };
 

@@ -10,10 +10,10 @@ namespace warmjoint {
 
 /// What a model is fitted to.
 struct ModelSamples {
-  Eigen::VectorXd time;                          // [N] s
-  Eigen::VectorXd torque;                        // [N]
-  Eigen::Array<bool, Eigen::Dynamic, 1> keep;    // [N] that count
-  std::vector<Eigen::Index> starts;              // first samples of all recordings but the first
+  Eigen::VectorXd time;                        // [N] s
+  Eigen::VectorXd torque;                      // [N]
+  Eigen::Array<bool, Eigen::Dynamic, 1> keep;  // [N] that count
+  std::vector<Eigen::Index> starts;            // first samples of all recordings but the first
 };
 
 /// How much a sample says: 1 / (variance x autocorrelation time).
@@ -25,8 +25,8 @@ struct NoiseScale {
 };
 
 struct SolvedModel {
-  Eigen::VectorXd x;                  // [P]
-  Eigen::VectorXd residual;           // [N] torque - force
+  Eigen::VectorXd x;         // [P]
+  Eigen::VectorXd residual;  // [N] torque - force
   NoiseScale noise;
   std::vector<Eigen::Index> at_bound;  // unknowns that are held at theirs
   bool converged = false;
@@ -39,10 +39,10 @@ SolvedModel Solve(const Model& model, const ModelSamples& samples, Eigen::Vector
                   const std::vector<Eigen::Index>& held = {});
 
 struct SolvedCovariance {
-  Eigen::MatrixXd covariance;    // [P x P] of x
+  Eigen::MatrixXd covariance;     // [P x P] of x
   double degrees_of_freedom = 1;  // of Student's quantile: blocks of time less 1
   double effective_parameters = 0;
-  double block = 0;               // s
+  double block = 0;  // s
 };
 
 /// Sandwich H^-1 (sum over blocks of time of (J^T e)(J^T e)^T B / (B - 1) + prior) H^-1, H = J^T J / scale + prior. Blocks last four times the residual's

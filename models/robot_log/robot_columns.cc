@@ -19,13 +19,15 @@ using Words = std::vector<std::string>;
 
 // words of column names, the likeliest first
 const Words kPositions{"q", "pos", "position", "positions", "angle", "theta", "winkel"};
-const Words kTorques{"torque", "tau",  "trq", "effort",   "moment",  "force", "drehmoment",
-                     "mom",    "load", "current", "currents", "iq", "cur", "strom", "i"};
+const Words kTorques{"torque",   "tau",        "trq", "effort", "moment",
+                     "force",    "drehmoment", "mom", "load",   "current",
+                     "currents", "iq",         "cur", "strom",  "i"};
 const Words kCurrents{"current", "currents", "iq", "cur", "strom", "i"};
 /// What was asked for and not measured, or of another place.
-const Words kNotMeasured{"target", "desired", "des",   "ref", "reference", "cmd",   "command",
-                         "commanded", "goal", "setpoint", "soll", "control", "external", "ext",
-                         "limit", "max", "min", "error", "err", "friction", "gravity"};
+const Words kNotMeasured{"target",   "desired",   "des",    "ref",      "reference", "cmd",
+                         "command",  "commanded", "goal",   "setpoint", "soll",      "control",
+                         "external", "ext",       "limit",  "max",      "min",       "error",
+                         "err",      "friction",  "gravity"};
 const Words kTimes{"time", "timestamp", "t", "stamp", "time_s", "zeit"};
 
 bool Holds(const Words& words, const std::string& word) {
@@ -47,9 +49,9 @@ Words WordsIn(const std::string& name) {
 
 /// Columns whose names differ in what tells the joint alone.
 struct Family {
-  std::string key;             // with {} in its place
-  Words columns;               // one for each joint, in their order
-  Words joints;                // whose they are; empty: by number, from the base outwards
+  std::string key;  // with {} in its place
+  Words columns;    // one for each joint, in their order
+  Words joints;     // whose they are; empty: by number, from the base outwards
 };
 
 /// By the joints' names.
@@ -106,7 +108,8 @@ std::vector<Family> NumberedFamilies(const Words& names) {
 }
 
 /// How well a family's words fit: the place of the first that does, then how many there are besides.
-std::optional<std::pair<std::size_t, std::size_t>> FitOf(const Family& family, const Words& wanted) {
+std::optional<std::pair<std::size_t, std::size_t>> FitOf(const Family& family,
+                                                         const Words& wanted) {
   const Words words = WordsIn(family.key);
   std::optional<std::size_t> best;
   for (const std::string& word : words) {
@@ -135,7 +138,8 @@ Family Choose(const std::vector<Family>& families, const Words& wanted, const ch
   }
   const std::vector<const Family*>& best = ranked.begin()->second;
   if (best.size() > 1) {
-    Refuse(place, "has several columns that may be the joints' {}s: {} and {}. Choose: --map '{}={}'",
+    Refuse(place,
+           "has several columns that may be the joints' {}s: {} and {}. Choose: --map '{}={}'",
            what, best[0]->columns[0], best[1]->columns[0], what, best[0]->columns[0]);
   }
   return *best.front();
@@ -195,7 +199,8 @@ std::string Expanded(const std::string& inside, const Words& joints, std::size_t
            joints.size());
   };
   if (const std::size_t dots = inside.find(".."); dots != std::string::npos) {
-    const auto first = ParseNumber(inside.substr(0, dots)), last = ParseNumber(inside.substr(dots + 2));
+    const auto first = ParseNumber(inside.substr(0, dots)),
+               last = ParseNumber(inside.substr(dots + 2));
     if (first && last && *last >= *first) {
       const auto count = static_cast<std::size_t>(*last - *first) + 1;
       if (count < joints.size()) refuse(count);
@@ -204,8 +209,10 @@ std::string Expanded(const std::string& inside, const Words& joints, std::size_t
   }
   Words parts(1);
   for (const char c : inside) {
-    if (c == '|') parts.emplace_back();
-    else parts.back() += c;
+    if (c == '|')
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   if (parts.size() > 1) {
     if (parts.size() < joints.size()) refuse(parts.size());
@@ -246,8 +253,8 @@ RobotColumns FindRobotColumns(const Words& names, const Words& joints, const Col
 
   RobotColumns found;
   const Words words = WordsIn(torque.key);
-  found.torque_is_current = std::ranges::any_of(
-      words, [](const std::string& word) { return Holds(kCurrents, word); });
+  found.torque_is_current =
+      std::ranges::any_of(words, [](const std::string& word) { return Holds(kCurrents, word); });
   Join(position, torque, joints, found);
   const auto said = map.find("time");
   const auto time = said != map.end() ? std::optional(said->second) : FindTime(names);

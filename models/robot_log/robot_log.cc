@@ -100,8 +100,8 @@ RobotLog ReadRobotLog(const ReadJoint& read, const ReadSettings& settings,
     Refuse({log.source}, "its joints have no time in common that would hold 10 samples");
   }
   const auto samples = static_cast<Index>(std::floor((end - begin) / log.step * (1 + 1e-12))) + 1;
-  log.time = begin + Eigen::ArrayXd::LinSpaced(samples, 0, static_cast<double>(samples - 1)) *
-                         log.step;
+  log.time =
+      begin + Eigen::ArrayXd::LinSpaced(samples, 0, static_cast<double>(samples - 1)) * log.step;
   log.logged = OutsideGaps(first.time, log.step, log.time);
   log.position.resize(samples, n);
   log.torque.resize(samples, n);

@@ -15,14 +15,14 @@ namespace warmjoint {
 /// N samples of n joints on one clock, even in time.
 struct RobotLog {
   std::string source;
-  double step = 0;                   // s
-  Eigen::VectorXd time;              // [N] s
-  Eigen::MatrixXd position;          // [N x n] rad or m
-  Eigen::MatrixXd torque;            // [N x n] torque_unit
+  double step = 0;                               // s
+  Eigen::VectorXd time;                          // [N] s
+  Eigen::MatrixXd position;                      // [N x n] rad or m
+  Eigen::MatrixXd torque;                        // [N x n] torque_unit
   Eigen::Array<bool, Eigen::Dynamic, 1> logged;  // [N] false within a gap of the log
-  std::string torque_unit;           // N.m (N for slides) or A, ...
-  std::vector<std::string> dead;     // [n] why a joint's torque cannot be used; else empty
-  std::vector<std::string> notes;    // what reading made of the file, one phrase each
+  std::string torque_unit;                       // N.m (N for slides) or A, ...
+  std::vector<std::string> dead;   // [n] why a joint's torque cannot be used; else empty
+  std::vector<std::string> notes;  // what reading made of the file, one phrase each
 };
 
 /// The names of a text file's columns; none of a format that does not tell them before it is read.

@@ -141,8 +141,8 @@ std::vector<RobotLink> LinksOf(const mjModel& m, const std::vector<RobotJoint>& 
     // a carrier comes before what it carries
     if (carrier == body) {
       const char* const name = mj_id2name(&m, mjOBJ_BODY, body);
-      links.push_back({body, name ? name : fmt::format("body {}", body),
-                       InertialParameters::Zero(), InertialParameters::Zero()});
+      links.push_back({body, name ? name : fmt::format("body {}", body), InertialParameters::Zero(),
+                       InertialParameters::Zero()});
     }
     const auto link = std::ranges::find(links, carrier, &RobotLink::body);
     link->parameters += ParametersIn(m, *data, body, carrier);
@@ -155,19 +155,18 @@ RobotJoint FindRobotJoint(const ReadModel& read, const std::string& name) {
   const mjModel& m = *read.model;
   for (int joint = 0; joint < m.njnt; ++joint) {
     if (JointName(m, joint) != name || !IsHingeOrSlide(m, joint)) continue;
-    RobotJoint found{.name = name,
-                     .kind = m.jnt_type[joint] == mjJNT_SLIDE ? JointKind::linear
-                                                              : JointKind::rotary,
-                     .dof = m.jnt_dofadr[joint],
-                     .qpos = m.jnt_qposadr[joint],
-                     .range = {}};
+    RobotJoint found{
+        .name = name,
+        .kind = m.jnt_type[joint] == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary,
+        .dof = m.jnt_dofadr[joint],
+        .qpos = m.jnt_qposadr[joint],
+        .range = {}};
     if (m.jnt_limited[joint]) {
       found.range = {{m.jnt_range[2 * joint], m.jnt_range[2 * joint + 1]}};
     }
     return found;
   }
-  Refuse({read.name}, "has no hinge or slide '{}'{}", Excerpt(name),
-         Suggestion(name, read.joints));
+  Refuse({read.name}, "has no hinge or slide '{}'{}", Excerpt(name), Suggestion(name, read.joints));
 }
 
 }  // namespace
@@ -221,9 +220,8 @@ RobotDescription DescribeRobot(ReadModel read, const std::vector<std::string>& j
     std::erase(still, name);
   }
   if (!still.empty()) {
-    robot.notices.push_back(
-        fmt::format("joints that the log does not hold, taken to stand still at 0: {}",
-                    ExcerptOfList(still)));
+    robot.notices.push_back(fmt::format(
+        "joints that the log does not hold, taken to stand still at 0: {}", ExcerptOfList(still)));
   }
   robot.links = LinksOf(*read.model, robot.joints);
   robot.model = std::move(read.model);

@@ -37,11 +37,11 @@ struct RobotLink {
 };
 
 struct RobotDescription {
-  std::string name;                        // of the file, in messages
-  std::shared_ptr<const mjModel> model;    // in which nothing acts but gravity and inertia
-  std::vector<RobotJoint> joints;          // [n] in the order of the log
-  std::vector<RobotLink> links;            // from the base outwards
-  std::vector<std::string> notices;        // what was mended or left out, one sentence each
+  std::string name;                      // of the file, in messages
+  std::shared_ptr<const mjModel> model;  // in which nothing acts but gravity and inertia
+  std::vector<RobotJoint> joints;        // [n] in the order of the log
+  std::vector<RobotLink> links;          // from the base outwards
+  std::vector<std::string> notices;      // what was mended or left out, one sentence each
 
   /// Whether the joint moves the link.
   bool Moves(const RobotJoint& joint, const RobotLink& link) const;
@@ -54,7 +54,7 @@ struct RobotDescription {
 struct ReadModel {
   std::string name;
   ModelPtr model;
-  std::vector<std::string> joints;   // names of all hinges and slides, from the base outwards
+  std::vector<std::string> joints;  // names of all hinges and slides, from the base outwards
   std::vector<std::string> notices;
 };
 

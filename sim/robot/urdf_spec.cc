@@ -71,8 +71,7 @@ class Builder {
     std::ranges::copy(std::array{r.w, r.x, r.y, r.z}, body.quat);
 
     const bool slides = joint.type == urdf::Joint::PRISMATIC;
-    const bool turns =
-        joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+    const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
     if (!slides && !turns) {
       if (joint.type != urdf::Joint::FIXED) odd_.push_back(joint.name);
       return;

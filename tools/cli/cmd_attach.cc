@@ -23,8 +23,8 @@ namespace {
 struct AttachArguments {
   std::string model;
   std::vector<std::string> joints;
-  std::string robot;                    // robot.json
-  std::vector<std::string> constants;   // of its joints
+  std::string robot;                   // robot.json
+  std::vector<std::string> constants;  // of its joints
   std::string initial = "cold";
   AttachOptions options;
   std::vector<std::string> armatures;

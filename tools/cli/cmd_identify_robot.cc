@@ -86,7 +86,8 @@ RobotTool ReadTool(const std::string& text) {
     }
     const bool begins = part.starts_with("com=");
     if (begins) axis = 0;
-    if (axis > 2) Refuse({"--tool"}, "'{}' is none of mass=KG, com=X,Y,Z and unknown", Excerpt(part));
+    if (axis > 2)
+      Refuse({"--tool"}, "'{}' is none of mass=KG, com=X,Y,Z and unknown", Excerpt(part));
     tool.centre[axis++] = NumberIn("--tool", "com", begins ? part.substr(4) : part);
   }
   if (!has_mass) Refuse({"--tool"}, "'{}' gives no mass: --tool mass=KG,com=X,Y,Z", Excerpt(text));
@@ -105,15 +106,16 @@ double ReadInertials(const std::string& text) {
 
 void AddReadingOptions(CLI::App& parser, RobotArguments& arguments) {
   ReadSettings& read = arguments.log.read;
-  AddPairs(parser, "--map", "COLUMN=PATTERN",
-           "columns of the file, as 'position=q_{j},torque=tau_{j},time=t': {j} counts from 0, {1..6} "
-           "and {a|b|c} stand for each joint in order, {name} for its name",
-           [&read](const char* option, const std::string& key, const std::string& value) {
-             if (key != "position" && key != "torque" && key != "time") {
-               Refuse({option}, "'{}' is none of time, position and torque", Excerpt(key));
-             }
-             read.map[key] = value;
-           });
+  AddPairs(
+      parser, "--map", "COLUMN=PATTERN",
+      "columns of the file, as 'position=q_{j},torque=tau_{j},time=t': {j} counts from 0, {1..6} "
+      "and {a|b|c} stand for each joint in order, {name} for its name",
+      [&read](const char* option, const std::string& key, const std::string& value) {
+        if (key != "position" && key != "torque" && key != "time") {
+          Refuse({option}, "'{}' is none of time, position and torque", Excerpt(key));
+        }
+        read.map[key] = value;
+      });
   AddPairs(parser, "--unit", "COLUMN=UNIT", "units in the file, as position=deg,torque=A",
            [&read](const char* option, const std::string& key, const std::string& value) {
              if (key != "position" && key != "torque" && key != "time") {
@@ -128,7 +130,8 @@ void AddReadingOptions(CLI::App& parser, RobotArguments& arguments) {
              const std::string joint = dot == std::string::npos ? "" : key.substr(0, dot);
              const std::string column = dot == std::string::npos ? key : key.substr(dot + 1);
              if (column != "torque" && column != "position") {
-               Refuse({option}, "'{}' is neither torque nor position, nor JOINT.torque or JOINT.position",
+               Refuse({option},
+                      "'{}' is neither torque nor position, nor JOINT.torque or JOINT.position",
                       Excerpt(key));
              }
              RobotSettings& settings = arguments.settings;
@@ -164,7 +167,8 @@ void AddRobotOptions(CLI::App& parser, RobotArguments& arguments) {
       .add_option_function<std::string>(
           "--inertials",
           [&settings](const std::string& text) { settings.inertials = ReadInertials(text); },
-          "how wrong masses, their places and inertias may be: given (a tenth), given:SHARE or exact")
+          "how wrong masses, their places and inertias may be: given (a tenth), given:SHARE or "
+          "exact")
       ->type_name("WORD");
   parser
       .add_option_function<std::string>(
@@ -207,11 +211,11 @@ ExitStatus IdentifyRobotCommand(const RobotArguments& arguments) {
     if (!path.empty()) AtomicFile{path};
   }
 
-  const auto backend = arguments.plot.empty() ? std::nullopt : std::optional<Backend>(std::in_place);
+  const auto backend =
+      arguments.plot.empty() ? std::nullopt : std::optional<Backend>(std::in_place);
   Activity activity("reading");
-  const RobotEstimate answer =
-      IdentifyRobot(robot, arguments.log, arguments.settings,
-                    [&](const std::string& words) { activity.Is(words); });
+  const RobotEstimate answer = IdentifyRobot(robot, arguments.log, arguments.settings,
+                                             [&](const std::string& words) { activity.Is(words); });
   const std::string text = RobotEstimateToJson(answer, arguments.output);
   if (!arguments.output.empty()) WriteWholeFile(arguments.output, text);
   std::vector<std::string> notices = answer.notices;
@@ -248,9 +252,10 @@ Command AddIdentifyRobotCommand(CLI::App& program) {
   AddValue(*parser, "ROBOT", "ROBOT", arguments->robot,
            "MJCF or URDF file, or one of: warmjoint list robots")
       ->required();
-  AddValue(*parser, "LOG", "LOG", arguments->log.files,
-           "table of text, HDF5 or MATLAB file with columns for each joint; several, each from a cold "
-           "start")
+  AddValue(
+      *parser, "LOG", "LOG", arguments->log.files,
+      "table of text, HDF5 or MATLAB file with columns for each joint; several, each from a cold "
+      "start")
       ->required();
   AddReadingOptions(*parser, *arguments);
   AddRobotOptions(*parser, *arguments);

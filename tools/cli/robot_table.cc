@@ -35,17 +35,17 @@ std::string WarmingText(const Estimate& estimate) {
 }  // namespace
 
 std::string RobotToText(const RobotEstimate& robot, const Page& page) {
-  Table table{{"joint", "verdict", "unit", "viscous", "Coulomb +", "Coulomb -", "their mean", "load",
-               "gain", "warming", "held-out rms", "all that moves", "no friction"},
+  Table table{{"joint", "verdict", "unit", "viscous", "Coulomb +", "Coulomb -", "their mean",
+               "load", "gain", "warming", "held-out rms", "all that moves", "no friction"},
               {}};
   for (const RobotJointEstimate& one : robot.joints) {
     const Estimate& e = one.estimate;
     const RobotJointSummary& s = one.summary;
-    table.rows.push_back({s.joint, std::string(NameOf(e.status)), s.torque_unit,
-                          Shown(e, "viscous"), Shown(e, "coulomb_positive"),
-                          Shown(e, "coulomb_negative"), Shown(e, "coulomb"), Shown(e, "load_gain"),
-                          Gain(s), e.parameters.empty() ? "-" : WarmingText(e), Number(s.rms_held_out),
-                          Number(s.rms_moving), Number(s.rms_without_friction)});
+    table.rows.push_back(
+        {s.joint, std::string(NameOf(e.status)), s.torque_unit, Shown(e, "viscous"),
+         Shown(e, "coulomb_positive"), Shown(e, "coulomb_negative"), Shown(e, "coulomb"),
+         Shown(e, "load_gain"), Gain(s), e.parameters.empty() ? "-" : WarmingText(e),
+         Number(s.rms_held_out), Number(s.rms_moving), Number(s.rms_without_friction)});
   }
   std::string text = TableToText(table, 2);
   for (const RobotJointEstimate& one : robot.joints) {

@@ -107,8 +107,7 @@ nb::object IdentifyRobotInPython(const std::string& robot, nb::handle source,
     answer = IdentifyRobot(robot, read, settings);
   } else {
     answer = Interruptibly([=](const auto& stop) {
-      return IdentifyRobot(robot, values, read.read, settings,
-                           [&](const std::string&) { stop(); });
+      return IdentifyRobot(robot, values, read.read, settings, [&](const std::string&) { stop(); });
     });
   }
   Tree figures = Tree::object();

@@ -20,7 +20,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kMostSamples = 1500;  // why: six unknowns a joint are told by far fewer
-constexpr double kFalls = 2;          // a description that is wrong by a tenth leaves less between right and wrong columns
+constexpr double kFalls =
+    2;  // a description that is wrong by a tenth leaves less between right and wrong columns
 constexpr double kRises = 1.1;
 constexpr Index kFewest = 60;
 
@@ -46,7 +47,8 @@ VectorXd Residuals(const RobotData& data, const VectorXd& parameters, const Moti
   const MatrixXd inverse = data.coupling.inverse();
   VectorXd left = VectorXd::Constant(n, std::nan(""));
   for (Index j = 0; j < n; ++j) {
-    const VectorXd rigid = motion.Regressor(VectorXd(inverse.col(j)), Accelerations::counted) * parameters;
+    const VectorXd rigid =
+        motion.Regressor(VectorXd(inverse.col(j)), Accelerations::counted) * parameters;
     std::vector<Index> kept;
     for (Index i = 0; i < m.q.rows(); ++i) {
       if (m.keep(i, j)) kept.push_back(i);
@@ -77,16 +79,17 @@ std::vector<Undoing> UndoingsOf(const RobotData& data, const NumberOfJoints& gea
   const auto name = [&](Index j) { return joints[static_cast<std::size_t>(j)].name; };
   for (Index i = 0; i < n; ++i) {
     for (Index j = i + 1; j < n; ++j) {
-      all.push_back({fmt::format("the columns of {} and {} are swapped (--joints names the joints in "
-                                 "the order of the columns)",
-                                 name(i), name(j)),
-                     [i, j](Motion& m) {
-                       for (MatrixXd* one : {&m.q, &m.v, &m.a, &m.torque}) {
-                         one->col(i).swap(one->col(j));
-                       }
-                       m.keep.col(i).swap(m.keep.col(j));
-                     },
-                     i, j});
+      all.push_back(
+          {fmt::format("the columns of {} and {} are swapped (--joints names the joints in "
+                       "the order of the columns)",
+                       name(i), name(j)),
+           [i, j](Motion& m) {
+             for (MatrixXd* one : {&m.q, &m.v, &m.a, &m.torque}) {
+               one->col(i).swap(one->col(j));
+             }
+             m.keep.col(i).swap(m.keep.col(j));
+           },
+           i, j});
     }
   }
   const auto scaled = [](Index j, double factor) {
@@ -95,18 +98,21 @@ std::vector<Undoing> UndoingsOf(const RobotData& data, const NumberOfJoints& gea
     };
   };
   for (Index j = 0; j < n; ++j) {
-    all.push_back({fmt::format("the position of {} is turned (--scale {}.position=-1)", name(j), name(j)),
-                   scaled(j, -1), 0, 0});
+    all.push_back(
+        {fmt::format("the position of {} is turned (--scale {}.position=-1)", name(j), name(j)),
+         scaled(j, -1), 0, 0});
     const double gear = NumberOf(gears, name(j), 0);
     if (gear == 0 || std::abs(gear) == 1) continue;
-    all.push_back({fmt::format("the position of {} is that of its motor (--scale {}.position={:.6g})",
-                               name(j), name(j), 1 / gear),
-                   scaled(j, 1 / gear), 0, 0});
+    all.push_back(
+        {fmt::format("the position of {} is that of its motor (--scale {}.position={:.6g})",
+                     name(j), name(j), 1 / gear),
+         scaled(j, 1 / gear), 0, 0});
   }
   for (const auto& [words, factor] :
        {std::pair("positions are in degrees (--unit position=deg)", std::numbers::pi / 180),
         std::pair("positions are in rad (--unit position=rad)", 180 / std::numbers::pi)}) {
-    all.push_back({words, [n, factor = factor, scaled](Motion& m) {
+    all.push_back({words,
+                   [n, factor = factor, scaled](Motion& m) {
                      for (Index j = 0; j < n; ++j) scaled(j, factor)(m);
                    },
                    0, 0});

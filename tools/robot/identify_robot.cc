@@ -1,6 +1,5 @@
-#include <warmjoint/identify_robot.h>
-
 #include <fmt/format.h>
+#include <warmjoint/identify_robot.h>
 
 #include <algorithm>
 #include <atomic>
@@ -122,15 +121,16 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   for (const Joint& joint : joints) guesses.push_back(joint.guess);
   JointQuestion question;
   question.middle_gain = MiddleGain(guesses);
-  question.joints = static_cast<int>(std::ranges::count_if(
-      joints, [](const Joint& joint) { return joint.nothing.empty(); }));
+  question.joints = static_cast<int>(
+      std::ranges::count_if(joints, [](const Joint& joint) { return joint.nothing.empty(); }));
 
   tell("looking for faults of the log");
   for (const RobotFault& fault : FindFaults(data, rows, settings.gear)) {
     for (const Index j : fault.joints) {
       Joint& joint = joints[static_cast<std::size_t>(j)];
       joint.dead = true;
-      joint.nothing = fmt::format("with that undone its residual falls by more than half: {}", fault.sentence);
+      joint.nothing =
+          fmt::format("with that undone its residual falls by more than half: {}", fault.sentence);
     }
   }
 

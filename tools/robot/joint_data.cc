@@ -78,8 +78,7 @@ RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
   return rows;
 }
 
-JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
-                       MatrixXd* seen) {
+JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j, MatrixXd* seen) {
   const auto joint = static_cast<std::size_t>(j);
   JointColumns c;
   c.joint = data.robot.joints[joint].name;

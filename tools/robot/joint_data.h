@@ -14,8 +14,8 @@ namespace warmjoint {
 struct RobotRows {
   std::vector<RobotSamples> samples;  // one for each log
   std::vector<RobotMotion> motions;
-  Eigen::VectorXd parameters;         // [10 L] of the description, a given tool included
-  Eigen::VectorXd deviations;         // [10 L] of its prior
+  Eigen::VectorXd parameters;  // [10 L] of the description, a given tool included
+  Eigen::VectorXd deviations;  // [10 L] of its prior
 };
 
 RobotRows MakeRows(const RobotData& data, const RobotSettings& settings);

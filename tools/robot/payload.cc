@@ -17,11 +17,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShare = .2;           // of the mass that moves, and of the reach: what arms are built to carry
-constexpr double kFalls = 2.0 / 3;      // of the residual
+constexpr double kShare =
+    .2;  // of the mass that moves, and of the reach: what arms are built to carry
+constexpr double kFalls = 2.0 / 3;  // of the residual
 constexpr double kRises = 1.1;
 constexpr double kHeldOut = .4;
-constexpr Index kMostSamples = 5000;    // why: inertials are told by the poses, of which a log has far fewer
+constexpr Index kMostSamples =
+    5000;  // why: inertials are told by the poses, of which a log has far fewer
 
 /// Every so manieth sample, of a fit without heat.
 JointColumns Thinned(const JointColumns& c) {
@@ -33,9 +35,10 @@ JointColumns Thinned(const JointColumns& c) {
   t.torque_unit = c.torque_unit;
   t.step = c.step * static_cast<double>(every);
   t.top_speed = c.top_speed;
-  for (const auto column : {&JointColumns::position, &JointColumns::velocity,
-                            &JointColumns::acceleration, &JointColumns::sign,
-                            &JointColumns::forwards, &JointColumns::backwards, &JointColumns::slow}) {
+  for (const auto column :
+       {&JointColumns::position, &JointColumns::velocity, &JointColumns::acceleration,
+        &JointColumns::sign, &JointColumns::forwards, &JointColumns::backwards,
+        &JointColumns::slow}) {
     t.*column = (c.*column)(thin);
   }
   t.ripple.resize(t.velocity.size(), 0);
@@ -102,10 +105,12 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     const JointColumns given = Thinned(ColumnsOf(data, rows, j));
     MatrixXd basis;
     const JointColumns loaded = Thinned(ColumnsOf(data, free, j, &basis));
-    const JointFit without = FitJoint(given, guess, question), with = FitJoint(loaded, guess, question);
+    const JointFit without = FitJoint(given, guess, question),
+                   with = FitJoint(loaded, guess, question);
     known.Add(with, free.deviations.cwiseMax(1e-300).cwiseInverse().asDiagonal() * basis);
     freedom = std::min(freedom, with.known.degrees_of_freedom);
-    const auto before = HoldOutJoint(without, given, kHeldOut), after = HoldOutJoint(with, loaded, kHeldOut);
+    const auto before = HoldOutJoint(without, given, kHeldOut),
+               after = HoldOutJoint(with, loaded, kHeldOut);
     if (!before || !after) continue;
     const double falls = after->metrics.rmse / before->metrics.rmse;
     payload.falls = std::min(payload.falls, falls);

@@ -1,8 +1,8 @@
 #include "tools/robot/robot_data.h"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -68,12 +68,14 @@ void TakeOptions(const RobotSettings& settings, RobotData& data) {
     const double constant = NumberOf(settings.torque_constant, joint.name, 0);
     const std::string& unit = data.logs.front().torque_unit;
     if (constant != 0 && unit != "A" && !unit.empty()) {
-      Refuse({"--torque-constant"},
-             "makes torque of a current, and the torques of the log are in {}; give --unit torque=A "
-             "where they are in amperes",
-             unit);
+      Refuse(
+          {"--torque-constant"},
+          "makes torque of a current, and the torques of the log are in {}; give --unit torque=A "
+          "where they are in amperes",
+          unit);
     }
-    const double factor = NumberOf(settings.torque_scale, joint.name, 1) * (constant != 0 ? constant : 1);
+    const double factor =
+        NumberOf(settings.torque_scale, joint.name, 1) * (constant != 0 ? constant : 1);
     for (RobotLog& log : data.logs) {
       log.torque.col(j) *= factor;
       log.position.col(j) *= NumberOf(settings.position_scale, joint.name, 1);
@@ -110,14 +112,16 @@ Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
   const auto place = [&](const std::string& name) {
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) {
-      Refuse({"--coupling"}, "the log holds no joint '{}'{}", Excerpt(name), Suggestion(name, names));
+      Refuse({"--coupling"}, "the log holds no joint '{}'{}", Excerpt(name),
+             Suggestion(name, names));
     }
     return at - names.begin();
   };
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      Refuse({"--coupling"}, "is '{}'; it must say by what a motor turns, as J6=J5+J6", Excerpt(text));
+      Refuse({"--coupling"}, "is '{}'; it must say by what a motor turns, as J6=J5+J6",
+             Excerpt(text));
     }
     const Index row = place(text.substr(0, equals));
     coupling.row(row).setZero();
@@ -138,7 +142,8 @@ Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
     }
   }
   if (std::abs(coupling.determinant()) < 1e-9) {
-    Refuse({"--coupling"}, "leaves motors that turn alike: no motion of the joints follows from theirs");
+    Refuse({"--coupling"},
+           "leaves motors that turn alike: no motion of the joints follows from theirs");
   }
   return coupling;
 }
@@ -151,8 +156,8 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
 
   // which columns, by the first file
   ReadSettings read = source.recording.read;
-  const RobotColumns columns = FindRobotColumns(NamesIn(source, files.at(0)), joints, read.map,
-                                                {InputName(files[0])});
+  const RobotColumns columns =
+      FindRobotColumns(NamesIn(source, files.at(0)), joints, read.map, {InputName(files[0])});
   RobotData data{.robot = DescribeRobot(std::move(model), columns.joints),
                  .logs = {},
                  .torque_units = {},
@@ -160,15 +165,17 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
                  .notices = columns.notices};
   data.notices.insert(data.notices.begin(), data.robot.notices.begin(), data.robot.notices.end());
   data.coupling = ReadCoupling(settings.coupling, data.robot.joints);
-  for (const auto& [numbers, option] :
-       {std::pair(&settings.gear, "--gear"), std::pair(&settings.torque_constant, "--torque-constant"),
-        std::pair(&settings.torque_scale, "--scale"), std::pair(&settings.position_scale, "--scale")}) {
+  for (const auto& [numbers, option] : {std::pair(&settings.gear, "--gear"),
+                                        std::pair(&settings.torque_constant, "--torque-constant"),
+                                        std::pair(&settings.torque_scale, "--scale"),
+                                        std::pair(&settings.position_scale, "--scale")}) {
     CheckNames(*numbers, option, data.robot);
   }
   if (columns.torque_is_current && !read.unit.contains("torque")) {
     read.unit["torque"] = "A";
-    data.notices.push_back(fmt::format("'{}' is taken as a current in A by its name (--unit torque=...)",
-                                       columns.maps[0].at("torque")));
+    data.notices.push_back(
+        fmt::format("'{}' is taken as a current in A by its name (--unit torque=...)",
+                    columns.maps[0].at("torque")));
   }
 
   std::vector<JointKind> kinds;

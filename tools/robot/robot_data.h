@@ -21,9 +21,9 @@ struct RobotSource {
 
 struct RobotData {
   RobotDescription robot;
-  std::vector<RobotLog> logs;            // one for each file
+  std::vector<RobotLog> logs;             // one for each file
   std::vector<std::string> torque_units;  // [n] of the joints
-  Eigen::MatrixXd coupling;              // [n x n] the motors turn by C q
+  Eigen::MatrixXd coupling;               // [n x n] the motors turn by C q
   std::vector<std::string> notices;
 };
 

@@ -73,7 +73,8 @@ std::optional<Figure> MakeJointFigure(const RobotJointEstimate& joint) {
   figure.title = fmt::format("Friction of {}", Printable(joint.summary.joint));
   figure.subtitle = std::string(NameOf(joint.estimate.status));
   if (joint.summary.rms_held_out) {
-    figure.subtitle += fmt::format(", held-out residual {:.3g} {}", *joint.summary.rms_held_out, unit);
+    figure.subtitle +=
+        fmt::format(", held-out residual {:.3g} {}", *joint.summary.rms_held_out, unit);
   }
   figure.finding = joint.estimate.message;
   figure = WithoutPanels(std::move(figure));

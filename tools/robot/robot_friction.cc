@@ -85,16 +85,17 @@ std::vector<std::string> WriteWarmModel(const std::filesystem::path& robot,
     const RobotJointSummary& summary = one.summary;
     if (!one.HasFriction()) {
       const bool in_amperes = one.estimate.friction.has_value();
-      said.push_back(fmt::format("{} is left out of {}: {}", summary.joint, out.string(),
-                                 in_amperes ? "its friction is known in A alone"
-                                            : "it has no friction"));
+      said.push_back(
+          fmt::format("{} is left out of {}: {}", summary.joint, out.string(),
+                      in_amperes ? "its friction is known in A alone" : "it has no friction"));
       continue;
     }
     frictions.push_back({summary.joint, *one.estimate.friction, {}});
     const EstimatedParameter* const rotor = one.estimate.Find("rotor_inertia");
     const bool in_amperes = summary.torque_unit == "A";
     const double gain = in_amperes ? std::abs(summary.gain.value_or(1)) : 1;
-    if (rotor && rotor->value > 0) options.armatures.push_back({summary.joint, rotor->value / gain});
+    if (rotor && rotor->value > 0)
+      options.armatures.push_back({summary.joint, rotor->value / gain});
   }
   if (frictions.empty()) Refuse({"--mjcf"}, "no joint has a friction that MuJoCo can use");
   Attached attached = AttachFriction(robot, frictions, out, options);

@@ -15,13 +15,14 @@ namespace warmjoint {
 struct RobotJointSummary {
   std::string joint;
   std::string torque_unit;
-  double travel = 0;                      // rad or m
-  double top_speed = 0;                   // rad/s or m/s
-  double minutes = 0;                     // of clear motion
-  std::optional<double> gain;             // torque_unit for N.m or N of the description's torque
-  bool gain_is_known = false;             // to a factor of less than 2
-  std::optional<double> rms_held_out;     // on samples away from reversals that a second fit has not seen
-  std::optional<double> rms_moving;       // the same on all that moves
+  double travel = 0;           // rad or m
+  double top_speed = 0;        // rad/s or m/s
+  double minutes = 0;          // of clear motion
+  std::optional<double> gain;  // torque_unit for N.m or N of the description's torque
+  bool gain_is_known = false;  // to a factor of less than 2
+  std::optional<double>
+      rms_held_out;  // on samples away from reversals that a second fit has not seen
+  std::optional<double> rms_moving;            // the same on all that moves
   std::optional<double> rms_without_friction;  // held out: gain times rigid torque and an offset
 
   /// Without its name, by which a file has it.
@@ -43,11 +44,11 @@ struct RobotJointSummary {
 
 /// A joint along its log, filtered, for pictures. All [N], torques in the log's unit.
 struct JointSeries {
-  Eigen::VectorXd time;      // s
-  Eigen::VectorXd velocity;  // rad/s or m/s
-  Eigen::VectorXd measured;  // torque less all that is no friction
-  Eigen::VectorXd fitted;    // friction
-  Eigen::VectorXd energy;    // E; empty where nothing warms
+  Eigen::VectorXd time;                        // s
+  Eigen::VectorXd velocity;                    // rad/s or m/s
+  Eigen::VectorXd measured;                    // torque less all that is no friction
+  Eigen::VectorXd fitted;                      // friction
+  Eigen::VectorXd energy;                      // E; empty where nothing warms
   Eigen::Array<bool, Eigen::Dynamic, 1> kept;  // away from rests and reversals
 };
 
@@ -63,8 +64,8 @@ struct RobotJointEstimate {
 
 /// What identify-robot answers.
 struct RobotEstimate {
-  std::string robot;              // file of the description
-  std::vector<std::string> log;   // files
+  std::string robot;                       // file of the description
+  std::vector<std::string> log;            // files
   std::vector<RobotJointEstimate> joints;  // in the order of the log
   std::vector<std::string> notices;        // one sentence each
 

@@ -60,8 +60,8 @@ JointColumns Columns(const Truth& truth, unsigned seed) {
     const double level = truth.viscous * std::abs(v) + (s > 0 ? truth.forwards : truth.backwards) +
                          truth.load * std::abs(load[i]);
     const double friction = s * std::max(level + energy, 0.0);
-    c.samples.torque[i] = truth.gain * rigid[i] + truth.rotor * c.acceleration[i] + friction +
-                          noise * normal(random);
+    c.samples.torque[i] =
+        truth.gain * rigid[i] + truth.rotor * c.acceleration[i] + friction + noise * normal(random);
     energy = pole * energy + (1 - pole) * truth.thermal_gain * std::abs(v) * (level + energy);
   }
   c.samples.keep = c.velocity.array().abs() > .02 * c.top_speed;

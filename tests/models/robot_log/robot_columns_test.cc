@@ -28,9 +28,10 @@ TEST(RobotColumns, FindsNumberedFamiliesAndLeavesTargetsAlone) {
 }
 
 TEST(RobotColumns, CountsFromOneAndReadsBrackets) {
-  for (const Words& names : {Words{"t", "q1", "q2", "qd1", "qd2", "tau1", "tau2"},
-                             Words{"t", "q[0]", "q[1]", "tau[0]", "tau[1]"},
-                             Words{"t", "joint_1_pos", "joint_2_pos", "joint_1_torque", "joint_2_torque"}}) {
+  for (const Words& names :
+       {Words{"t", "q1", "q2", "qd1", "qd2", "tau1", "tau2"},
+        Words{"t", "q[0]", "q[1]", "tau[0]", "tau[1]"},
+        Words{"t", "joint_1_pos", "joint_2_pos", "joint_1_torque", "joint_2_torque"}}) {
     const RobotColumns found = Find(names, {"a", "b"});
     ASSERT_EQ(found.maps.size(), 2U) << names[1];
     EXPECT_FALSE(found.torque_is_current);
@@ -64,8 +65,9 @@ TEST(RobotColumns, ExpandsPatterns) {
 
 TEST(RobotColumns, RefusesWhatItCannotTell) {
   EXPECT_THROW(Find({"t", "a0", "a1", "tau0", "tau1"}, {"x", "y"}), BadInput);
-  EXPECT_THROW(Find({"t", "left_q0", "left_q1", "right_q0", "right_q1", "tau0", "tau1"}, {"x", "y"}),
-               BadInput);
+  EXPECT_THROW(
+      Find({"t", "left_q0", "left_q1", "right_q0", "right_q1", "tau0", "tau1"}, {"x", "y"}),
+      BadInput);
 }
 
 }  // namespace

@@ -51,8 +51,7 @@ double WorstDeviation(const RobotDescription& robot) {
   const Eigen::MatrixXd expected = InverseDynamics(robot, q, v, a);
   double worst = 0;
   for (Index j = 0; j < n; ++j) {
-    const Eigen::VectorXd torque =
-        motion.Regressor(j, Accelerations::counted) * robot.Parameters();
+    const Eigen::VectorXd torque = motion.Regressor(j, Accelerations::counted) * robot.Parameters();
     worst = std::max(worst, (torque - expected.col(j)).cwiseAbs().maxCoeff());
   }
   return worst / expected.cwiseAbs().maxCoeff();

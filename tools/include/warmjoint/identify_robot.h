@@ -33,8 +33,8 @@ inline std::span<const Word<ToolKnown>> WordsOf(ToolKnown) {
 
 struct RobotTool {
   ToolKnown known = ToolKnown::none;
-  double mass = 0;                          // kg, of a given one
-  std::vector<double> centre = {0, 0, 0};   // m, in the axes of the last link
+  double mass = 0;                         // kg, of a given one
+  std::vector<double> centre = {0, 0, 0};  // m, in the axes of the last link
 
   template <class A>
   void Serialize(A* a) {
@@ -47,16 +47,17 @@ struct RobotTool {
 
 /// What is asked besides the log, each under the name that it has on the command line.
 struct RobotSettings {
-  std::vector<std::string> joints{};      // that the log holds, in its order; none: told by names or numbers
-  NumberOfJoints gear{};                  // motor turns for each of the joint; its ripple is fitted. 0: none
-  double inertials = .1;                  // share by which masses, their places and inertias may be wrong; 0: exact
+  std::vector<std::string>
+      joints{};           // that the log holds, in its order; none: told by names or numbers
+  NumberOfJoints gear{};  // motor turns for each of the joint; its ripple is fitted. 0: none
+  double inertials = .1;  // share by which masses, their places and inertias may be wrong; 0: exact
   RobotTool tool{};
-  std::vector<std::string> coupling{};    // "J6=J5+J6": that motor turns by the sum
-  double cutoff = 10;                     // Hz of the zero-phase low-pass
-  NumberOfJoints torque_constant{};       // N.m/A or N/A at the joint
-  NumberOfJoints torque_scale{};          // factor on the torque of single joints
-  NumberOfJoints position_scale{};        // the same on positions
-  double holdout = .4;                    // share of the log's end for figures on unseen data; 0: none
+  std::vector<std::string> coupling{};  // "J6=J5+J6": that motor turns by the sum
+  double cutoff = 10;                   // Hz of the zero-phase low-pass
+  NumberOfJoints torque_constant{};     // N.m/A or N/A at the joint
+  NumberOfJoints torque_scale{};        // factor on the torque of single joints
+  NumberOfJoints position_scale{};      // the same on positions
+  double holdout = .4;  // share of the log's end for figures on unseen data; 0: none
 
   template <class A>
   void Serialize(A* a) {
