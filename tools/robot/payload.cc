@@ -19,15 +19,15 @@ using Eigen::VectorXd;
 
 constexpr double kShare =
     .2;  // of the mass that moves, and of the reach: what arms are built to carry
-constexpr double kFalls = 2.0 / 3;  // of the residual
-constexpr double kRises = 1.1;
+constexpr double kHelps = 2.0 / 3;  // of the residual
+constexpr double kHarms = 1.1;
 constexpr double kHeldOut = .4;
-constexpr Index kMostSamples =
+constexpr Index kMostRows =
     5000;  // why: inertials are told by the poses, of which a log has far fewer
 
 /// Every so manieth sample, of a fit without heat.
 JointColumns Thinned(const JointColumns& c) {
-  const Index every = std::max<Index>(1, c.velocity.size() / kMostSamples);
+  const Index every = std::max<Index>(1, c.velocity.size() / kMostRows);
   const auto thin = Eigen::seq(0, c.velocity.size() - 1, every);
   JointColumns t;
   t.joint = c.joint;
@@ -114,13 +114,13 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     if (!before || !after) continue;
     const double falls = after->metrics.rmse / before->metrics.rmse;
     payload.falls = std::min(payload.falls, falls);
-    rises = rises || falls > kRises;
+    rises = rises || falls > kHarms;
   }
-  payload.is_shown = payload.falls < kFalls && !rises;
+  payload.is_shown = payload.falls < kHelps && !rises;
 
   const MatrixXd covariance = InverseScaled(known.precision);
   const Index mass = 10 * LastLink(data.robot);
-  payload.mass = free.deviations[mass] * (covariance.row(mass) * known.information)(0);
+  payload.mass = free.deviations[mass] * covariance.row(mass).dot(known.information);
   const double reach = StudentQuantile(freedom, kIntervalLevel) * free.deviations[mass] *
                        std::sqrt(covariance(mass, mass));
   payload.lower = payload.mass - reach;
