@@ -10,6 +10,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/preparation/check.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/excerpt.h"
 #include "models/friction/laws.h"
@@ -64,6 +65,12 @@ IdentifyCommand WithMap(const Advice& advice, MapQuantity quantity) {
     return IdentifyCommand{"energy-ml"}.With("position", position ? "map" : "motor");
   }
   return {position ? "position-ridge" : "motor-ridge"};
+}
+
+/// From the first sample to the last, s.
+double DurationOf(const Advice& advice) {
+  const Eigen::VectorXd& time = advice.input.measurements.time;
+  return time[time.size() - 1] - time[0];
 }
 
 /// Whether the law has a curve over speed.
@@ -142,6 +149,12 @@ std::string RemedyForWarmStart(const Identifier& identifier) {
 Remedy RemedyForWarming(const Advice& advice) {
   // no warming yet: one beside whatever else the fit holds
   if (!HasWarming(advice)) {
+    if (const double duration = DurationOf(advice); duration < kShortestWarming) {
+      return {fmt::format(
+          "within {:.3g} s a warming cannot be told from what else changes (load, sensor, grease): "
+          "record {:.0f} s or longer, from cold",
+          duration, kShortestWarming)};
+    }
     const IdentifyCommand warm{"energy-ml"};
     if (HasMap(advice, MapQuantity::motor_position)) {
       return Try(advice, warm.With("position", "motor"));
