@@ -20,7 +20,7 @@ using nlohmann::json;
 constexpr const char* kScript = "tools/python/warmjoint/formats/__main__.py";
 
 /// What the child wrote: a line of JSON, and bytes.
-struct Answer {
+struct ConverterAnswer {
   json head;
   std::string_view rest;
 };
@@ -42,7 +42,7 @@ std::string ReasonOf(const Ended& ended) {
   return Excerpt(LastLine(ended.err), kLongestComplaint);
 }
 
-Answer Split(const std::string& file, const std::string& bytes) {
+ConverterAnswer Split(const std::string& file, const std::string& bytes) {
   const std::size_t end = bytes.find('\n');
   json head = json::parse(bytes.substr(0, end), nullptr, false);
   if (end == std::string::npos || !head.is_object()) RefuseBroken(file, "its reader broke off");
@@ -50,7 +50,7 @@ Answer Split(const std::string& file, const std::string& bytes) {
 }
 
 /// The columns behind the head, whose sizes are checked before they are believed.
-std::vector<FileColumn> ColumnsOf(const std::string& file, const Answer& answer) {
+std::vector<FileColumn> ColumnsOf(const std::string& file, const ConverterAnswer& answer) {
   std::vector<FileColumn> columns;
   std::string_view rest = answer.rest;
   for (const json& one : answer.head.value("columns", json::array())) {
@@ -106,7 +106,7 @@ FileContent ReadOtherFormat(const OtherFormat& asked) {
   }
   if (!ended.well) RefuseBroken(asked.file, ReasonOf(ended));
 
-  const Answer answer = Split(asked.file, ended.out);
+  const ConverterAnswer answer = Split(asked.file, ended.out);
   if (answer.head.contains("error")) {
     throw BadInput(Printable(answer.head["error"].get<std::string>()));
   }
