@@ -14,8 +14,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kThin =
-    4;  // samples kept per period of the cut-off: twice what a filter of second order leaves
+/// Samples kept per period of the cut-off: twice what the filter leaves; of long logs those that it needs at least.
+constexpr double kThin = 4, kThinOfMany = 2.5;
+constexpr double kMany =
+    20'000;  // why: of more samples neighbours say nothing new, and fits take as long
 constexpr double kEnds =
     .3;  // s left out at each end: three periods of 10 Hz, in which the filter knows one side alone
 constexpr double kAtRest = .02;  // of the top speed
@@ -80,7 +82,9 @@ RobotSamples PrepareRobot(const RobotMotionLog& log, const MatrixXd& coupling,
   const MatrixXd motor = log.position * coupling.transpose(), speed = v * coupling.transpose();
 
   // the samples that stay: thinned, without the ends
-  const Index every = std::max<Index>(1, static_cast<Index>(rate / (kThin * filter.cutoff)));
+  const double kept = static_cast<double>(m) * log.step * kThin * filter.cutoff;
+  const double thinning = kept > kMany ? kThinOfMany : kThin;
+  const Index every = std::max<Index>(1, static_cast<Index>(rate / (thinning * filter.cutoff)));
   const Index cut = std::clamp<Index>(static_cast<Index>(kEnds * rate), 1, (m - 1) / 2);
   const auto thin = Eigen::seq(cut, m - 1 - cut, every);
   const auto thinned = [&](const MatrixXd& x) -> MatrixXd { return x(thin, Eigen::all); };

@@ -25,29 +25,33 @@ constexpr double kHeldOut = .4;
 constexpr Index kMostRows =
     5000;  // why: inertials are told by the poses, of which a log has far fewer
 
-/// Every so manieth sample, of a fit without heat.
-JointColumns Thinned(const JointColumns& c) {
-  const Index every = std::max<Index>(1, c.velocity.size() / kMostRows);
-  const auto thin = Eigen::seq(0, c.velocity.size() - 1, every);
-  JointColumns t;
-  t.joint = c.joint;
-  t.kind = c.kind;
-  t.torque_unit = c.torque_unit;
-  t.step = c.step * static_cast<double>(every);
-  t.top_speed = c.top_speed;
-  for (const auto column :
-       {&JointColumns::position, &JointColumns::velocity, &JointColumns::acceleration,
-        &JointColumns::sign, &JointColumns::forwards, &JointColumns::backwards,
-        &JointColumns::slow}) {
-    t.*column = (c.*column)(thin);
+/// Every so manieth sample, for fits without heat.
+RobotRows Thinned(const RobotData& data, const RobotRows& rows) {
+  RobotRows thinned;
+  thinned.parameters = rows.parameters;
+  thinned.deviations = rows.deviations;
+  for (const RobotSamples& s : rows.samples) {
+    const Index every = std::max<Index>(1, s.time.size() / kMostRows);
+    const auto thin = Eigen::seq(0, s.time.size() - 1, every);
+    RobotSamples t;
+    t.step = s.step * static_cast<double>(every);
+    t.time = s.time(thin);
+    for (const auto column :
+         {&RobotSamples::joint_position, &RobotSamples::joint_velocity,
+          &RobotSamples::joint_acceleration, &RobotSamples::position, &RobotSamples::velocity,
+          &RobotSamples::acceleration, &RobotSamples::torque, &RobotSamples::sign,
+          &RobotSamples::forwards, &RobotSamples::backwards, &RobotSamples::slow}) {
+      t.*column = (s.*column)(thin, Eigen::all);
+    }
+    t.keep = s.keep(thin, Eigen::all);
+    t.top = s.top;
+    t.travel = s.travel;
+    t.ripple.assign(s.ripple.size(), MatrixXd(t.time.size(), 0));
+    thinned.motions.emplace_back(data.robot, t.joint_position, t.joint_velocity,
+                                 t.joint_acceleration);
+    thinned.samples.push_back(std::move(t));
   }
-  t.ripple.resize(t.velocity.size(), 0);
-  t.rigid = {c.rigid.force(thin), c.rigid.directions(thin, Eigen::all)};
-  t.carried = {c.carried.force(thin), c.carried.directions(thin, Eigen::all)};
-  t.samples.time = c.samples.time(thin);
-  t.samples.torque = c.samples.torque(thin);
-  t.samples.keep = c.samples.keep(thin);
-  return t;
+  return thinned;
 }
 
 /// What joints say of u, the relative errors of all inertials: phi = phi0 + D u, u ~ N(0, 1) before the log.
@@ -93,7 +97,8 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Index>& joints,
                     JointQuestion question) {
   question.warms = question.slows = false;
-  RobotRows free = rows;
+  const RobotRows as_given = Thinned(data, rows);
+  RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
   const Index size = free.deviations.size();
   Knowledge known{MatrixXd::Identity(size, size), VectorXd::Zero(size)};
@@ -102,9 +107,9 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   double freedom = 1e9;
   for (const Index j : joints) {
     const GainGuess& guess = guesses[static_cast<std::size_t>(j)];
-    const JointColumns given = Thinned(ColumnsOf(data, rows, j));
+    const JointColumns given = ColumnsOf(data, as_given, j);
     MatrixXd basis;
-    const JointColumns loaded = Thinned(ColumnsOf(data, free, j, &basis));
+    const JointColumns loaded = ColumnsOf(data, free, j, &basis);
     const JointFit without = FitJoint(given, guess, question),
                    with = FitJoint(loaded, guess, question);
     known.Add(with, free.deviations.cwiseMax(1e-300).cwiseInverse().asDiagonal() * basis);

@@ -1,0 +1,107 @@
+"""The friction of a whole robot, from a description that is wrong by a tenth and a log made of a known truth."""
+
+import json
+
+import numpy as np
+import pytest
+
+import warmjoint as wj
+
+mujoco = pytest.importorskip("mujoco")
+if not mujoco.__version__.startswith("4.0."):
+    pytest.skip("needs MuJoCo 4.0", allow_module_level=True)
+
+ARM = """<mujoco><compiler angle="radian"/><worldbody>
+  <body name="a"><joint name="shoulder" axis="0 1 0" range="-3 3"/><inertial pos="0 0 .2" mass="8" diaginertia=".1 .1 .02"/>
+    <body name="b" pos="0 0 .4"><joint name="elbow" axis="0 1 0" range="-3 3"/><inertial pos="0 0 .15" mass="3" diaginertia=".03 .03 .01"/>
+      <body name="c" pos="0 0 .3"><joint name="wrist" axis="0 0 1" range="-3 3"/><inertial pos=".02 0 .05" mass="1" diaginertia=".003 .003 .002"/>
+</body></body></body></worldbody></mujoco>"""
+VISCOUS, UP, DOWN = np.array([4, 2, 1.0]), np.array([6, 4, 2.0]), np.array([5, 4.5, 2.2])
+
+
+def log_of(model, payload=0.0, seconds=240, rate=100, seed=1):
+    """Sums of sines on all joints, and the torques of the true robot with its friction and .1 N.m of noise."""
+    random = np.random.default_rng(seed)
+    t = np.arange(0, seconds, 1 / rate)
+    w, a, p = random.uniform(.3, 1.5, (3, 3)), random.uniform(.2, .6, (3, 3)), random.uniform(0, 6, (3, 3))
+    q, v, acc = (sum(a[k] * w[k] ** m * np.sin(np.outer(t, w[k]) + p[k] + m * np.pi / 2) for k in range(3)) for m in range(3))
+    model.body_mass[-1] += payload
+    data = mujoco.MjData(model)
+    rigid = np.empty_like(q)
+    for i in range(len(t)):
+        data.qpos[:], data.qvel[:], data.qacc[:] = q[i], v[i], acc[i]
+        mujoco.mj_inverse(model, data)
+        rigid[i] = data.qfrc_inverse
+    friction = VISCOUS * v + UP * (v > 0) - DOWN * (v < 0)
+    return {"time": t, "position": q, "torque": rigid + friction + .1 * random.standard_normal(q.shape)}
+
+
+@pytest.fixture(scope="module")
+def wrong():
+    """The arm with masses and inertias that are off."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    model.body_mass[1:] *= [1.1, .92, 1.05]
+    model.body_inertia[1:] *= .9
+    return model
+
+
+@pytest.fixture(scope="module")
+def log():
+    model = mujoco.MjModel.from_xml_string(ARM)
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    return log_of(model)
+
+
+def test_all_joints_are_told_within_their_intervals(wrong, log):
+    robot = wj.identify_robot(wrong, log)
+    assert list(robot) == ["shoulder", "elbow", "wrist"]
+    off = []
+    for j, (name, estimate) in enumerate(robot.items()):
+        assert estimate.ok, f"{name}: {estimate.message}"
+        for key, truth in (("viscous", VISCOUS[j]), ("coulomb_positive", UP[j]), ("coulomb_negative", DOWN[j])):
+            one = estimate[key]
+            off.append((one.value - truth) / one.std)
+        assert robot.summary[name]["rms_held_out"] < .1  # the noise of .1 N.m at 100 Hz through 10 Hz
+    assert np.max(np.abs(off)) < 4  # standard errors: by chance once in a thousand logs
+    assert set(robot.frictions) == set(robot)
+
+
+def test_a_file_gives_the_same_as_arrays_and_its_friction_is_attached(wrong, log, program):
+    mujoco.mj_saveModel(wrong, str(program.folder / "arm.mjb"))
+    table = np.column_stack([log["time"], log["position"], log["torque"]])
+    header = "time," + ",".join(f"{name}_{part}" for part in ("position", "torque") for name in ("shoulder", "elbow", "wrist"))
+    np.savetxt(program.folder / "arm.csv", table, delimiter=",", header=header, comments="", fmt="%.17g")
+    program("identify-robot", "arm.mjb", "arm.csv", "-o", "robot.json")
+    told = json.loads((program.folder / "robot.json").read_text())
+    robot = wj.identify_robot(wrong, log)
+    for name, estimate in robot.items():
+        assert told["joints"][name]["parameters"]["viscous"]["value"] == pytest.approx(estimate["viscous"].value, rel=1e-6)
+    (program.folder / "arm.xml").write_text(ARM)
+    said = program("attach", "arm.xml", "--friction", "robot.json", "-o", "warm.xml")
+    assert "3 of its joints" in said
+    assert wj.attach(ARM, robot.frictions).spec is not None
+
+
+def test_swapped_columns_and_a_turned_position_are_named(wrong, log):
+    swapped = log | {"position": log["position"][:, [1, 0, 2]], "torque": log["torque"][:, [1, 0, 2]]}
+    robot = wj.identify_robot(wrong, swapped)
+    assert "shoulder and elbow are swapped" in robot["shoulder"].message
+    turned = log | {"position": log["position"] * [1, -1, 1]}
+    assert "position of elbow is turned" in wj.identify_robot(wrong, turned)["elbow"].message
+
+
+def test_a_load_is_noticed_and_none_is_not(wrong, log):
+    assert not [one for one in wj.identify_robot(wrong, log).notices if "load of" in one]
+    model = mujoco.MjModel.from_xml_string(ARM)
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    loaded = wj.identify_robot(wrong, log_of(model, payload=3))
+    assert [one for one in loaded.notices if "load of" in one]
+
+
+def test_what_cannot_be_used_is_refused(wrong, log):
+    with pytest.raises(wj.BadInput, match="position"):
+        wj.identify_robot(wrong, {"time": log["time"], "torque": log["torque"]})
+    with pytest.raises(wj.BadInput, match="elbw"):
+        wj.identify_robot(wrong, log, joints=["shoulder", "elbw", "wrist"])
+    with pytest.raises(KeyError, match="elbow"):
+        wj.identify_robot(wrong, log)["elbw"]
