@@ -137,25 +137,39 @@ void SolveFresh(const JointColumns& c, JointFit& fit) {
   fit.solved = Solve(fit.model, c.samples, fit.solved.x);
 }
 
+/// The mean level, which a fit without ripple tells: the ridge of that is a share of it.
+double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {
+  JointFit first;
+  JointColumns plain = c;
+  plain.ripple.resize(c.ripple.rows(), 0);
+  AddBlocks(plain, guess, q, false, 1, first);
+  SolveFresh(c, first);
+  const Index law = first.at.law.begin;
+  const double mean = (first.Value(law + 1) + first.Value(law + 2)) / 2;
+  return std::max(mean, std::sqrt(first.solved.noise.variance));
+}
+
 /// The model in all parts but heat, fitted.
 JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
-                 bool slows) {
-  // the ridge of the ripple is a share of the level, which a fit without it tells
-  JointColumns plain;
-  double level = 1;
-  if (c.ripple.cols() > 0) {
-    JointFit first;
-    plain = c;
-    plain.ripple.resize(c.ripple.rows(), 0);
-    AddBlocks(plain, guess, q, slows, level, first);
-    SolveFresh(c, first);
-    const double mean =
-        (first.Value(first.at.law.begin + 1) + first.Value(first.at.law.begin + 2)) / 2;
-    level = std::max(mean, std::sqrt(first.solved.noise.variance));
-  }
+                 double level) {
   JointFit fit;
-  AddBlocks(c, guess, q, slows, level, fit);
+  AddBlocks(c, guess, q, false, level, fit);
   SolveFresh(c, fit);
+  fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+  return fit;
+}
+
+/// The same with friction that rises at low speed, from the fit without on.
+JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
+                 double level, const JointFit& cold) {
+  JointFit fit;
+  AddBlocks(c, guess, q, true, level, fit);
+  const Index rise = fit.at.law.end() - 1, size = cold.solved.x.size();
+  VectorXd x = VectorXd::Zero(size + 1);
+  x.head(rise) = cold.solved.x.head(rise);
+  x.tail(size - rise) = cold.solved.x.tail(size - rise);
+  fit.solved = Solve(fit.model, c.samples, x);
+  fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
   return fit;
 }
 
@@ -199,13 +213,12 @@ GainGuess GuessGain(const JointColumns& c) {
 }
 
 JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {
-  JointFit fit = FitCold(c, guess, q, false);
-  fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+  const double level = c.ripple.cols() > 0 ? LevelOf(c, guess, q) : 1;
+  JointFit fit = FitCold(c, guess, q, level);
   if (q.slows) {
     // friction that rises at low speed, where the log tells it
-    JointFit slow = FitCold(c, guess, q, true);
-    slow.known = CovarianceOf(slow.model, c.samples, slow.solved);
-    const Index rise = slow.at.law.begin + 3;
+    JointFit slow = FitSlow(c, guess, q, level, fit);
+    const Index rise = slow.at.law.end() - 1;
     const double reach =
         StudentQuantile(slow.known.degrees_of_freedom, 1 - q.error_level / q.joints);
     if (slow.Value(rise) > reach * slow.Deviation(rise)) fit = std::move(slow);
