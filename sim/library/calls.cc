@@ -199,14 +199,13 @@ int AddEngine(dl_phdr_info* library, size_t, void* data) {
 /// linked with and brought along: models of the program's would not find the plugin.
 mjPLUGIN_LIB_INIT(warmjoint_friction) {
   warmjoint::Engines engines;
-  // one MuJoCo, of the version whose structures this library knows
+  // one MuJoCo, of the minor version whose structures this library knows; patches keep them
   dl_iterate_phdr(warmjoint::AddEngine, &engines);
-  if (engines.count > 1 || mj_version() != mjVERSION_HEADER) {
+  if (engines.count > 1 || mj_version() / 1000 != mjVERSION_HEADER / 1000) {
     std::fprintf(stderr,
-                 "warmjoint.friction is built for MuJoCo %d.%d.%d and cannot serve this program, "
+                 "warmjoint.friction is built for MuJoCo %d.%d and cannot serve this program, "
                  "which holds %s; run it with that version of MuJoCo\n",
-                 mjVERSION_HEADER / 1000000, mjVERSION_HEADER / 1000 % 1000,
-                 mjVERSION_HEADER % 1000, engines.paths.c_str());
+                 mjVERSION_HEADER / 1000000, mjVERSION_HEADER / 1000 % 1000, engines.paths.c_str());
     return;
   }
   try {

@@ -347,8 +347,18 @@ def test_the_library_may_be_loaded_by_hand_and_with_the_engine(order, tmp_path):
 
 
 def test_refuses_another_mujoco():
-    with pytest.raises(ImportError, match=r"3\.11\.0, 3\.17\.0 and 4\.0\.0, and this Python has 3\.5\.0"):
+    with pytest.raises(ImportError, match=r"4\.0, and this Python has 3\.5\.0: pip install 'mujoco==4\.0\.\*'"):
         mujoco_plugin.library_path("3.5.0")
+
+
+def test_a_patch_version_takes_the_build_of_its_minor_version(tmp_path, monkeypatch):
+    for version in ("3.9.0", "3.10.0"):
+        (tmp_path / version).mkdir()
+        (tmp_path / version / "libwarmjoint_friction.so").touch()
+    monkeypatch.setenv("WARMJOINT_PLUGINS", str(tmp_path))
+    assert mujoco_plugin.library_path("3.10.4").parent.name == "3.10.0"
+    with pytest.raises(ImportError, match=r"3\.9, 3\.10, and this Python has 4\.1\.0: pip install 'mujoco==3\.10\.\*'"):
+        mujoco_plugin.library_path("4.1.0")
 
 
 def test_a_refused_mjdata_leaks_nothing():
@@ -368,7 +378,7 @@ def test_a_refused_mjdata_leaks_nothing():
     assert refuse(1000) - before < 20000  # kB; each data is some 100 kB
 
 
-OTHERS = [version for version in mujoco_plugin.VERSIONS if version != mujoco.__version__]
+OTHERS = [version for version in ("3.11.0", "3.17.0", "4.0.0") if version != mujoco.__version__]
 INNER = "WARMJOINT_INNER_TEST"
 
 
