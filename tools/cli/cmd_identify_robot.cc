@@ -17,7 +17,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/robot_table.h"
 #include "tools/cli/typed_options.h"
-#include "tools/robot/robot_figure.h"
+#include "tools/figures/robot/robot_figure.h"
 #include "tools/robot/robot_friction.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"

@@ -21,7 +21,7 @@
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
-#include "tools/robot/robot_figure.h"
+#include "tools/figures/robot/robot_figure.h"
 
 namespace warmjoint::python {
 namespace {

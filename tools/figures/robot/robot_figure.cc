@@ -1,4 +1,4 @@
-#include "tools/robot/robot_figure.h"
+#include "tools/figures/robot/robot_figure.h"
 
 #include <fmt/format.h>
 
