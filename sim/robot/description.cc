@@ -92,10 +92,10 @@ void TakeOut(mjModel& m, std::vector<std::string>& notices) {
 }
 
 /// The body with a logged joint that carries `body`; 0 where none does.
-int CarrierOf(const mjModel& m, const std::vector<RobotJoint>& joints, int body) {
+int CarrierOf(const mjModel& m, const std::vector<ModelJoint>& joints, int body) {
   for (; body > 0; body = m.body_parentid[body]) {
     const bool logged = std::ranges::any_of(
-        joints, [&](const RobotJoint& one) { return m.dof_bodyid[one.dof] == body; });
+        joints, [&](const ModelJoint& one) { return m.dof_bodyid[one.dof] == body; });
     if (logged) return body;
   }
   return 0;
@@ -131,7 +131,7 @@ InertialParameters SpreadOf(const InertialParameters& p) {
   return spread.array() + 1e-9;
 }
 
-std::vector<RobotLink> LinksOf(const mjModel& m, const std::vector<RobotJoint>& joints) {
+std::vector<RobotLink> LinksOf(const mjModel& m, const std::vector<ModelJoint>& joints) {
   const DataPtr data(mj_makeData(&m));
   mj_kinematics(&m, data.get());
   std::vector<RobotLink> links;
@@ -151,11 +151,11 @@ std::vector<RobotLink> LinksOf(const mjModel& m, const std::vector<RobotJoint>& 
   return links;
 }
 
-RobotJoint FindRobotJoint(const ReadModel& read, const std::string& name) {
+ModelJoint FindModelJoint(const ReadModel& read, const std::string& name) {
   const mjModel& m = *read.model;
   for (int joint = 0; joint < m.njnt; ++joint) {
     if (JointName(m, joint) != name || !IsHingeOrSlide(m, joint)) continue;
-    RobotJoint found{
+    ModelJoint found{
         .name = name,
         .kind = m.jnt_type[joint] == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary,
         .dof = m.jnt_dofadr[joint],
@@ -171,7 +171,7 @@ RobotJoint FindRobotJoint(const ReadModel& read, const std::string& name) {
 
 }  // namespace
 
-bool RobotDescription::Moves(const RobotJoint& joint, const RobotLink& link) const {
+bool RobotDescription::Moves(const ModelJoint& joint, const RobotLink& link) const {
   const int own = model->dof_bodyid[joint.dof];
   int body = link.body;
   while (body > 0 && body != own) body = model->body_parentid[body];
@@ -216,7 +216,7 @@ RobotDescription DescribeRobot(ReadModel read, const std::vector<std::string>& j
   RobotDescription robot{read.name, nullptr, {}, {}, read.notices};
   std::vector<std::string> still = read.joints;
   for (const std::string& name : joints) {
-    robot.joints.push_back(FindRobotJoint(read, name));
+    robot.joints.push_back(FindModelJoint(read, name));
     std::erase(still, name);
   }
   if (!still.empty()) {

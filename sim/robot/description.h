@@ -20,7 +20,7 @@ namespace warmjoint {
 using InertialParameters = Eigen::Matrix<double, 10, 1>;
 
 /// A hinge or slide of the robot.
-struct RobotJoint {
+struct ModelJoint {
   std::string name;
   JointKind kind = JointKind::rotary;
   int dof = 0, qpos = 0;                       // places in mjData
@@ -39,12 +39,12 @@ struct RobotLink {
 struct RobotDescription {
   std::string name;                      // of the file, in messages
   std::shared_ptr<const mjModel> model;  // in which nothing acts but gravity and inertia
-  std::vector<RobotJoint> joints;        // [n] in the order of the log
+  std::vector<ModelJoint> joints;        // [n] in the order of the log
   std::vector<RobotLink> links;          // from the base outwards
   std::vector<std::string> notices;      // what was mended or left out, one sentence each
 
   /// Whether the joint moves the link.
-  bool Moves(const RobotJoint& joint, const RobotLink& link) const;
+  bool Moves(const ModelJoint& joint, const RobotLink& link) const;
   /// The parameters of all links, one behind the other. [10 L]
   Eigen::VectorXd Parameters() const;
   Eigen::VectorXd Spreads() const;

@@ -52,15 +52,15 @@ RobotMotion::RobotMotion(const RobotDescription& robot, const Eigen::MatrixXd& q
           values[robot.joints[j].*place] = given(i, static_cast<Index>(j));
         }
       };
-      set(d.qpos, q, &RobotJoint::qpos);
-      set(d.qvel, v, &RobotJoint::dof);
-      mju_zero(d.qacc, m.nv);
+      set(d.qpos, q, &ModelJoint::qpos);
+      set(d.qvel, v, &ModelJoint::dof);
+      mju_zero(d.qacc, static_cast<int>(m.nv));
       mj_kinematics(&m, &d);
       mj_comPos(&m, &d);
       mj_comVel(&m, &d);
       mj_rnePostConstraint(&m, &d);
       Record(m, d, i, Accelerations::left_out);
-      set(d.qacc, a, &RobotJoint::dof);
+      set(d.qacc, a, &ModelJoint::dof);
       mj_rnePostConstraint(&m, &d);
       Record(m, d, i, Accelerations::counted);
     }

@@ -48,7 +48,7 @@ Index LastLink(const RobotDescription& robot) {
   Index last = 0;
   std::ptrdiff_t most = 0;
   for (Index k = 0; k < std::ssize(robot.links); ++k) {
-    const auto movers = std::ranges::count_if(robot.joints, [&](const RobotJoint& joint) {
+    const auto movers = std::ranges::count_if(robot.joints, [&](const ModelJoint& joint) {
       return robot.Moves(joint, robot.links[static_cast<std::size_t>(k)]);
     });
     if (movers >= most) last = k, most = movers;

@@ -44,7 +44,7 @@ std::vector<std::string> NamesIn(const RobotSource& source, const std::string& f
 bool IsInDegrees(const RobotDescription& robot, const RobotLog& log, std::string& joint) {
   bool beyond = false;
   for (Index j = 0; j < log.position.cols(); ++j) {
-    const RobotJoint& one = robot.joints[static_cast<std::size_t>(j)];
+    const ModelJoint& one = robot.joints[static_cast<std::size_t>(j)];
     if (one.kind != JointKind::rotary) continue;
     double farthest = kFarthest;
     if (one.range) {
@@ -64,7 +64,7 @@ bool IsInDegrees(const RobotDescription& robot, const RobotLog& log, std::string
 void TakeOptions(const RobotSettings& settings, RobotData& data) {
   const Index n = std::ssize(data.robot.joints);
   for (Index j = 0; j < n; ++j) {
-    const RobotJoint& joint = data.robot.joints[static_cast<std::size_t>(j)];
+    const ModelJoint& joint = data.robot.joints[static_cast<std::size_t>(j)];
     const double constant = NumberOf(settings.torque_constant, joint.name, 0);
     const std::string& unit = data.logs.front().torque_unit;
     if (constant != 0 && unit != "A" && !unit.empty()) {
@@ -87,7 +87,7 @@ void TakeOptions(const RobotSettings& settings, RobotData& data) {
 
 void CheckNames(const NumberOfJoints& numbers, const char* option, const RobotDescription& robot) {
   std::vector<std::string> names;
-  for (const RobotJoint& joint : robot.joints) names.push_back(joint.name);
+  for (const ModelJoint& joint : robot.joints) names.push_back(joint.name);
   for (const auto& [joint, value] : numbers) {
     if (joint.empty() || std::ranges::find(names, joint) != names.end()) continue;
     Refuse({option}, "the log holds no joint '{}'{}", Excerpt(joint), Suggestion(joint, names));
@@ -104,11 +104,11 @@ double NumberOf(const NumberOfJoints& numbers, const std::string& joint, double 
 }
 
 Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
-                             const std::vector<RobotJoint>& joints) {
+                             const std::vector<ModelJoint>& joints) {
   const Index n = std::ssize(joints);
   Eigen::MatrixXd coupling = Eigen::MatrixXd::Identity(n, n);
   std::vector<std::string> names;
-  for (const RobotJoint& joint : joints) names.push_back(joint.name);
+  for (const ModelJoint& joint : joints) names.push_back(joint.name);
   const auto place = [&](const std::string& name) {
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) {
@@ -179,7 +179,7 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
   }
 
   std::vector<JointKind> kinds;
-  for (const RobotJoint& joint : data.robot.joints) kinds.push_back(joint.kind);
+  for (const ModelJoint& joint : data.robot.joints) kinds.push_back(joint.kind);
   const auto read_all = [&] {
     data.logs.clear();
     for (const std::string& file : files) {

@@ -34,6 +34,6 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
 
 /// [n x n] of "J6=J5+J6" and the like; "0.5*J5" and minus signs count. Throws BadInput for other texts.
 Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
-                             const std::vector<RobotJoint>& joints);
+                             const std::vector<ModelJoint>& joints);
 
 }  // namespace warmjoint

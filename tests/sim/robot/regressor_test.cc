@@ -24,7 +24,7 @@ Eigen::MatrixXd InverseDynamics(const RobotDescription& robot, const Eigen::Matr
   Eigen::MatrixXd torque(q.rows(), q.cols());
   for (Index i = 0; i < q.rows(); ++i) {
     for (Index j = 0; j < q.cols(); ++j) {
-      const RobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+      const ModelJoint& joint = robot.joints[static_cast<std::size_t>(j)];
       data->qpos[joint.qpos] = q(i, j);
       data->qvel[joint.dof] = v(i, j);
       data->qacc[joint.dof] = a(i, j);
