@@ -20,7 +20,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kFewest = 30;         // why 30: of fewer, colour and structure of noise stay unseen
+constexpr int kFewest = 30;           // why 30: of fewer, colour and structure of noise stay unseen
 constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
 /// Share of a friction that the residual may be. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
@@ -211,7 +211,8 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
   train.keep.tail(n - cut) = false;
   Selection test{c.samples.keep, {}};
   test.keep.head(cut) = false;
-  if (train.keep.count() < kFewest + fit.known.effective_parameters || test.count() < kFewest) {
+  if (static_cast<double>(train.keep.count()) < kFewest + fit.known.effective_parameters ||
+      test.count() < kFewest) {
     return std::nullopt;
   }
   const SolvedModel again = FitAgain(fit, c, train);
