@@ -352,6 +352,19 @@ Measurements OnlyOne(std::vector<Measurements> recordings) {
          recordings.size());
 }
 
+namespace {
+
+/// Leaves out sentences that stand there already: what a file says of itself, and reading says again.
+void SayOnce(std::vector<std::string>& sentences) {
+  std::vector<std::string> kept;
+  for (std::string& one : sentences) {
+    if (std::ranges::find(kept, one) == kept.end()) kept.push_back(std::move(one));
+  }
+  sentences = std::move(kept);
+}
+
+}  // namespace
+
 std::vector<Measurements> AssembleRecordings(RawColumns raw, const std::vector<FileColumn>& columns,
                                              const ReadSettings& layout) {
   const bool is_timed = raw.columns.front().column->name == RecordingColumns().front().name;
@@ -359,6 +372,8 @@ std::vector<Measurements> AssembleRecordings(RawColumns raw, const std::vector<F
   std::vector<Measurements> recordings;
   for (RawColumns& episode : Episodes(std::move(raw), columns)) {
     recordings.push_back(AssembleMeasurements(std::move(episode), layout));
+    SayOnce(recordings.back().notes);
+    SayOnce(recordings.back().doubts);
   }
   return recordings;
 }

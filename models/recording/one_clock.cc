@@ -156,6 +156,8 @@ bool HasSeveralClocks(const std::vector<std::string>& names) {
 
 FileContent OnOneClock(FileContent content) {
   const std::vector<std::string> names = NamesOf(content);
+  // a clock of texts was left out
+  if (!HasSeveralClocks(names)) return content;
   const Values& first = content.columns.front().values;
   FileContent joined{.joint = content.joint, .gear = content.gear, .notes = content.notes};
   joined.columns.push_back({"time", content.columns.front().unit, first});

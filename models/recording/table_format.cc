@@ -221,8 +221,9 @@ void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::str
   }
 }
 
-/// Takes the names of channels that TwinCAT writes above rows of their properties, "Name;position;Name;torque"; false where there are none.
-bool TakeChannels(const std::vector<Line>& lines, const Look& look, TableFormat& table) {
+/// Takes the names of channels that TwinCAT writes above rows of their properties, "Name;position;Name;torque", which are no samples, though
+/// some hold numbers; false where there are none.
+bool TakeChannels(const std::vector<Line>& lines, Look& look, TableFormat& table) {
   for (std::size_t i = look.first; i-- > 0;) {
     auto fields = FieldsAbove(lines[i].text, table, false);
     const auto is_name = [](const std::string& field) { return EqualIgnoringCase(field, "name"); };
@@ -231,6 +232,12 @@ bool TakeChannels(const std::vector<Line>& lines, const Look& look, TableFormat&
     table.header = lines[i].text;
     table.header_line = lines[i].number;
     table.names = std::move(*fields);
+    std::vector<std::string_view> row;
+    const auto is_sample = [&] {
+      SplitLine(lines[look.first].text, table.separator, row);
+      return IsNumber(row.front(), table.decimal_mark);
+    };
+    while (look.first + 1 < lines.size() && !is_sample()) ++look.first;
     return true;
   }
   return false;
