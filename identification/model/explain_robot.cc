@@ -50,7 +50,8 @@ std::string ExplainUntold(double level, double reach, const std::string& unit) {
 std::string ExplainResidual(double left, double friction, const std::string& unit) {
   return fmt::format(
       "the residual of {:.3g} {} is more than half of the friction, {:.3g}: the description, the "
-      "joint's torque or its sign are not those of the log",
+      "joint's torque or its sign are not those of the log, or its motor ripples (--gear N fits "
+      "that)",
       left, unit, friction);
 }
 
