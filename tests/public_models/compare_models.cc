@@ -17,9 +17,11 @@ bool MayChange(std::string_view name, FrictionForm form) {
   const auto is_one = [&](const auto& others) {
     return std::find(others.begin(), others.end(), name) != others.end();
   };
-  constexpr std::array always{std::string_view("dof_damping"), std::string_view("dof_dampingpoly"),
-                              std::string_view("dof_frictionloss"), std::string_view("paths"),
-                              std::string_view("body_plugin")};
+  constexpr std::array always{
+      std::string_view("dof_damping"),      std::string_view("dof_dampingpoly"),
+      std::string_view("dof_frictionloss"), std::string_view("paths"),
+      std::string_view("actuator_damping"), std::string_view("actuator_dampingpoly"),
+      std::string_view("jnt_actuatorid"),   std::string_view("body_plugin")};
   constexpr std::array by_actuators{
       std::string_view("key_act"),           std::string_view("key_ctrl"),
       std::string_view("jnt_actfrclimited"), std::string_view("jnt_actfrcrange"),

@@ -18,9 +18,20 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
+/// Without a level, and with a slope over speed at every position that the plugin itself adds.
+Friction Steep() {
+  Friction friction{"coulomb", {{"coulomb", 0}}, {}};
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-1, 1, 2)}};
+  map.weights = {30, 30};
+  map.factor = MapFactor::velocity;
+  friction.maps = {map};
+  return friction;
+}
+
 /// Frictions that the light joints of LightJoints do not carry at 2 ms.
 const Friction kFrictions[] = {{"coulomb", {{"coulomb", 6}}, {}},
-                               {"viscous_coulomb", {{"coulomb", 0}, {"viscous", 30}}, {}},
+                               Steep(),
                                {"lugre",
                                 {{"coulomb", 1},
                                  {"static", 1},

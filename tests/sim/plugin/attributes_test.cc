@@ -143,13 +143,13 @@ TEST(PluginActuator, RefusesWhatTheStepCannotCarryWithTheRemedy) {
   dahl["bristle_stiffness"] = "1e4";
   EXPECT_EQ(ErrorOf(dahl), "");
 
-  // 32 kN on 3 kg at 1 ms: 32000 N h^2 / (0.8 M) = 13 mm
+  // 32 kN on 3 kg at 1 ms: 32000 N h^2 / (0.64 M) = 17 mm
   ExpectNamed(
       Compile(CarriageXml(
                   FrictionSection({{"law", "coulomb"}, {"coulomb", "32000"}}, {.joint = "slide"}),
                   kNoGravity))
           .error,
-      {"actuator 'f'", "0.0133 m", "0.005", "armature of 5.05", "timestep of at most 0.000612"});
+      {"actuator 'f'", "0.0167 m", "0.005", "armature of 7.07", "timestep of at most 0.000547"});
 }
 
 /// An arm with this text in place of another.
