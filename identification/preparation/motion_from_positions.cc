@@ -170,6 +170,7 @@ class MotionBuilder {
     InsertSamples(inserted_, motion.view);
     const double path = HeldPath(motion.view.measurements);
     motion.unresolved_path = path > 0 ? unresolved_ / path : 0;
+    motion.position_deviation = found_.noise.deviation;
     return motion;
   }
 

@@ -146,8 +146,7 @@ struct PreparedLog::Maker {
       return InsteadOf(std::move(log), *std::move(by_positions), *paths, found.selection.keep);
     }
     // speeds of the column, and between them the paths of the positions
-    const double deviation = MeasurePositionNoise(measurements.position).deviation;
-    if (PositionsTellMore(*paths, deviation)) {
+    if (PositionsTellMore(*paths, motion.position_deviation)) {
       log.constant_speed = ReplaceTransitions(log.raw, by_column, by_position, paths->transitions);
       log.unresolved_path = motion.unresolved_path;
     }

@@ -22,6 +22,7 @@ struct FilledLog {
   /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would
   /// not have travelled (PreparedLog::unresolved_path).
   double unresolved_path = 0;
+  double position_deviation = 0;  // rad or m, of positions that made it
 };
 
 /// Puts samples into a log that has none put in, ascending in time: with the torque and the other
