@@ -146,7 +146,7 @@ def test_refusals_name_arguments(tmp_path):
         (lambda: wj.read(tmp_path / "log.csv"), r'map=\{"time": "t", "position": "q", "torque": "i"\}'),
         (lambda: wj.read(tmp_path / "log.csv", rate=-1), "^rate: is -1"),
         (lambda: wj.read(tmp_path / "log.csv", map={"time": "t", "position": "q", "torque": "i"}, unit={"torque": "A"}, torque_constant=float("nan")),
-         "torque_constant: is nan"),
+         "torque_constant"),
         (lambda: wj.identify({"time": [0, 1, 2], "position": [0, 1, 2], "torque": [0, 1, 0]}, "nominal-ls", gravity="sincos", relevance=3), "relevance"),
     ):
         with pytest.raises(wj.BadInput, match=words) as refusal:

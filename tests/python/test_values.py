@@ -135,7 +135,7 @@ def test_dates_are_seconds_from_the_first(si):
 
 
 def test_what_is_hidden_or_missing_is_left_out(si):
-    hidden = np.abs(si["torque"]) < 5
+    hidden = np.abs(si["torque"]) < np.quantile(np.abs(si["torque"]), 0.1)
     spoilt = np.where(hidden, 1e6, si["torque"])
     pandas = pytest.importorskip("pandas")
     nothing = pandas.array(spoilt, dtype="Float64")
@@ -193,8 +193,8 @@ def test_files_and_frames_are_read_by_one_rule(foreign, tmp_path):
 
 def test_a_doubt_on_a_unit_is_a_warning_of_the_estimate(si):
     doubtful = wj.identify(wj.Log(**{**si, "position": np.degrees(si["position"]), "velocity": np.degrees(si["velocity"])}), "nominal-ls")
-    assert any('unit={"position": "deg", "velocity": "deg/s"}' in one for one in doubtful.warnings)
-    assert not wj.identify(wj.Log(**si), "nominal-ls").warnings
+    assert any('unit={"position": "deg"' in one for one in doubtful.warnings)
+    assert not any("unit=" in one for one in wj.identify(wj.Log(**si), "nominal-ls").warnings)
 
 
 def test_a_path_or_a_frame_in_place_of_a_log(si, tmp_path):
@@ -206,7 +206,7 @@ def test_a_path_or_a_frame_in_place_of_a_log(si, tmp_path):
     turned = wj.identify(tmp_path / "log.csv", "nominal-ls", scale={"torque": -1})
     assert turned.status == "bad_data"
     assert wj.identify(log, "nominal-ls", holdout=si).holdout == wj.identify(log, "nominal-ls", holdout=log).holdout
-    assert wj.check(si).text == wj.check(log).text.replace(log.source, "frame")
+    assert wj.check(si).text == wj.check(wj.Log(**si, name="frame")).text
     with pytest.raises(wj.BadInput, match="scale: says how a file or a frame is read"):
         wj.identify(log, scale={"torque": -1})
     for nothing in (5, None, object(), [], [5]):

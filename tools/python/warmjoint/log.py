@@ -254,7 +254,7 @@ class Check:
     @property
     def faults(self) -> list[str]:
         """Where the log contradicts itself, one sentence each."""
-        return list(self.data["faults"])
+        return [_core.in_python(one) for one in self.data["faults"]]
 
     @property
     def can_identify(self) -> dict[str, bool]:
