@@ -40,6 +40,7 @@ class Builder {
   Builder(const urdf::ModelInterface& robot, const Place& place) : robot_(robot), place_(place) {}
 
   SpecPtr Build(std::vector<std::string>& notices) {
+    spec_->compiler.degree = 0;
     Add(*robot_.getRoot(), mjs_findBody(spec_.get(), "world"), nullptr, 0);
     const auto say = [&](const std::vector<std::string>& names, const char* what) {
       if (!names.empty()) notices.push_back(fmt::format("{}: {}", what, ExcerptOfList(names)));
