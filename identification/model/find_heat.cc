@@ -78,15 +78,16 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
     double sum = 0;
     for (const auto& [at, score] : scores) sum += score * score;
     if (!(sum > 0)) continue;
-    const double wald = k * squares / std::sqrt(sum);
+    const auto count = static_cast<double>(scores.size());
+    const double wald = k * squares / std::sqrt(sum * count / std::max(count - 1, 1.0));
     if (std::abs(wald) <= std::abs(best.deviations)) continue;
-    best = {false, wald, k, tau};
-    blocks = static_cast<double>(scores.size());
+    best = {false, wald, k, tau, 0};
+    blocks = count;
   }
   const double level_of_one = q.error_level / kTries / std::max(q.joints, 1);
   // friction that falls, to one side
-  const double limit = StudentQuantile(std::max(blocks - 1, 1.0), 1 - 2 * level_of_one);
-  best.warms = best.deviations < -limit;
+  best.limit = StudentQuantile(std::max(blocks - 1, 1.0), 1 - 2 * level_of_one);
+  best.warms = best.deviations < -best.limit;
   return best;
 }
 

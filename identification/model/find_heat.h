@@ -13,6 +13,7 @@ struct HeatGuess {
   double deviations = 0;     // of the gain at the best time constant
   double gain = 0;           // N.m/W or N/W
   double time_constant = 1;  // s
+  double limit = 0;          // deviations below 0 from which it warms
 };
 
 /// The gain of E by the losses of the cold fit, by least squares beside all its columns, for eight time constants from a thirtieth of the

@@ -20,6 +20,9 @@ using Eigen::VectorXd;
 /// Log gain about that of the robot's other motors: a factor of e, since motors of one robot are alike and not equal.
 constexpr double kGainSpread = 1;
 constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor of 1.6
+/// Load-dependent friction over load: gears lose some per cent of what they carry, bad ones a fifth. A joint that carries nothing keeps
+/// this.
+constexpr double kLoadSpread = .2;
 /// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
 constexpr double kRippleShare = .2;
 
@@ -66,8 +69,11 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   }
   if (slows) law.push_back(LawUnknown(kStaticRiseRow, c));
   fit.at.law = model.Append(law);
-  fit.at.load =
-      model.Append({{.name = "load_gain", .role = Role::gravity, .unit = "1", .lower = 0}});
+  fit.at.load = model.Append({{.name = "load_gain",
+                               .role = Role::gravity,
+                               .unit = "1",
+                               .lower = 0,
+                               .prior = Normal{0, kLoadSpread}}});
   fit.at.rotor = model.Append(
       {{.name = "rotor_inertia",
         .role = Role::inertia,
@@ -227,9 +233,13 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
     const HeatGuess heat = FindHeat(c, fit, q);
     fit.warming = heat.deviations;
     if (heat.warms) {
-      AddHeat(c, heat, fit);
-      SolveOn(c, fit);
-      fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+      JointFit warm = fit;
+      AddHeat(c, heat, warm);
+      SolveOn(c, warm);
+      warm.known = CovarianceOf(warm.model, c.samples, warm.solved);
+      // the fit has to say the same
+      const Index gain = warm.at.heat->begin;
+      if (warm.Value(gain) < -heat.limit * warm.Deviation(gain)) fit = std::move(warm);
     }
   }
   FindBeyond(c, fit);
