@@ -24,6 +24,8 @@ constexpr int kFewest = 30;           // why 30: of fewer, colour and structure 
 constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
 /// Share of a friction that the residual may be. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
+constexpr double kKnownGain =
+    1.5;  // why: a torque that is off by a half is known no better than from the data sheet
 
 /// The value that a row of the table stands for.
 double ValueOf(const JointFit& fit, Index row) {
@@ -265,7 +267,7 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   VectorXd by_gain = VectorXd::Zero(fit.model.size());
   by_gain[fit.at.given.log_gain] = 1;
   summary.gain = gain;
-  summary.gain_is_known = HalfWidthOf(fit, by_gain) < std::log(2.0);
+  summary.gain_is_known = HalfWidthOf(fit, by_gain) < std::log(kKnownGain);
 
   LogSamples m;
   m.joint = c.kind;

@@ -19,7 +19,7 @@ struct RobotJointSummary {
   double top_speed = 0;        // rad/s or m/s
   double minutes = 0;          // of clear motion
   std::optional<double> gain;  // torque_unit for N.m or N of the description's torque
-  bool gain_is_known = false;  // to a factor of less than 2
+  bool gain_is_known = false;  // to a factor of less than 1.5
   std::optional<double>
       rms_held_out;  // on samples away from reversals that a second fit has not seen
   std::optional<double> rms_moving;            // the same on all that moves
@@ -33,7 +33,7 @@ struct RobotJointSummary {
     a->Field("top_speed", &top_speed, Needed("rad/s", "after the low-pass"));
     a->Field("minutes", &minutes, Needed("min", "of motion away from rests and reversals"));
     a->Field("gain", &gain, OrNull("of the log's torque over that of the description"));
-    a->Field("gain_is_known", &gain_is_known, {.meaning = "to a factor of less than 2"});
+    a->Field("gain_is_known", &gain_is_known, {.meaning = "to a factor of less than 1.5"});
     a->Field("rms_held_out", &rms_held_out,
              OrNull("of the residual where a second fit has not seen the samples, torque_unit"));
     a->Field("rms_moving", &rms_moving, OrNull("the same with samples beside reversals"));
