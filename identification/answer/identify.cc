@@ -173,8 +173,8 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                                                  : LogView{};
     const IdentifierInput seen = answer.fit.torque_delay ? input.On(late) : input;
     found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, judging);
-    answer.inferred.at_speeds = SpeedFiguresOf(answer.fit, answer.inferred, found.model,
-                                               seen.measurements, seen.selection);
+    answer.inferred.at_speeds =
+        SpeedFiguresOf(answer.fit, answer.inferred, found.model, seen.measurements, seen.selection);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
       auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
       if (floor) found.causes.push_back(std::move(*floor));

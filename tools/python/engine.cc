@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "identification/model/robot_estimate.h"
+#include "tools/figures/robot/robot_figure.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
-#include "tools/figures/robot/robot_figure.h"
 
 namespace warmjoint::python {
 namespace {

@@ -159,8 +159,8 @@ TEST_F(Attach, NamesWhatElseResistsTheJoint) {
   const Attached attached = To(model.path(), {"a", "b"});
   std::string all;
   for (const std::string& notice : attached.notices) all += notice + "\n";
-  test::ExpectNamed(all,
-                    {"b: damping of the actuators was removed", "b: frictionloss of tendon 't'", "a: the friction of the dcmotor"});
+  test::ExpectNamed(all, {"b: damping of the actuators was removed",
+                          "b: frictionloss of tendon 't'", "a: the friction of the dcmotor"});
   EXPECT_EQ(all.find("'free'"), std::string::npos);
   EXPECT_EQ(LoadModel(out_).model->actuator_damping[0], 0);
 }
