@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kInertia = 0.001, kStep = 0.002;  // kg.m^2, s
+constexpr double kHingeInertia = 0.001, kHingeStep = 0.002;  // kg.m^2, s
 
 /// A hinge under a servo of K = kp h^2/M.
 std::string HingeXml(double k, const char* integrator, const char* flags = "") {
@@ -27,23 +27,23 @@ std::string HingeXml(double k, const char* integrator, const char* flags = "") {
     <worldbody><body name="link"><joint name="hinge" axis="0 0 1"/>
       <inertial pos="0 0 0" mass="1" diaginertia="{} {} {}"/></body></worldbody>
     <actuator><position joint="hinge" kp="{}"/></actuator></mujoco>)",
-                     kStep, integrator, flags, kInertia, kInertia, kInertia,
-                     k * kInertia / (kStep * kStep));
+                     kHingeStep, integrator, flags, kHingeInertia, kHingeInertia, kHingeInertia,
+                     k * kHingeInertia / (kHingeStep * kHingeStep));
 }
 
-Friction Viscous(double viscous, double level) {
+Friction Braked(double viscous, double level) {
   return {"viscous_coulomb", {{"viscous", viscous}, {"coulomb", level}}, Thermal{-0.1, 5}};
 }
 
-struct Result {
+struct AttachedHinge {
   ModelPtr model;
   std::vector<std::string> notices;
 };
 
-Result Attach(const std::string& xml, const std::vector<FrictionForJoint>& frictions,
-              const AttachOptions& options = {}) {
+AttachedHinge Attaching(const std::string& xml, const std::vector<FrictionForJoint>& frictions,
+                        const AttachOptions& options = {}) {
   const SpecPtr spec = test::ParseXml(xml);
-  Result result;
+  AttachedHinge result;
   result.notices = AttachFriction(*spec, frictions, options, "robot").notices;
   result.model = CompileModel(*spec, {"robot"});
   return result;
@@ -57,10 +57,11 @@ TEST(PluginDamping, LetsAJointRestBesideAnyServoHoweverViscous) {
   for (const char* integrator : {"Euler", "implicitfast", "implicit", "discrete"}) {
     for (const double k : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 2.75, 3.0}) {
       for (const double share : {0.0, 0.1, 0.3, 0.49, 1.0, 5.0, 50.0}) {
-        const double kp = k * kInertia / (kStep * kStep), from = 0.1;
+        const double kp = k * kHingeInertia / (kHingeStep * kHingeStep), from = 0.1;
         const double level = 0.05 * std::max(kp, 1.0) * from;
-        const Result result =
-            Attach(HingeXml(k, integrator), {{"hinge", Viscous(share * kInertia / kStep, level)}});
+        const AttachedHinge result =
+            Attaching(HingeXml(k, integrator),
+                      {{"hinge", Braked(share * kHingeInertia / kHingeStep, level)}});
         const mjModel* m = result.model.get();
         const DataPtr d(mj_makeData(m));
         d->qpos[0] = from;
@@ -79,8 +80,8 @@ TEST(PluginDamping, CountsInTorqueLossAndHeat) {
   // a plugin that adds its viscous itself feels the same
   for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
     const AttachOptions options{.form = form, .sensors = true};
-    const Friction friction = Viscous(0.03, 0.1);
-    const Result result = Attach(HingeXml(0, "Euler"), {{"hinge", friction}}, options);
+    const Friction friction = Braked(0.03, 0.1);
+    const AttachedHinge result = Attaching(HingeXml(0, "Euler"), {{"hinge", friction}}, options);
     const SpecPtr spec = test::ParseXml(HingeXml(0, "Euler"));
     AddFriction(*spec, {{"hinge", friction}}, {"robot"}, options);
     const ModelPtr by_plugin = CompileModel(*spec, {"robot"});
@@ -105,8 +106,9 @@ TEST(PluginDamping, CountsInTorqueLossAndHeat) {
 }
 
 TEST(PluginDamping, IsReadAtEachStep) {
-  const Result result = Attach(HingeXml(0, "implicitfast"), {{"hinge", Viscous(0.03, 0.1)}},
-                               {.form = FrictionForm::passive, .sensors = true});
+  const AttachedHinge result =
+      Attaching(HingeXml(0, "implicitfast"), {{"hinge", Braked(0.03, 0.1)}},
+                {.form = FrictionForm::passive, .sensors = true});
   mjModel* m = result.model.get();
   const DataPtr d(mj_makeData(m));
   for (const double damping : {0.03, 0.05, 0.0}) {
@@ -129,8 +131,8 @@ TEST(PluginDamping, ThatTheEngineTakesExplicitlyOrLeavesOutIsWarnedOf) {
                {"Euler", R"(damper="disable")", "flag damper is disabled"},
                {"implicitfast", "", ""}};
   for (const auto& [integrator, flags, words] : cases) {
-    const Result result =
-        Attach(HingeXml(0, integrator, flags), {{"hinge", Viscous(0.7 * kInertia / kStep, 0.1)}});
+    const AttachedHinge result = Attaching(
+        HingeXml(0, integrator, flags), {{"hinge", Braked(0.7 * kHingeInertia / kHingeStep, 0.1)}});
     const bool quiet = words[0] == '\0';
     EXPECT_EQ(Joined(result.notices).find("damp") == std::string::npos, quiet) << integrator;
     EXPECT_THAT(Joined(result.notices), HasSubstr(words));
@@ -142,7 +144,7 @@ TEST(PluginDamping, ThatTheEngineTakesExplicitlyOrLeavesOutIsWarnedOf) {
   }
 }
 
-constexpr char kTwoLinks[] = R"(<mujoco>
+constexpr char kDoubleLink[] = R"(<mujoco>
   <option timestep="0.002"/>
   <worldbody><body><joint name="a" axis="0 1 0" damping="1"/>
     <geom type="capsule" fromto="0 0 0 .3 0 0" size=".04"/>
@@ -151,21 +153,21 @@ constexpr char kTwoLinks[] = R"(<mujoco>
   <sensor><jointpos joint="a"/></sensor></mujoco>)";
 
 TEST(PluginDamping, ASecondAttachGivesTheModelOfOne) {
-  const FrictionForJoint a{"a", Viscous(0.2, 1), {-0.1}}, b{"b", Viscous(0.1, 2)};
+  const FrictionForJoint a{"a", Braked(0.2, 1), {-0.1}}, b{"b", Braked(0.1, 2)};
   for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
     for (const bool more : {false, true}) {
       const AttachOptions options{.form = form, .sensors = more, .numbers = more};
-      const SpecPtr once = test::ParseXml(kTwoLinks);
+      const SpecPtr once = test::ParseXml(kDoubleLink);
       AttachFriction(*once, {a, b}, options, "robot");
       const std::string text = ModelToXml(*once, {"robot"});
-      const SpecPtr twice = test::ParseXml(kTwoLinks);
+      const SpecPtr twice = test::ParseXml(kDoubleLink);
       AttachFriction(*twice, {a}, options, "robot");
       const Attached second = AttachFriction(*twice, {b}, options, "robot");
       EXPECT_THAT(second.joints, testing::ElementsAre("b"));
       EXPECT_EQ(ModelToXml(*twice, {"robot"}), text);
 
       // also onto what was written and read
-      const SpecPtr first = test::ParseXml(kTwoLinks);
+      const SpecPtr first = test::ParseXml(kDoubleLink);
       AttachFriction(*first, {a}, options, "robot");
       const SpecPtr read = test::ParseXml(ModelToXml(*first, {"robot"}));
       AttachFriction(*read, {b}, options, "robot");
@@ -178,15 +180,15 @@ TEST(PluginDamping, AServoOfAProgramsOwnRestsWithTheStiffestDriveThatIsGiven) {
   for (const double k : {1.0, 1.3, 2.0, 2.5, 3.0}) {
     AttachOptions options;
     if (k > 1.3) options.stiffest_drive = k;
-    const Result result =
-        Attach(HingeXml(0, "Euler"),
-               {{"hinge", Viscous(0, 0.005 * k * kInertia / (kStep * kStep))}}, options);
+    const AttachedHinge result = Attaching(
+        HingeXml(0, "Euler"),
+        {{"hinge", Braked(0, 0.005 * k * kHingeInertia / (kHingeStep * kHingeStep))}}, options);
     const mjModel* m = result.model.get();
     const DataPtr d(mj_makeData(m));
     d->qpos[0] = 0.1;
     double left = 0;
     while (d->time < 3) {
-      d->qfrc_applied[0] = -k * kInertia / (kStep * kStep) * d->qpos[0];
+      d->qfrc_applied[0] = -k * kHingeInertia / (kHingeStep * kHingeStep) * d->qpos[0];
       mj_step(m, d.get());
       if (d->time > 2.5) left = std::max(left, std::abs(d->qvel[0]));
     }
@@ -197,7 +199,7 @@ TEST(PluginDamping, AServoOfAProgramsOwnRestsWithTheStiffestDriveThatIsGiven) {
 TEST(PluginDamping, AnArmatureTakenAwayInARunIsWarnedOf) {
   std::string xml = HingeXml(2, "Euler");
   xml.replace(xml.find("axis="), 5, R"(armature="0.004" axis=)");
-  const Result result = Attach(xml, {{"hinge", Viscous(0.01, 0.1)}});
+  const AttachedHinge result = Attaching(xml, {{"hinge", Braked(0.01, 0.1)}});
   mjModel* m = result.model.get();
   const DataPtr d(mj_makeData(m));
   const test::Warnings warnings;
