@@ -63,11 +63,19 @@ std::string ExplainWorseHeldOut(double with, double without, const std::string& 
       with, unit, without);
 }
 
+std::string ExplainTurnedTorque(const std::string& joint) {
+  return fmt::format(
+      "the torque of {} drives its motion where friction would brake: its sign is taken to be "
+      "turned "
+      "(--scale {}.torque=-1)",
+      joint, joint);
+}
+
 std::string ExplainTurnedSign(const std::string& joint) {
   return fmt::format(
-      "torque and description of {} have opposite signs: its torque or its axis is turned; "
-      "--scale {}.torque=-1 turns the torque",
-      joint, joint);
+      "torque and description of {} have opposite signs, though its friction brakes: its axis is "
+      "turned against that of the description (--scale {}.torque=-1,{}.position=-1)",
+      joint, joint, joint);
 }
 
 std::string ExplainUnknownGain(const std::string& joint) {

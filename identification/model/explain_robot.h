@@ -26,6 +26,7 @@ std::string ExplainResidual(double left, double friction, const std::string& uni
 std::string ExplainWorseHeldOut(double with, double without, const std::string& unit);
 
 // what is to be known beside them
+std::string ExplainTurnedTorque(const std::string& joint);
 std::string ExplainTurnedSign(const std::string& joint);
 std::string ExplainUnknownGain(const std::string& joint);
 inline constexpr const char* kNegativeRotor =

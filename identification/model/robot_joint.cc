@@ -214,8 +214,16 @@ GainGuess GuessGain(const JointColumns& c) {
   const MatrixXd h = columns.transpose() * columns;
   const VectorXd x = SolveScaled(h, columns.transpose() * y);
   const NoiseScale noise = NoiseScaleOf(y - columns * x);
-  const double deviation = std::sqrt(InverseScaled(h)(0, 0) * noise.scale());
-  return {x[0], deviation > 0 ? std::abs(x[0]) / deviation : 0};
+  const MatrixXd covariance = InverseScaled(h) * noise.scale();
+  // friction at the mean speed, the mean of both directions
+  VectorXd mean = VectorXd::Zero(5);
+  mean[1] = columns.col(1).cwiseAbs().mean();
+  mean[2] = mean[3] = .5;
+  const auto over_deviation = [&](const VectorXd& weights) {
+    const double deviation = std::sqrt(weights.dot(covariance * weights));
+    return deviation > 0 ? weights.dot(x) / deviation : 0;
+  };
+  return {x[0], std::abs(over_deviation(VectorXd::Unit(5, 0))), over_deviation(mean)};
 }
 
 JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {

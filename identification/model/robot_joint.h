@@ -48,9 +48,12 @@ struct JointQuestion {
 struct GainGuess {
   double value = 1;
   double deviations = 0;  // |value| over its standard deviation
+  double braking = 0;     // mean friction against the motion over its standard deviation
 
   /// Why 5: noise alone does not reach it, and what the description has wrong moves it by a tenth.
   bool IsSure() const { return deviations > 5; }
+  /// Whether friction drives the joint: the sign of its torque is turned.
+  bool IsTurned() const { return braking < -5; }
 };
 
 GainGuess GuessGain(const JointColumns& columns);

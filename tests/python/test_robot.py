@@ -90,6 +90,12 @@ def test_swapped_columns_and_a_turned_position_are_named(wrong, log):
     assert "position of elbow is turned" in wj.identify_robot(wrong, turned)["elbow"].message
 
 
+def test_a_turned_torque_is_named_and_fitted(wrong, log):
+    robot = wj.identify_robot(wrong, log | {"torque": -log["torque"]})
+    assert len([one for one in robot.notices if "sign is taken to be turned" in one]) == 3
+    assert robot["elbow"]["viscous"].value == pytest.approx(2, rel=.1)
+
+
 def test_a_load_is_noticed_and_none_is_not(wrong, log):
     assert not [one for one in wj.identify_robot(wrong, log).notices if "load of" in one]
     model = mujoco.MjModel.from_xml_string(ARM)

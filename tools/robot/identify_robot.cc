@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "identification/model/explain_robot.h"
 #include "identification/model/report_joint.h"
 #include "tools/robot/find_faults.h"
 #include "tools/robot/joint_data.h"
@@ -74,10 +75,11 @@ struct Joint {
   std::string nothing;  // why its log tells nothing
   bool dead = false;    // its torque cannot be used
   GainGuess guess;
+  bool is_turned = false;  // its torque, which is fitted with the other sign
 };
 
 Joint Prepare(const RobotData& data, const RobotRows& rows, Index j) {
-  Joint joint{ColumnsOf(data, rows, j), {}, {}, false, {}};
+  Joint joint{ColumnsOf(data, rows, j), {}, {}, false, {}, false};
   double travel = 0;
   for (const RobotSamples& s : rows.samples) travel = std::max(travel, s.travel[j]);
   joint.summary = SummaryOf(joint.columns, travel);
@@ -88,7 +90,14 @@ Joint Prepare(const RobotData& data, const RobotRows& rows, Index j) {
     joint.dead = true;
     joint.nothing = dead;
   }
-  if (joint.nothing.empty()) joint.guess = GuessGain(joint.columns);
+  if (!joint.nothing.empty()) return joint;
+  joint.guess = GuessGain(joint.columns);
+  if (joint.guess.IsTurned()) {
+    // friction that drives is a torque whose sign is turned
+    joint.is_turned = true;
+    joint.columns.samples.torque *= -1;
+    joint.guess.value *= -1;
+  }
   return joint;
 }
 
@@ -126,11 +135,14 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
 
   tell("looking for faults of the log");
   for (const RobotFault& fault : FindFaults(data, rows, settings.gear)) {
-    for (const Index j : fault.joints) {
-      Joint& joint = joints[static_cast<std::size_t>(j)];
+    // the rigid torque of every joint follows from the positions of all
+    const std::string& worst =
+        data.robot.joints[static_cast<std::size_t>(fault.joints.front())].name;
+    for (Joint& joint : joints) {
+      if (!joint.nothing.empty()) continue;
       joint.dead = true;
-      joint.nothing =
-          fmt::format("with that undone its residual falls by more than half: {}", fault.sentence);
+      joint.nothing = fmt::format("{}: with that undone the residual of {} falls by more than half",
+                                  fault.sentence, worst);
     }
   }
 
@@ -140,6 +152,9 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   answer.log = source.recording.files;
   answer.notices = data.notices;
   answer.joints.resize(joints.size());
+  for (const Joint& joint : joints) {
+    if (joint.is_turned) answer.notices.push_back(ExplainTurnedTorque(joint.columns.joint));
+  }
   ForEachAtOnce(n, [&](Index j) {
     const auto at = static_cast<std::size_t>(j);
     answer.joints[at] = Answer(joints[at], question, settings.holdout);
