@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
