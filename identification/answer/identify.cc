@@ -24,6 +24,7 @@ namespace warmjoint {
 namespace {
 
 constexpr double kHarmless = 1e-3;        // attenuation
+constexpr double kHarmfulDelay = 0.01;    // of the friction; why: intervals are as narrow
 constexpr double kUnresolvedPath = 5e-3;  // share of the path
 
 /// The first row of the law that is a slope over speed; nullptr where there is none.
@@ -140,7 +141,7 @@ Fit FitSettled(const Identifier& identifier, const IdentifierInput& input,
 /// The row of a delay of the torque that a fit to motion of any kind does not hold: refuses where that changes the friction too
 /// much, else says so.
 std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierInput& input,
-                                const Fit& fit, double relevance) {
+                                const Fit& fit) {
   // one that could, or that chose among those that can, and found none or was told of none
   if (fit.choice) return {};
   Structure asked{identifier};
@@ -148,7 +149,7 @@ std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierIn
   if (fit.torque_delay || asked.CanEstimateDelay()) return {};
   const auto late = FindLateTorque(input);
   if (!late) return {};
-  const bool refuses = late->harm > relevance;
+  const bool refuses = late->harm > kHarmfulDelay;
   return Cause{.source = Source::late_torque,
                .action = refuses ? Action::refuse : Action::note,
                .status = refuses ? Status::inadequate_model : Status::ok,
@@ -178,7 +179,7 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
       auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
       if (floor) found.causes.push_back(std::move(*floor));
-      auto late_torque = DelayCause(identifier, input, answer.fit, judging.relevance);
+      auto late_torque = DelayCause(identifier, input, answer.fit);
       if (late_torque) found.causes.push_back(std::move(*late_torque));
     }
   }
