@@ -127,7 +127,12 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   std::vector<Joint> joints(static_cast<std::size_t>(n));
   ForEachAtOnce(n, [&](Index j) { joints[static_cast<std::size_t>(j)] = Prepare(data, rows, j); });
   std::vector<GainGuess> guesses;
-  for (const Joint& joint : joints) guesses.push_back(joint.guess);
+  for (Index j = 0; j < n; ++j) {
+    const Joint& joint = joints[static_cast<std::size_t>(j)];
+    guesses.push_back(joint.guess);
+    // what follows sees it with the sign that it is fitted with
+    for (RobotSamples& s : rows.samples) s.torque.col(j) *= joint.is_turned ? -1 : 1;
+  }
   JointQuestion question;
   question.middle_gain = MiddleGain(guesses);
   question.joints = static_cast<int>(

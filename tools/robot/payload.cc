@@ -121,7 +121,6 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     payload.falls = std::min(payload.falls, falls);
     rises = rises || falls > kHarms;
   }
-  payload.is_shown = payload.falls < kHelps && !rises;
 
   const MatrixXd covariance = InverseScaled(known.precision);
   const Index mass = 10 * LastLink(data.robot);
@@ -130,6 +129,8 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
                        std::sqrt(covariance(mass, mass));
   payload.lower = payload.mass - reach;
   payload.upper = payload.mass + reach;
+  // a load that would be lighter than nothing is something else
+  payload.is_shown = payload.falls < kHelps && !rises && payload.upper > 0;
   return payload;
 }
 
