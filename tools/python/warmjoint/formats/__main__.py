@@ -30,8 +30,10 @@ def size_of(path):
 
     try:
         mode = path.stat().st_mode
+    except FileNotFoundError:
+        raise Refusal(f"{path}: does not exist") from None
     except OSError as error:
-        raise Refusal(f"{path}: {error.strerror.lower() if error.strerror else 'cannot be read'}") from None
+        raise Refusal(f"{path}: cannot be read: {error.strerror}") from None
     if stat.S_ISDIR(mode):
         return sum(one.stat().st_size for one in list(path.iterdir())[:10_000] if one.is_file())
     if not stat.S_ISREG(mode):
