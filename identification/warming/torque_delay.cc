@@ -158,7 +158,9 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
     const MatrixXd rows = RowsOf(fit, by_delay);
     VectorXd left = fit.residual();
     if (fit.errors.whitening) left = fit.errors.whitening->Of(left);
-    const double further = SolveLeastSquares(rows, left).solution[rows.cols() - 1];
+    const LeastSquares change = SolveLeastSquares(rows, left);
+    if (change.solution.size() == 0) break;  // the motion cannot tell it apart
+    const double further = change.solution[rows.cols() - 1];
     AddDelay(*delay, by_delay, rows, m, fit);
     const double deviation = CovarianceOf(fit).Deviation(rows.cols() - 1);
     if (!(std::abs(further) <= std::max(kArrived * deviation, 1e-6 * step))) {
