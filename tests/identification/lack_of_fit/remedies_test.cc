@@ -41,7 +41,7 @@ constexpr LackOfFitSettings kStrict{.relevance = 0.02};
 Step Take(const std::string& name, const Options_& given, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
   const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
-  const Answer answer = FitAndCheck(identifier, input, kStrict);
+  const auto answer = FitAndCheck(identifier, input, kStrict);
   Step step{name, given, ReportAnswer(identifier, input, answer), {}, 0};
   for (const Cause& cause : answer.judged.causes) {
     if (cause.remedy) step.remedy = cause.remedy->command;
