@@ -243,8 +243,18 @@ void SumMoves(const OverBins& over, Examination& examination) {
   }
 }
 
-/// What findings before adjustment move parameters by. They may be one and the same thing seen twice: a row for each. A parameter may
-/// move by what the friction changes: what it moves beyond that another one takes back.
+/// Share of the friction by which it may differ at any of its samples for what a finding explains: sqrt(10) times the effect, which
+/// the effect may be in the worst tenth of the log; infinite for those that count by their moves.
+double MostChange(const Finding& finding, const FrictionChange& change,
+                  const Examination& examination) {
+  const Harm harm = finding.test->harm;
+  const bool by_moves = harm == Harm::of_moves || harm == Harm::of_either ||
+                        (harm == Harm::of_drift && change.HasHeat());
+  return by_moves ? kInfinity : kWorstTenth * examination.Rms(finding) / examination.friction;
+}
+
+/// What findings before adjustment move parameters by, as far as that changes the friction. They may be one and the same thing
+/// seen twice: a row for each. A parameter may move by what the friction changes: what it moves beyond that another one takes back.
 void AddUnadjusted(const OverBins& over, Examination& examination) {
   const std::vector<const Finding*> found = examination.FoundUnadjusted();
   if (found.empty()) return;
@@ -257,9 +267,11 @@ void AddUnadjusted(const OverBins& over, Examination& examination) {
     for (const auto& column : one->move_spread.colwise()) {
       variance += std::pow(change.By(column), 2);
     }
-    const double most = change.By(one->moves) + kNormal95 * std::sqrt(variance);
-    examination.Add(Source::unadjusted_findings, Action::widen, one->moves);
-    examination.causes.back().spread = one->move_spread.topRows(p);
+    const double reach = change.By(one->moves) + kNormal95 * std::sqrt(variance);
+    const double most = std::min(reach, MostChange(*one, change, examination));
+    const double share = reach > 0 ? most / reach : 1;
+    examination.Add(Source::unadjusted_findings, Action::widen, share * one->moves);
+    examination.causes.back().spread = share * one->move_spread.topRows(p);
     examination.causes.back().most = (own.array() > 0).select(most / own.array(), kInfinity);
   }
 }
