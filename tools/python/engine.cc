@@ -125,8 +125,10 @@ nb::object IdentifyRobotInPython(const std::string& robot, nb::handle source,
 NB_MODULE(_engine, module) {
   namespace nb = nanobind;
   using namespace warmjoint;
-  // refusals are those of the package
-  python::SpeakPython(nb::module_::import_("warmjoint._core"));
+  // refusals are those of the module beside this one, in the package or where its stub is made
+  auto beside = nb::cast<std::string>(module.attr("__name__"));
+  beside.replace(beside.rfind('_'), std::string::npos, "_core");
+  python::SpeakPython(nb::module_::import_(beside.c_str()));
   module.def("simulate", &python::SimulateInPython, nb::arg("scenario"), nb::arg("set"),
              nb::arg("seed").none(), nb::arg("realization"),
              nb::sig("def simulate(scenario: str, set: list[tuple[str, str]], seed: int | None, "
