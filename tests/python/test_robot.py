@@ -105,7 +105,6 @@ def test_no_load_is_claimed_and_one_that_is_asked_for_is_told_within_its_interva
     found = [re.search(r"load of (\S+) kg \((\S+) to (\S+)\)", one) for one in loaded.notices if "load of" in one]
     mass, lower, upper = map(float, found[0].groups())
     assert abs(mass - 3) < upper - lower  # four standard errors
-    assert lower > 0
 
 
 def test_what_cannot_be_used_is_refused(wrong, log):
