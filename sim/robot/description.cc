@@ -85,6 +85,9 @@ void TakeOut(mjModel& m, std::vector<std::string>& notices) {
   clear(m.tendon_damping, m.ntendon, "damping of tendons");
   clear(m.body_gravcomp, m.nbody, "gravity compensation");
   m.opt.density = m.opt.viscosity = 0;
+  // what the engine made of the armature goes, too
+  const DataPtr data(mj_makeData(&m));
+  mj_setConst(&m, data.get());
   m.opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_CONTACT | mjDSBL_ACTUATION;
   if (taken.empty()) return;
   notices.push_back(fmt::format("{} of the description {} taken out: the log tells them anew",

@@ -96,15 +96,6 @@ TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
   EXPECT_LT(squares.maxCoeff(), 45.3) << squares.transpose();
 }
 
-TEST(RobotJoint, KnowsTheMeanOfBothDirectionsBetterThanTheirDifference) {
-  const JointFit fit = Fit(Columns({}, 3));
-  const Index up = fit.at.law.begin + 1, down = up + 1;
-  const auto& c = fit.known.covariance;
-  const double mean = c(up, up) + c(down, down) + 2 * c(up, down);
-  const double difference = c(up, up) + c(down, down) - 2 * c(up, down);
-  EXPECT_LT(mean, difference);
-}
-
 TEST(RobotJoint, FindsWarmingWhereItIsAndNotWhereItIsNot) {
   Truth truth;
   EXPECT_FALSE(Fit(Columns(truth, 5), true).at.heat);
