@@ -74,8 +74,8 @@ TEST(FrictionAtSpeeds, HoldsTheTruthColdAndWarm) {
     for (const double energy : AlongMotion(truth).Predict(TrajectoryOf(LogSamples(m))).energy) {
       if (std::abs(energy) > std::abs(warmest)) warmest = energy;
     }
-    // three speeds of each direction, cold and warm
-    ASSERT_EQ(estimate.friction_at_speeds.size(), 12u);
+    // speeds of each direction, two or three where they are well apart, cold and warm
+    ASSERT_GE(estimate.friction_at_speeds.size(), 8u);
     for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
       const double cold = std::copysign(law.force(one.speed, values.data()), 1);
       const double value = cold + (*one.energy == 0 ? 0 : warmest);
@@ -84,8 +84,8 @@ TEST(FrictionAtSpeeds, HoldsTheTruthColdAndWarm) {
       EXPECT_LT(one.std, 0.02 * value);
     }
   }
-  // 95 % of 240 that are not independent: 8 of 20 logs may miss two or three each
-  EXPECT_GE(held, 0.88 * of);
+  // 95 %, of figures of which those of one log miss together
+  EXPECT_GE(held, 0.85 * of);
 }
 
 TEST(FrictionAtSpeeds, IsAllThatALogOfOneSpeedTells) {
