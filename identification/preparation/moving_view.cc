@@ -244,10 +244,11 @@ FollowedMotion FollowMotion(const Measurements& m, MotionSource source) {
   if (source == MotionSource::positions || m.position_integrated) return followed;
   const auto column = CompareColumn(m);
   if (!column || !(column->IsLate() || column->IsOff())) return followed;
-  // coarse positions tell little of the acceleration
+  // coarse positions tell little of the acceleration: of few samples that move by them
   LogView by_positions = ViewMotion(m, MotionSource::positions);
-  const auto by_column = static_cast<double>(followed.view.selection.count());
-  if (static_cast<double>(by_positions.selection.count()) < kFollowed * by_column) return followed;
+  const auto moving = static_cast<double>(
+      (by_positions.measurements.velocity.array().abs() > ClearSpeed(m)).count());
+  if (static_cast<double>(by_positions.selection.count()) < kFollowed * moving) return followed;
   return {std::move(by_positions), Describe(*column, m.joint)};
 }
 
