@@ -5,7 +5,6 @@ import re
 
 import numpy as np
 import pytest
-
 import warmjoint as wj
 
 mujoco = pytest.importorskip("mujoco")

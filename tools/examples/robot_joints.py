@@ -9,7 +9,6 @@ joint alone. With a description, warmjoint.identify_robot is closer.
 import sys
 
 import numpy as np
-
 import warmjoint as wj
 
 
