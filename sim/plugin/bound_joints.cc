@@ -112,20 +112,23 @@ bool BoundJoints::ReadInertias(const mjModel* m) {
     return std::memcmp(now, inertias_.data() + from, nv * sizeof(mjtNum)) == 0;
   };
   const bool first = inertias_.empty();
-  if (!first && same(m->dof_armature, 0) && same(m->dof_invweight0, nv)) [[likely]]
+  const bool constant = !first && same(m->dof_invweight0, nv) && same(m->dof_M0, 2 * nv);
+  if (constant && same(m->dof_armature, 0)) [[likely]]
     return false;
   // the compiler and mj_setConst know the armatures of their time
-  if (first || !same(m->dof_invweight0, nv))
-    armatures_.assign(m->dof_armature, m->dof_armature + nv);
+  if (!constant) armatures_.assign(m->dof_armature, m->dof_armature + nv);
   inertias_.assign(m->dof_armature, m->dof_armature + nv);
   inertias_.insert(inertias_.end(), m->dof_invweight0, m->dof_invweight0 + nv);
+  inertias_.insert(inertias_.end(), m->dof_M0, m->dof_M0 + nv);
   return true;
 }
 
 SteppedFriction BoundJoints::Stepped(const mjModel* m, const BoundJoint& joint) const {
+  // of an uncoupled one the engine itself takes dof_M0
   const double known = EffectiveInertia(m, joint.dof);
   const double more = m->dof_armature[joint.dof] - armatures_[static_cast<size_t>(joint.dof)];
-  return {joint.friction, joint.viscous, known == 0 ? 0 : known + more};
+  const bool fixed = known == 0 || m->dof_simplenum[joint.dof] > 0;
+  return {joint.friction, joint.viscous, fixed ? known : known + more};
 }
 
 std::vector<double> BoundJoints::Slopes(const mjModel* m) const {

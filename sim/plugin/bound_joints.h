@@ -140,7 +140,7 @@ class BoundJoints {
   std::vector<BoundSensor> sensors_;
   std::vector<NumberArray> numbers_;
   double stiffest_drive_ = 0;     // as the attributes say
-  std::vector<mjtNum> inertias_;  // [2 nv] dof_armature and dof_invweight0 at the last look
+  std::vector<mjtNum> inertias_;  // [3 nv] dof_armature, dof_invweight0, dof_M0 at the last look
   std::vector<mjtNum>
       armatures_;  // [nv] with which the compiler or mj_setConst found dof_invweight0
 };

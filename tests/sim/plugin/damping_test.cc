@@ -208,6 +208,7 @@ TEST(PluginDamping, AnArmatureTakenAwayInARunIsWarnedOf) {
   // K is 2 of the link alone
   m->actuator_biasprm[1] *= 2, m->actuator_gainprm[0] *= 2;
   m->dof_armature[0] = 0;
+  mj_setConst(m, d.get());
   mj_step(m, d.get());
   EXPECT_THAT(test::Warnings::text(), HasSubstr("servos are too stiff"));
 }
