@@ -34,10 +34,19 @@ struct SignedSum {
   double x() const { return squares > 0 ? sum / std::sqrt(squares) : 0; }
 };
 
-/// What speaks for a torque that has not settled, of one run after the begin of segments.
+/// What speaks for a torque that has not settled, of one run beside a change of speed.
 struct Unsettled {
-  std::array<SignedSum, 2> larger;  // than from the middle on, than before
+  std::array<SignedSum, 2> larger;  // than from the middle on, than beyond the change
   std::array<SignedSum, 3> along;  // the change of speed, beyond a force or a friction of the place
+
+  /// z: mean of the run; r: from the middle on; p: at the other side of the change; sign: of the change of speed
+  void Add(double z, double r, double p, double sign) {
+    larger[0].Add(z * z - r * r);
+    larger[1].Add(z * z - p * p);
+    along[0].Add(sign * (z - r));
+    along[1].Add(sign * (z - p));
+    along[2].Add(sign * (z + p));
+  }
 
   /// The least that each of either kind shows.
   double x() const {
@@ -70,7 +79,7 @@ class RunMeans {
   VectorXd count_, sum_;  // [N + 1] of the samples before
 };
 
-/// Where runs begin and end, in samples since the begin of a segment: single ones first, then runs that grow by half.
+/// Where runs begin and end, in samples from the change of speed on: single ones first, then runs that grow by half.
 std::vector<Index> EdgesOfRuns(Index most) {
   std::vector<Index> edges{0};
   while (edges.back() < most) {
@@ -82,28 +91,38 @@ std::vector<Index> EdgesOfRuns(Index most) {
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
-/// Each run of all segments that follow another one. edges: [runs + 1]
-std::vector<Unsettled> Compare(const Selection& used, const RunMeans& means,
-                               const std::vector<Index>& edges) {
-  std::vector<Unsettled> runs(edges.size() - 1);
-  for (std::size_t k = 1; k < used.segments.size(); ++k) {
-    const Segment &before = used.segments[k - 1], &segment = used.segments[k];
-    const Index reach = std::min(Length(segment), Length(before)) / kMostOfSegment;
-    const Index middle = (segment.begin + segment.end) / 2;
-    const double sign = segment.velocity > before.velocity ? 1 : -1;
-    for (std::size_t i = 0; i < runs.size() && edges[i + 1] <= reach; ++i) {
-      const auto z = means.Of(segment.begin + edges[i], segment.begin + edges[i + 1]);
-      const auto r = means.Of(middle + edges[i], middle + edges[i + 1]);
-      const auto p = means.Of(before.end - edges[i + 1], before.end - edges[i]);
-      if (!z || !r || !p) continue;
-      runs[i].larger[0].Add(*z * *z - *r * *r);
-      runs[i].larger[1].Add(*z * *z - *p * *p);
-      runs[i].along[0].Add(sign * (*z - *r));
-      runs[i].along[1].Add(sign * (*z - *p));
-      runs[i].along[2].Add(sign * (*z + *p));
+/// Each run of all segments beside a change of speed, from the change on. edges: [runs + 1]
+struct BesideChanges {
+  std::vector<Unsettled> behind, before;
+
+  BesideChanges(const Selection& used, const RunMeans& means, const std::vector<Index>& edges)
+      : behind(edges.size() - 1), before(edges.size() - 1) {
+    for (std::size_t k = 1; k < used.segments.size(); ++k) {
+      const Segment &one = used.segments[k - 1], &next = used.segments[k];
+      const Index reach = std::min(Length(one), Length(next)) / kMostOfSegment;
+      const double sign = next.velocity > one.velocity ? 1 : -1;
+      for (std::size_t i = 0; i < behind.size() && edges[i + 1] <= reach; ++i) {
+        const auto after_change = means.Of(next.begin + edges[i], next.begin + edges[i + 1]);
+        const auto until_change = means.Of(one.end - edges[i + 1], one.end - edges[i]);
+        if (!after_change || !until_change) continue;
+        const auto middle = [&](const Segment& segment) {
+          const Index at = (segment.begin + segment.end) / 2;
+          return means.Of(at + edges[i], at + edges[i + 1]);
+        };
+        if (const auto r = middle(next)) behind[i].Add(*after_change, *r, *until_change, sign);
+        if (const auto r = middle(one)) before[i].Add(*until_change, *r, *after_change, sign);
+      }
     }
   }
-  return runs;
+};
+
+/// How many runs in a row from the change on have not settled, one between them left out.
+std::size_t UnsettledRuns(const std::vector<Unsettled>& runs, double beyond_chance) {
+  std::size_t unsettled = 0;
+  for (std::size_t i = 0; i < runs.size() && i <= unsettled + 1; ++i) {
+    if (runs[i].x() > beyond_chance) unsettled = i + 1;
+  }
+  return unsettled;
 }
 
 }  // namespace
@@ -117,17 +136,15 @@ double SettlingTime(const Selection& used, const VectorXd& time, const VectorXd&
   const auto typical = static_cast<Index>(MedianOf(lengths));
   if (typical < kShortest) return 0;
   const std::vector<Index> edges = EdgesOfRuns(typical / kMostOfSegment);
-  const std::vector<Unsettled> runs = Compare(used, RunMeans(used, residual), edges);
+  const BesideChanges beside(used, RunMeans(used, residual), edges);
 
-  // two kinds of evidence with two signs, in each of the runs
-  const double trials = 4 * static_cast<double>(runs.size());
+  // two kinds of evidence with two signs, in each of the runs on either side
+  const double trials = 8 * static_cast<double>(beside.behind.size());
   const double beyond_chance = std::sqrt(2 * std::log(trials / kLevel));
-  // the runs in a row that have not settled, one between them left out; and the next, where it fades away
-  std::size_t unsettled = 0;
-  for (std::size_t i = 0; i < runs.size() && i <= unsettled + 1; ++i) {
-    if (runs[i].x() > beyond_chance) unsettled = i + 1;
-  }
-  if (unsettled == 0 || unsettled >= runs.size()) return 0;
+  const std::size_t unsettled = std::max(UnsettledRuns(beside.behind, beyond_chance),
+                                         UnsettledRuns(beside.before, beyond_chance));
+  // and the next, where it fades away
+  if (unsettled == 0 || unsettled + 1 >= edges.size()) return 0;
   return static_cast<double>(edges[unsettled + 1]) * MedianStep(time);
 }
 
@@ -138,6 +155,11 @@ Selection WithoutSettling(Selection selection, const VectorXd& time, double sett
     const double until = time[segment.begin] + settling - rounding;
     for (; segment.begin < segment.end && time[segment.begin] < until; ++segment.begin) {
       selection.keep[segment.begin] = false;
+    }
+    if (segment.begin == segment.end) continue;
+    const double from = time[segment.end - 1] - settling + rounding;
+    for (; segment.begin < segment.end && time[segment.end - 1] > from; --segment.end) {
+      selection.keep[segment.end - 1] = false;
     }
     if (segment.begin < segment.end) left.push_back(segment);
   }

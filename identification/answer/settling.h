@@ -1,4 +1,4 @@
-// How long the torque takes to settle after a change of speed.
+// How long the torque takes to settle beside a change of speed.
 #pragma once
 
 #include <warmjoint/recording.h>
@@ -8,23 +8,24 @@
 
 namespace warmjoint {
 
-/// For how long after its segments began the residual of a fit shows that the torque had not settled, s; 0 where it shows
-/// nothing of that, or no end of it within a quarter of a typical segment.
+/// How far from the ends of its segments, where the speed changes, the residual of a fit shows that the torque had not settled
+/// or was about to change, s; 0 where it shows nothing of that, or no end of it within a quarter of a typical segment.
 ///
-/// Means z of the residual over runs that grow with the time since the begin of a segment are compared with those as long
-/// from its middle on, r, and with those before the end of the segment before it, p, where the joint was at the same
+/// Means z of the residual over runs that grow with the time from the change are compared with those as long from the
+/// segment's middle on, r, and with those as far from the change on its other side, p, where the joint was at the same
 /// place: z is farther from 0 than either, z^2 > r^2 and z^2 > p^2, or goes with the change of speed, whose sign is s,
 /// as neither r nor a force or a friction of the place do: s z > s r, s p, -s p, or all the other way round. Each is a
 /// sum S of terms over the segments whose signs are chance alone where the torque has settled, so that
 ///     P(|S| > x sqrt(sum of squares)) <= 2 exp(-x^2 / 2)
-/// whatever their distribution (Hoeffding 1963). used: the n of N samples that count; time: [N] s; residual: [n] N.m or N
+/// whatever their distribution (Hoeffding 1963). Where both sides have not settled the worse one hides the other, which
+/// shows once that is left out. used: the n of N samples that count; time: [N] s; residual: [n] N.m or N
 double SettlingTime(const Selection& used, const Eigen::VectorXd& time,
                     const Eigen::VectorXd& residual);
 
-/// A selection without the samples of each segment that are nearer to its begin than `settling`, s. time: [N] s
+/// A selection without the samples of each segment that are nearer to its ends than `settling`, s. time: [N] s
 Selection WithoutSettling(Selection selection, const Eigen::VectorXd& time, double settling);
 
-/// That samples were left out until then. settling: s
+/// That samples were left out. settling: s
 std::string SaySettling(double settling);
 
 }  // namespace warmjoint

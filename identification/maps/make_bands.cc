@@ -310,8 +310,9 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
 
 namespace {
 
-// why: a filter against aliasing at half the sampling rate leaves 0.97 of what is at a quarter of it, and less of what is above
-constexpr double kSamplesACycle = 4;
+// rad; why: a filter against aliasing at half the sampling rate leaves 0.97 of what turns by less in a sample, and less of what
+// turns by more
+constexpr double kShown = std::numbers::pi / 2;
 
 /// Amplitude of the k-th harmonic of values at even places around a circle, N.m or N.
 double AmplitudeOf(int k, const std::vector<double>& values) {
@@ -331,7 +332,7 @@ void WidenUnresolved(const FrictionMap& motor, const LogSamples& m, double reach
   const auto at = static_cast<size_t>(over_speed - motor.axes.data());
   const KernelLines lines(motor);
   const auto count = static_cast<size_t>(lines.length), stride = static_cast<size_t>(lines.stride);
-  const double turns = m.gear * MedianStep(m.time) / (2 * std::numbers::pi);  // a sample at 1 rad/s
+  const double angle = m.gear * MedianStep(m.time);  // of a sample at 1 rad/s, rad
 
   // of each line its speed, and its values around the turn, before any is widened
   std::vector<double> speeds(stride);
@@ -340,20 +341,23 @@ void WidenUnresolved(const FrictionMap& motor, const LogSamples& m, double reach
     speeds[j] = band.points[j][at];
     for (size_t i = 0; i < count; ++i) values[j].push_back(band.value[i * stride + j]);
   }
-  const auto resolves = [&](size_t j, int k) {
-    return k * turns * std::abs(speeds[j]) * kSamplesACycle <= 1;
+  const auto phase = [&](size_t j, int k) { return k * angle * std::abs(speeds[j]); };
+  // the line that tells how strong the k-th harmonic is: its own, or the slowest of its direction that shows it
+  const auto shows = [&](size_t j, int k) {
+    std::optional<size_t> slowest;
+    for (size_t l = 0; l < stride; ++l) {
+      if (!(speeds[l] * speeds[j] > 0 && phase(l, k) <= kShown)) continue;
+      if (!slowest || std::abs(speeds[l]) < std::abs(speeds[*slowest])) slowest = l;
+    }
+    return phase(j, k) <= kShown ? std::optional(j) : slowest;
   };
   for (size_t j = 0; j < stride; ++j) {
     double variance = 0;
     for (int k = 1; 2 * k <= static_cast<int>(count); ++k) {
-      if (resolves(j, k)) continue;
-      // as strong as at the slowest speed of this direction that shows it
-      std::optional<size_t> slowest;
-      for (size_t l = 0; l < stride; ++l) {
-        const bool shows = speeds[l] * speeds[j] > 0 && resolves(l, k);
-        if (shows && (!slowest || std::abs(speeds[l]) < std::abs(speeds[*slowest]))) slowest = l;
-      }
-      if (slowest) variance += std::pow(AmplitudeOf(k, values[*slowest]), 2) / 2;
+      const std::optional<size_t> line = shows(j, k);
+      if (!line) continue;
+      const double off = 2 * std::sin(std::min(phase(j, k), std::numbers::pi) / 2);
+      variance += std::pow(off * AmplitudeOf(k, values[*line]), 2) / 2;
     }
     for (size_t i = j; i < count * stride; i += stride) {
       band.std[i] = std::hypot(band.std[i], std::sqrt(variance));

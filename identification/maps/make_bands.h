@@ -30,10 +30,11 @@ namespace warmjoint {
 void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
                const Uncertainty& known, Fit& fit);
 
-/// Widens the band of a map over the motor's turn and speed by what the log cannot show of it: the k-th harmonic of the turn
-/// where it passes in fewer than four samples, of which a filter against aliasing may have taken any share. Its variance
-/// there is that of a wave as strong as the band has at the slowest speed of the same direction that shows it. Values stay:
-/// they are what the torque of the log follows. reach: of the interval, in deviations
+/// Widens the band of a map over the motor's turn and speed by what the log cannot show of it: where in the turn a ripple is,
+/// which it knows to a sample, since a torque that was filtered for its rate comes about as late. A harmonic of amplitude c
+/// that turns by phi in a sample is a wave of 2 c sin(phi / 2) off then, 2 c for phi beyond pi; c is that of the band at its
+/// speed, or, where a filter may have taken more than a little, at the slowest speed of the direction. Values stay: they are
+/// what the torque of the log follows. reach: of the interval, in deviations
 void WidenUnresolved(const FrictionMap& motor, const LogSamples& measurements, double reach,
                      MapBand& band);
 

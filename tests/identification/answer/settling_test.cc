@@ -66,6 +66,15 @@ TEST(Settling, SeesWhatHasNoSign) {
   EXPECT_LE(holds.Settling(), 0.5);
 }
 
+TEST(Settling, SeesWhatComesBeforeTheChange) {
+  // the last sample holds part of what comes, far more than the first ones lack
+  Holds holds(
+      [](double t, double v) { return SignOf(v) * (t > kEnd - 0.01 ? -5 : std::exp(-t / 0.15)); });
+  const double first = holds.Settling();
+  EXPECT_GE(first, 0.05);
+  EXPECT_LE(first, 1.2);
+}
+
 TEST(Settling, IsNoneOfNoise) {
   EXPECT_EQ(Holds([](double, double) { return 0; }).Settling(), 0);
 }
