@@ -66,9 +66,9 @@ inline BristleShape BristlesOf(int instances, double drive, double slope = 0, do
 /// speeds that the damper has slowed, so that a mode follows
 ///   v' = -(A + B + D) v/h - A z/h^2,   z' = z + h v of the last stage
 /// by the method's polynomial, D h/M being what other damping adds, which this integrator takes
-/// explicitly, too. Its spectral radius is below 0.6 for B + D from 0.24 to 0.8, 0.59 at B alone and 0.57 at
+/// explicitly, too. Its spectral radius is below 0.6 for B + D from 0.24 to 0.75, and so at both B alone and
 /// B + 0.5, which is what the joints' own damping adds at 5 ms in poses of arms without armature.
-inline constexpr double kDampingOfStages = 0.27;
+inline constexpr double kDampingOfStages = 0.255;
 
 /// Effective inertia of a degree of freedom at the reference pose with all the others free,
 /// 1 / dof_invweight0, kg.m^2 or kg; 0 while the compiler has not yet determined it. Of one that
