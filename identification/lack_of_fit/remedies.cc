@@ -33,8 +33,7 @@ constexpr size_t kMostSpeedKernels = 64;  // for each direction; why: most that 
 constexpr size_t kKernelsAPeriod = 3;     // why: a wave has two coefficients, and kernels overlap
 constexpr double kOfAMotor =
     20;  // waves a turn; why: bearings and cams make fewer, gears of 10 and more as many
-constexpr double kOfAMultiple =
-    0.25;  // of the gear, between a wave and a multiple; why: half of what separates two
+constexpr double kMostOfAGear = 160;  // why: strain wave gears go so far
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HasMap(const Advice& advice, MapQuantity quantity) {
@@ -108,19 +107,25 @@ bool MayBeGravity(const Advice& advice) {
   return advice.input.measurements.joint == JointKind::rotary && slow && !advice.fit.gravity;
 }
 
-/// The gear of a motor whose ripple a test over the position found: the whole number of which all its waves a turn of the joint
-/// are multiples, the strongest by 2, as strain wave gears make it. One below it holds its multiples, too. 0: of no motor.
+/// The gear of a motor whose ripple a test over the position found: the strongest wave returns 2, 4, 8, ... times in a turn of the
+/// motor, by the fewest that leave a common gear, and other waves that fit are multiples, too. 0: of no motor.
 int GearOf(const Advice& advice) {
   const LogSamples& m = advice.input.measurements;
   const auto waves = [](double period) { return 2 * std::numbers::pi / period; };
   const double strongest = waves(advice.finding.period);
-  if (m.joint != JointKind::rotary || KnowsMotorAngle(m) || strongest < kOfAMotor) return 0;
-  // by least squares of multiple * gear - waves, from the strongest on
-  double products = 2 * strongest, squares = 4;
+  if (m.joint != JointKind::rotary || KnowsMotorAngle(m)) return 0;
+  if (!(strongest >= kOfAMotor) || !std::isfinite(strongest)) return 0;
+  double times = 2;
+  while (strongest / times > kMostOfAGear) times *= 2;
+
+  // by least squares of multiple * gear - waves, of those that lie no farther off than half a step of the frequencies
+  const double travel = m.position.maxCoeff() - m.position.minCoeff();
+  const double half = std::numbers::pi / travel / 2;
+  double products = times * strongest, squares = times * times;
   for (const double period : advice.finding.periods) {
     const double gear = products / squares, multiple = std::round(waves(period) / gear);
     if (period == advice.finding.period || multiple < 1) continue;
-    if (std::abs(waves(period) - multiple * gear) > kOfAMultiple * gear) continue;
+    if (std::abs(waves(period) - multiple * gear) > half * (1 + multiple / times)) continue;
     products += multiple * waves(period);
     squares += multiple * multiple;
   }
@@ -333,11 +338,11 @@ Remedy RemedyForPosition(const Advice& advice) {
 
   // ripple of a motor that the log does not know
   if (const int gear = GearOf(advice)) {
-    return Try(
-        advice, WithMap(advice, MapQuantity::motor_position).With("gear", std::to_string(gear)),
-        fmt::format("{}it may be the motor's, twice a turn, with a gear of {} (or as its data "
-                    "sheet says): ",
-                    how, gear));
+    return Try(advice,
+               WithMap(advice, MapQuantity::motor_position).With("gear", std::to_string(gear)),
+               fmt::format("{}it may be the motor's, with a gear of {} (or as its data "
+                           "sheet says): ",
+                           how, gear));
   }
 
   // ripple that returns more often than a map has kernels for
