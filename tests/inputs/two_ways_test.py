@@ -41,13 +41,19 @@ def logs(places):
     return list(found)
 
 
+def refusal_of(done):
+    """The last line on standard error without its place, or the status where there is none."""
+    lines = done.stderr.strip().splitlines()
+    return re.sub(r"^error: [^ ]*: ", "", lines[-1]) if lines else f"status {done.returncode}"
+
+
 def answer(program, words, folder):
     """The estimate without what names its files, or the refusal without its place."""
     estimate = folder / "estimate.json"
     estimate.unlink(missing_ok=True)
     done = subprocess.run([program, *words, *NOMINAL, "-o", estimate], capture_output=True, text=True, timeout=100)
-    if done.returncode == 2:
-        return re.sub(r"^error: [^ ]*: ", "", done.stderr.strip().splitlines()[-1])
+    if not estimate.exists():
+        return refusal_of(done)
     found = json.loads(estimate.read_text())
     found.pop("recording", None)
     return json.dumps(found).replace(words[1], "LOG").replace(pathlib.Path(words[1]).name, "LOG")
@@ -73,11 +79,13 @@ def main():
             log.unlink(missing_ok=True)
             done = subprocess.run([program, "convert", file, *options, "-o", log], capture_output=True, text=True, timeout=100)
             second = (answer(program, ["identify", str(log)], folder) if done.returncode == 0
-                      else re.sub(r"^error: [^ ]*: ", "", done.stderr.strip().splitlines()[-1]))
+                      else refusal_of(done))
             refused += done.returncode == 2
             if first != second:
                 at = next((k for k, (a, b) in enumerate(zip(first, second)) if a != b), 0)
                 failed.append(f"{' '.join([file, *options])}\n  at once:    ...{first[max(0, at - 60):at + 200]}\n  by convert: ...{second[max(0, at - 60):at + 200]}")
+            if first.startswith("status"):
+                failed.append(f"{' '.join([file, *options])}: {first}")
     print("\n".join(failed))
     print(f"{len(all_logs)} logs, {refused} refused, {len(failed)} with two answers")
     return 1 if failed else 0
