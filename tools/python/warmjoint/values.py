@@ -188,7 +188,7 @@ def _array(values: Any) -> npt.NDArray[Any]:
         kind = values.dtype.kind
         if kind in "mM":
             return values.filled(np.array("NaT", values.dtype))
-        return values.astype(np.float64).filled(np.nan) if kind in "iuf" else values.astype(object).filled(None)
+        return values.astype(np.float64).filled(np.nan) if kind in "iuf" else values.astype(object).filled(np.nan)
     dtype = getattr(values, "dtype", None)
     if hasattr(values, "to_numpy"):
         # extension types of pandas: zoned dates, and numbers that may be missing
