@@ -17,7 +17,7 @@ import tempfile
 import types
 import warnings
 
-SECONDS = 120  # of a group
+SECONDS = 900  # of a group; files of other formats are read by a process each
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
 

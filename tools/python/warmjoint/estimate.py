@@ -260,6 +260,8 @@ class Estimate:
         them as {"base": "paper", "rc": {"font.family": "serif"}}."""
         from warmjoint import draw
 
+        if not isinstance(figure, str):
+            raise _core.BadInput(f"figure: is {kind_of(figure)}; give the name of one of figures()")
         found = self.figures()
         name = figure or ("fit" if ax is None else "friction_curve")
         if name not in found:

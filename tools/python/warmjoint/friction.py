@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import copy
 import os
+from collections.abc import Mapping
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
-from warmjoint.values import Array, number, numbers, path_of, together
+from warmjoint.values import Array, kind_of, number, numbers, path_of, shown, together
 
 # heat and what joins a law, which a friction file keeps apart from the law's own parameters
 THERMAL = ("thermal_gain", "thermal_time_constant", "ambient", "second")
@@ -39,6 +40,8 @@ class Friction:
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Friction:
         """Of what a friction file holds."""
+        if not isinstance(data, Mapping):
+            raise _core.BadInput(f"friction: is {kind_of(data)}; give what a friction file holds, as a dict")
         friction = cls.__new__(cls)
         friction.data = _core.complete_friction(data)
         return friction
@@ -106,9 +109,9 @@ class Friction:
     def changed(self, name: str, by: float) -> Friction:
         """The same with one parameter, named as in estimates, changed by `by`."""
         data = copy.deepcopy(self.data)
-        found = place_of(data, name)
+        found = place_of(data, name) if isinstance(name, str) else None
         if found is None:
-            raise _core.BadInput(f"'{name}' is no parameter of this friction; it has {', '.join(data['parameters'])}")
+            raise _core.BadInput(f"{shown(name)} is no parameter of this friction; it has {', '.join(data['parameters'])}")
         holder, key = found
         holder[key] = holder.get(key, 0) + number("by", by)
         return Friction.from_dict(data)

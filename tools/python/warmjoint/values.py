@@ -126,6 +126,8 @@ def path_of(path: Any, argument: str = "path") -> str:
         raise _core.BadInput(f"{argument}: is {kind_of(path)}; give the path of a file") from None
     except UnicodeEncodeError:
         raise _core.BadInput(f"{argument}: the name {path!a} is no UTF-8; rename the file") from None
+    if not text:
+        raise _core.BadInput(f"{argument}: is empty; give the path of a file")
     if "\0" in text:
         raise _core.BadInput(f"{argument}: the name {path!a} holds a null character; give the path of a file")
     return text
