@@ -133,7 +133,7 @@ TEST_F(TakesProject, YieldsToTheCommandLine) {
   EXPECT_FALSE(estimate.at("project").at("values").contains("scale"));
 
   // of a map it keeps the columns that are not named
-  const ProgramAnswer other = Program(With(identify_, {"--map", "torque=dq"}));
+  const ProgramAnswer other = Program(With(identify_, {"--map", "torque=dq,velocity=force"}));
   EXPECT_EQ(Written().at("recording").at("map").size(), 4u) << other.err;
   EXPECT_THAT(Written().at("recording").at("map"), testing::Contains("torque=dq"));
 }
