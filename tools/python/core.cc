@@ -307,6 +307,7 @@ void AddWords(nb::module_& module) {
         RefuseNotFinite(tree, name);
         return tree.dump();
       },
+      nb::arg("value").none(), nb::arg("name"),
       nb::sig("def to_json(value: object, name: str) -> str"));
   module.def("write_text",
              [](const std::string& file, const std::string& text) { WriteWholeFile(file, text); });
