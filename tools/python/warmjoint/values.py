@@ -16,6 +16,7 @@ from warmjoint import _core
 
 Array = npt.NDArray[np.float64]
 TIME = "time"
+CONTAINERS = (list, tuple, dict, set, frozenset)
 KINDS = {"b": "booleans", "c": "complex numbers", "V": "records"}  # that no column has
 
 
@@ -140,19 +141,19 @@ def kind_of(value: Any) -> str:
 
 def shown(value: Any) -> str:
     """A value in few words, for messages."""
+    if isinstance(value, CONTAINERS):  # which may hold each other without end
+        return kind_of(value)
     try:
         return ascii(value)[:60]
-    except (ValueError, RecursionError):  # of numbers with thousands of digits, and lists as deep
+    except ValueError:  # of numbers with thousands of digits
         return kind_of(value)
 
 
 def text_of(name: Any) -> str:
     """A name as text that files could hold; levels of several have a stroke between."""
     parts = name if isinstance(name, tuple) else (name,)
-    try:
-        return "/".join(str(part) for part in parts if str(part)).encode("utf-8", "replace").decode()
-    except (ValueError, RecursionError):
-        return shown(name)
+    texts = [part if isinstance(part, str) else shown(part) for part in parts]
+    return "/".join(text for text in texts if text).encode("utf-8", "replace").decode()
 
 
 def _column_of(name: Any, values: Any) -> Column:
