@@ -47,6 +47,12 @@ constexpr std::array kSpellings = std::to_array<Spelling>({
     {"relevance", "relevance", Behind::number},
     {"holdout", "holdout", Behind::number},
     {"force", "force", Behind::flag},
+    // of identify_robot
+    {"cutoff", "cutoff", Behind::number},
+    {"joints", "joints", Behind::number},
+    {"inertials", "inertials", Behind::number},
+    {"coupling", "coupling", Behind::number},
+    {"tool", "tool", Behind::number},
     // of predict and attach
     {"initial", "initial", Behind::word, " cold end "},
     {"armature", "armatures", Behind::pairs},
