@@ -278,6 +278,16 @@ void MarkGiven(Header& header) {
   }
 }
 
+/// The names of all columns without groups that all lie in, and which of them `map` gives away.
+Header HeaderOf(const std::vector<FileColumn>& columns, const ReadSettings& layout,
+                const Place& place) {
+  Header header{columns, layout, place};
+  const std::size_t groups = LengthOfGroups(columns);
+  for (const FileColumn& one : columns) header.names.push_back(one.name.substr(groups));
+  MarkGiven(header);
+  return header;
+}
+
 /// The columns of a file that are one of ours.
 std::vector<std::size_t> Find(const Header& header, const RecordingColumn& column) {
   const auto mapped = header.layout.map.find(column.name);
@@ -418,10 +428,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
   CheckNames(layout.map, "--map", place);
   CheckNames(layout.unit, "--unit", place);
   CheckNames(layout.scale, "--scale", place);
-  Header header{columns, layout, place};
-  const std::size_t groups = LengthOfGroups(columns);
-  for (const FileColumn& one : columns) header.names.push_back(one.name.substr(groups));
-  MarkGiven(header);
+  const Header header = HeaderOf(columns, layout, place);
 
   std::vector<ColumnSource> sources;
   std::vector<const RecordingColumn*> missing;
@@ -463,9 +470,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
 bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings& layout,
                      const Place& place) {
   if (layout.rate > 0) return false;
-  Header header{columns, layout, place};
-  for (const FileColumn& one : columns) header.names.push_back(one.name);
-  MarkGiven(header);
+  const Header header = HeaderOf(columns, layout, place);
   // what there is, by name or by what looks like it
   bool has_speed = false, has_torque = false, has_more = false;
   for (const RecordingColumn& column : RecordingColumns()) {
