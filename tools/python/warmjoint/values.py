@@ -188,10 +188,11 @@ def _array(values: Any) -> npt.NDArray[Any]:
     if isinstance(values, (list, tuple)) and any(isinstance(inside, (list, tuple)) for one in values if isinstance(one, (list, tuple)) for inside in one):
         raise ValueError("lists within lists within lists")
     if isinstance(values, np.ma.MaskedArray):
-        kind = values.dtype.kind
-        if kind in "mM":
-            return values.filled(np.array("NaT", values.dtype))
-        return values.astype(np.float64).filled(np.nan) if kind in "iuf" else values.astype(object).filled(np.nan)
+        masked: Any = values
+        kind = masked.dtype.kind
+        nothing = np.array("NaT", masked.dtype) if kind in "mM" else np.nan
+        as_it_can = masked if kind in "mM" else masked.astype(np.float64 if kind in "iuf" else object)
+        return np.asarray(as_it_can.filled(nothing))
     dtype = getattr(values, "dtype", None)
     if hasattr(values, "to_numpy"):
         # extension types of pandas: zoned dates, and numbers that may be missing
