@@ -120,8 +120,7 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   tell("rigid torque along the motion");
   RobotRows rows = MakeRows(data, settings);
   const bool is_asked = settings.tool.known == ToolKnown::unknown;
-  const Eigen::VectorXd deviations = rows.deviations;
-  if (is_asked) rows.deviations = FreeLastLink(data, deviations);
+  if (is_asked) rows.deviations = FreeLastLink(data, rows.deviations);
 
   const Index n = std::ssize(data.robot.joints);
   std::vector<Joint> joints(static_cast<std::size_t>(n));
@@ -166,16 +165,15 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   });
 
   // a load that nobody told
-  if (settings.tool.known == ToolKnown::given) return answer;
+  if (settings.tool.known != ToolKnown::none) return answer;
   tell("looking for a load");
   std::vector<Index> fitted;
   for (Index j = 0; j < n; ++j) {
     if (joints[static_cast<std::size_t>(j)].nothing.empty()) fitted.push_back(j);
   }
   if (fitted.empty() || settings.inertials == 0) return answer;
-  rows.deviations = deviations;
   const Payload payload = FindPayload(data, rows, guesses, fitted, question);
-  if (is_asked || payload.is_shown) answer.notices.push_back(ExplainPayload(payload, is_asked));
+  if (payload.is_shown) answer.notices.push_back(ExplainPayload(payload));
   return answer;
 }
 

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "identification/fit_data.h"
 #include "identification/model/report_joint.h"
-#include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 namespace {
@@ -54,25 +52,6 @@ RobotRows Thinned(const RobotData& data, const RobotRows& rows) {
   return thinned;
 }
 
-/// What joints say of u, the relative errors of all inertials: phi = phi0 + D u, u ~ N(0, 1) before the log.
-struct Knowledge {
-  MatrixXd precision;
-  VectorXd information;
-
-  /// Adds what a fit knows of z = V^T u beyond its prior.
-  void Add(const JointFit& fit, const MatrixXd& directions) {
-    const Slice& z = fit.at.given.z;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(z.Block(fit.known.covariance));
-    // what is known no better than before says nothing
-    const VectorXd values = solver.eigenvalues().cwiseMax(1e-12).cwiseMin(1.0);
-    const MatrixXd axes = directions * solver.eigenvectors();
-    const VectorXd beyond = values.cwiseInverse().array() - 1;
-    const VectorXd mean = solver.eigenvectors().transpose() * z.Of(fit.solved.x);
-    precision += axes * beyond.asDiagonal() * axes.transpose();
-    information += axes * (beyond.array() > 0).select(mean.cwiseQuotient(values), 0.0).matrix();
-  }
-};
-
 }  // namespace
 
 VectorXd FreeLastLink(const RobotData& data, const VectorXd& deviations) {
@@ -100,20 +79,14 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   const RobotRows as_given = Thinned(data, rows);
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
-  const Index size = free.deviations.size();
-  Knowledge known{MatrixXd::Identity(size, size), VectorXd::Zero(size)};
   Payload payload;
   bool rises = false;
-  double freedom = 1e9;
   for (const Index j : joints) {
     const GainGuess& guess = guesses[static_cast<std::size_t>(j)];
     const JointColumns given = ColumnsOf(data, as_given, j);
-    MatrixXd basis;
-    const JointColumns loaded = ColumnsOf(data, free, j, &basis);
+    const JointColumns loaded = ColumnsOf(data, free, j);
     const JointFit without = FitJoint(given, guess, question),
                    with = FitJoint(loaded, guess, question);
-    known.Add(with, free.deviations.cwiseMax(1e-300).cwiseInverse().asDiagonal() * basis);
-    freedom = std::min(freedom, with.known.degrees_of_freedom);
     const auto before = HoldOutJoint(without, given, kHeldOut),
                after = HoldOutJoint(with, loaded, kHeldOut);
     if (!before || !after) continue;
@@ -122,27 +95,17 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     rises = rises || falls > kHarms;
   }
 
-  const MatrixXd covariance = InverseScaled(known.precision);
-  const Index mass = 10 * LastLink(data.robot);
-  payload.mass = free.deviations[mass] * covariance.row(mass).dot(known.information);
-  const double reach = StudentQuantile(freedom, kIntervalLevel) * free.deviations[mass] *
-                       std::sqrt(covariance(mass, mass));
-  payload.lower = payload.mass - reach;
-  payload.upper = payload.mass + reach;
-  // a load that would be lighter than nothing is something else
-  payload.is_shown = payload.falls < kHelps && !rises && payload.upper > 0;
+  payload.is_shown = payload.falls < kHelps && !rises;
   return payload;
 }
 
-std::string ExplainPayload(const Payload& payload, bool is_asked) {
-  const std::string mass =
-      fmt::format("{:.3g} kg ({:.3g} to {:.3g})", payload.mass, payload.lower, payload.upper);
-  if (is_asked) return fmt::format("a load of {} at the last link goes with the log", mass);
+std::string ExplainPayload(const Payload& payload) {
   return fmt::format(
-      "the log shows a load of {} at the last link that the description lacks: with it a joint's "
-      "held-out residual falls to {:.0f} %. --tool unknown takes it in, --tool mass=..,com=.. "
+      "the log shows a load at the last link that the description lacks: with that link free a "
+      "joint's held-out residual falls to {:.0f} %. --tool unknown takes it in, --tool "
+      "mass=..,com=.. "
       "where it is known",
-      mass, 100 * payload.falls);
+      100 * payload.falls);
 }
 
 }  // namespace warmjoint

@@ -1,4 +1,4 @@
-// A load at the last link that nobody told: whether the log shows one, and its mass.
+// A load at the last link that nobody told: whether the log shows one.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,8 @@
 
 namespace warmjoint {
 
-/// A load of some kg at the last link. kg, 95 %
+/// A load of some kg at the last link.
 struct Payload {
-  double mass = 0, lower = 0, upper = 0;
   double falls = 1;  // held-out residual of the joint that it helps most, over that without it
   bool is_shown = false;
 };
@@ -21,14 +20,13 @@ struct Payload {
 /// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L]
 Eigen::VectorXd FreeLastLink(const RobotData& data, const Eigen::VectorXd& deviations);
 
-/// Fits each joint with and without a free last link, and compares them on held-out samples: a load is shown where the residual of one joint falls by a third
-/// and none rises by a tenth, never by its mass alone. The mass follows from what all joints know of the inertials. guesses: [n] gains; question: as of the
-/// joints' fits. joints: those that have a fit.
+/// Fits each joint with and without a free last link, and compares them on held-out samples: a load is shown where the residual of one joint falls
+/// by a third and none rises by a tenth. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
 Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Eigen::Index>& joints,
                     JointQuestion question);
 
-/// What is said of a load that is shown, or asked for.
-std::string ExplainPayload(const Payload& payload, bool is_asked);
+/// What is said of a load that is shown.
+std::string ExplainPayload(const Payload& payload);
 
 }  // namespace warmjoint
