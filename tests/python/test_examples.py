@@ -15,7 +15,7 @@ ROTARY = ["models/robots/rotary/rotary.xml", "hinge", "models/robots/rotary/fric
 
 @pytest.mark.parametrize("arguments, needed, said", [
     (["identify_log.py", "log.csv", "."], ["matplotlib"], "<Estimate by auto: ok>"),
-    (["many_logs.py", "log.csv", "log.csv"], [], "log.csv ok viscous="),
+    (["many_logs.py", "log.csv", "log.csv"], ["numpy"], "log.csv ok viscous="),
     (["warm_robot.py", *ROTARY, "1"], ["mujoco"], "\n     1               15.1"),  # cold 17.5 N.m; (20) to (22) by hand: 15.18
     (["worlds.py", *ROTARY], ["mujoco.batch"], "\n0.01             0.08"),  # m v^2 / 2 = 1.8 J over 15 N.m and more
     (["train.py"], ["mujoco.batch", "gymnasium"], "rad in the mean"),
