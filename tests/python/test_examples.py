@@ -21,7 +21,7 @@ ROTARY = ["models/robots/rotary/rotary.xml", "hinge", "models/robots/rotary/fric
     (["train.py"], ["mujoco.batch", "gymnasium"], "rad in the mean"),
     (["robot_joints.py", "robot.csv"], [], "joint 2: ok\n  viscous"),
     (["compare_identifiers.py", "run"], ["mujoco"], "\nnominal-ls   error over all parameters  158."),
-], ids=lambda given: given[0])
+], ids=lambda given: given[0] if given else "none")
 def test_an_example_runs(arguments, needed, said, recording, tmp_path):
     for module in needed:
         pytest.importorskip(module)
