@@ -111,7 +111,9 @@ TEST(RobotRegressor, KeepsTheDirectionsThatTorqueSees) {
 class RobotDescriptionFile : public testing::Test {
  protected:
   std::string Write(const std::string& text) {
-    const std::string file = testing::TempDir() + "mended_robot.urdf";
+    const std::string file = testing::TempDir() +
+                             testing::UnitTest::GetInstance()->current_test_info()->name() +
+                             "_mended.urdf";
     std::ofstream(file) << text;
     return file;
   }
