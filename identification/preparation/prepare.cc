@@ -6,6 +6,7 @@
 
 #include "identification/preparation/log_faults.h"
 #include "identification/preparation/motion_from_positions.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/segment_velocity.h"
 #include "identification/preparation/select.h"
@@ -87,6 +88,7 @@ struct PreparedLog::Maker {
                       const PrepareSettings& holds) {
     Log log{.raw = {LogSamples(std::move(measurements)), std::move(selection)}};
     auto level = TakeSegmentVelocity(log.raw.measurements, log.raw.selection);
+    log.holds_speeds = HoldsSpeeds(log.raw.measurements, log.raw.selection);
     TakeOptions(holds, log.raw.measurements.time, log.raw.selection);
     if (level) {
       log.velocity_noise = level->noise;
@@ -112,6 +114,7 @@ struct PreparedLog::Maker {
     selection = std::move(found.selection);
     log.constant_speed = std::move(motion.view);
     log.unresolved_path = motion.unresolved_path;
+    log.holds_speeds = HoldsSpeeds(measured, selection);
     TakeOptions(holds, log.constant_speed->measurements.time, log.constant_speed->selection);
     TakeOptions(holds, measured.time, selection);
     log.faults = FindFaults(measured, selection, MotionSource::positions);

@@ -173,7 +173,8 @@ std::vector<Index> LogSamples::Logged() const {
 }
 
 PreparedLog::PreparedLog(Log log) {
-  log.holds_speeds = HoldsSpeeds(log.raw.measurements, log.raw.selection);
+  // speeds are held whatever --trim leaves of them
+  log.holds_speeds = log.holds_speeds || HoldsSpeeds(log.raw.measurements, log.raw.selection);
   log.without_absurd = LeaveOutAbsurd(log);
   log_ = std::make_shared<const Log>(std::move(log));
 }
@@ -197,6 +198,7 @@ PreparedLog Join(std::vector<PreparedLog> recordings) {
                                m.source, *one.absurd());
     }
   }
+  all.holds_speeds = std::ranges::all_of(recordings, &PreparedLog::holds_speeds);
   all.raw = StackOf(recordings, &PreparedLog::raw);
   if (is_changed) all.constant_speed = StackOf(recordings, &PreparedLog::constant_speed);
   all.velocity_noise = MeanNoise(recordings);
