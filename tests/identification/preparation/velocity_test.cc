@@ -138,8 +138,8 @@ TEST(PreparedLog, RestsOfAColumnWithAnOffsetHoldNoSpeed) {
 TEST(PreparedLog, MotionOfAnyKindTakesThePositionsOfAColumnThatIsOffOrLate) {
   using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
   EXPECT_THAT(Prepare(Moves(0)).moving_warnings(), IsEmpty());
-  const PreparedLog off = Prepare(Moves(0.05));
-  EXPECT_THAT(off.moving_warnings(), ElementsAre(HasSubstr("off by 0.05 rad/s")));
+  const PreparedLog off = Prepare(Moves(0.02));
+  EXPECT_THAT(off.moving_warnings(), ElementsAre(HasSubstr("off by 0.02 rad/s")));
   EXPECT_LT(std::abs(off.moving().measurements.velocity[150]), 0.01);
   Measurements late = Moves(0);
   const Eigen::VectorXd velocity = late.velocity;
