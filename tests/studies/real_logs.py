@@ -54,8 +54,7 @@ def least_squares(path, columns, to_radians):
 def speeds_of(path, columns, to_radians):
     """Three speeds of the moving samples, rad/s or m/s."""
     table = np.genfromtxt(path, delimiter=",", names=True)
-    q = table[columns[1]]
-    v = np.abs((table[columns[2]] if columns[2] else np.gradient(q, table[columns[0]])) * to_radians)
+    v = np.abs(np.gradient(table[columns[1]], table[columns[0]])) * to_radians
     return np.quantile(v[v > 0.05 * np.sqrt(np.mean(v**2))], (0.1, 0.5, 0.9))
 
 
