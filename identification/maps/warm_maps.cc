@@ -236,7 +236,10 @@ class JointRows {
       // those of its rows that are kept
       std::vector<Eigen::Index> kept;
       for (; next < kept_.size() && kept_[next] < last; ++next) kept.push_back(kept_[next] - n);
-      gram_.selfadjointView<Eigen::Lower>().rankUpdate(block(kept, Eigen::all).transpose());
+      // Eigen divides by the number of rows
+      if (!kept.empty()) {
+        gram_.selfadjointView<Eigen::Lower>().rankUpdate(block(kept, Eigen::all).transpose());
+      }
       n = last;
     }
     gram_.triangularView<Eigen::StrictlyUpper>() = gram_.transpose();
