@@ -151,11 +151,19 @@ INSTANTIATE_TEST_SUITE_P(
         Lacking{"Ripple", "nominal-ls", [] { return Rippled(Cold()); }},
         Lacking{"RippleOfAJointThatWarms", "energy-ml", [] { return Rippled(TableOne()); }},
         Lacking{"WarmingBesideRipple", "position-ridge", [] { return Rippled(TableOne()); }},
-        Lacking{"Lag", "nominal-ls", [] { return Lagging(Cold()); }},
-        Lacking{"LagOfAJointThatWarms", "energy-ml", [] { return Lagging(TableOne()); }},
         Lacking{"Gravity", "nominal-ls", [] { return Weighted(Cold()); }},
         Lacking{"GravityOfAJointThatWarms", "energy-ml", [] { return Weighted(TableOne()); }}),
     [](const auto& lacking) { return lacking.param.what; });
+
+TEST(Remedies, NeedsNoneForALagOfHoldsWhichSettle) {
+  for (const auto& [identifier, joint] :
+       {std::pair{"nominal-ls", Cold()}, std::pair{"energy-ml", TableOne()}}) {
+    const Estimate settled = test::Answer(identifier, Lagging(joint));
+    ASSERT_EQ(settled.status, Status::ok) << settled.message;
+    EXPECT_TRUE(test::Holds(settled, "viscous", joint.parameters.at("viscous")));
+    EXPECT_TRUE(test::Holds(settled, "coulomb", joint.parameters.at("coulomb")));
+  }
+}
 
 TEST(Remedies, ForDirectionOfACurve) {
   const Friction cold = test::TwoLevelStribeckJoint();
