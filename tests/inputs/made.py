@@ -305,12 +305,15 @@ def make_rests(folder):
     for rest in (.2, 1.4, 3):
         phase, turn = np.mod(t, 2 + rest), (t // (2 + rest)).astype(int)
         moves, x = phase < 2, np.clip(phase / 2, 0, 1)
-        speed = (.2 + .3 * (turn * 7 % 5) / 4) * np.sin(np.pi * x)**2 * (1 + .5 * np.sin(6 * np.pi * x))
-        v = np.where(moves, np.where(turn % 2, -1, 1) * speed, 0)
+        top = np.where(turn % 2, -1, 1) * (.2 + .3 * (turn * 7 % 5) / 4)
+        v = top * np.sin(np.pi * x)**2 * (1 + .5 * np.sin(6 * np.pi * x))
+        # its derivative: differences over two samples lack .2 % of it
+        by_x = np.pi * np.sin(2 * np.pi * x) * (1 + .5 * np.sin(6 * np.pi * x)) + 3 * np.pi * np.sin(np.pi * x)**2 * np.cos(6 * np.pi * x)
+        acceleration = np.where(moves, top * by_x / 2, 0)
         noise = .03 * rng.standard_normal(len(t))
         write_csv(folder / f"rests_{rest}.csv", time=t, position=np.cumsum(v) * dt,
                   velocity=np.where(moves, v + 1e-3 * rng.standard_normal(len(t)), 0),
-                  torque=1.5 * v + .5 * np.sign(v) + .2 * np.gradient(v, dt) + noise)
+                  torque=1.5 * v + .5 * np.sign(v) + .2 * acceleration + noise)
 
 
 def make_rounded(folder):
