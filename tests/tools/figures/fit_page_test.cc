@@ -141,7 +141,8 @@ TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
   Friction warm = test::TableOne();
   warm.thermal->time_constant = 100;
   const PreparedLog log = Prepare(test::Excited(warm, 12000, 4));
-  const Estimate estimate = test::Answer("energy-ml", log, {{"gravity", "sincos"}});
+  const Estimate estimate =
+      test::Answer("energy-ml", log, {{"gravity", "sincos"}, {"torque_delay", "none"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ASSERT_TRUE(estimate.Find("inertia"));
   const FitView view = MakeFitView(log, estimate);
