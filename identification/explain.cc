@@ -108,8 +108,7 @@ constexpr AssumptionWords kAssumptions[] = {
      "the torque's sensor has no dead band, though one of {:.2g} {} would stay unseen"},
     {Source::offset,
      "the torque has no offset and holds no load, though the one direction of the log would not "
-     "show "
-     "{:.2g} {}"},
+     "show {:.2g} {}"},
     {Source::degrees, "positions and speeds are in radians, not both in degrees or revolutions"},
     {Source::clock, "the clock of the log is right, not off by 1 %"},
 };
@@ -388,9 +387,9 @@ std::string ExplainNoFriction(double share) {
 std::string ExplainNegativeInertia(const FitParameter& inertia,
                                    const std::array<double, 2>& interval95) {
   return fmt::format(
-      "inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}: the torque is "
-      "late or early beside the motion, has the wrong sign (--scale torque=-1), or another load "
-      "acts",
+      "inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}: the torque "
+      "is late or early beside the motion, has the wrong sign (--scale torque=-1), or another "
+      "load acts",
       inertia.value, inertia.unit, interval95[0], interval95[1]);
 }
 
@@ -477,7 +476,6 @@ std::vector<Assumption> AssumptionsOf(const std::vector<Cause>& causes, const Fi
       if (!first) {
         first = &cause;
         moves = cause.bias;
-        continue;
       }
       moves = (cause.bias.cwiseAbs().array() > moves.cwiseAbs().array()).select(cause.bias, moves);
     }
