@@ -78,7 +78,7 @@ RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
   return rows;
 }
 
-JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j, MatrixXd* seen) {
+JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j) {
   const auto joint = static_cast<std::size_t>(j);
   JointColumns c;
   c.joint = data.robot.joints[joint].name;
@@ -121,7 +121,6 @@ JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j, Ma
   };
   const MatrixXd y = regressor(Accelerations::counted), still = regressor(Accelerations::left_out);
   const MatrixXd basis = DirectionsSeen(y, rows.deviations).basis;
-  if (seen) *seen = basis;
   c.rigid = {y * rows.parameters, y * basis};
   c.carried = {still * rows.parameters, still * basis};
   return c;

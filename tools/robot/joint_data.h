@@ -20,10 +20,8 @@ struct RobotRows {
 
 RobotRows MakeRows(const RobotData& data, const RobotSettings& settings);
 
-/// Columns of joint (motor) j. The rows of several logs stand one behind the other. basis: gets [10 L x r] the directions of the
-/// inertials that its prior is along (DirectionsSeen).
-JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Eigen::Index j,
-                       Eigen::MatrixXd* basis = nullptr);
+/// Columns of joint (motor) j. The rows of several logs stand one behind the other.
+JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Eigen::Index j);
 
 /// The link at the end: the last of those that most joints move.
 Eigen::Index LastLink(const RobotDescription& robot);

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "identification/fit_data.h"
 #include "identification/model/report_joint.h"
 
 namespace warmjoint {
