@@ -167,6 +167,9 @@ def make_containers(folder):
             file[f"data/{name}"] = values
         file["data/again"] = file["data"]
         file["data/gone"] = h5py.SoftLink("/nothing")
+    with h5py.File(place / "other_file.h5", "w") as file:  # a log, and a link to another file
+        for name, values in log.items():
+            file[f"data/{name}"] = values
         file["far"] = h5py.ExternalLink("nowhere.h5", "/data")
     with h5py.File(place / "literal.h5", "w") as file:  # names that look like columns of a matrix
         for name, values in log.items():

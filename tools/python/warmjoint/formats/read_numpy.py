@@ -1,5 +1,6 @@
 """What NumPy's .npz and .npy hold. Objects are never unpickled."""
 
+import tokenize
 import zipfile
 
 import numpy
@@ -37,7 +38,7 @@ def tree(path, notes):
             return {name: data[name] for name in data.dtype.names}
         with data:
             arrays = {name: data[name] for name in data.files}
-    except (ValueError, EOFError, OSError, KeyError, zipfile.BadZipFile, NotImplementedError, zipfile.LargeZipFile) as error:
+    except (ValueError, EOFError, OSError, KeyError, NotImplementedError, tokenize.TokenError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
         raise Refusal(f"{path}: cannot be read as NumPy's: {error}") from None
     # an array of records holds columns
     return {name: {one: array[one] for one in array.dtype.names} if array.dtype.names else array for name, array in arrays.items()}
