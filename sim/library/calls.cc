@@ -145,21 +145,23 @@ Tree Describe(const mjModel* m) {
       for (const StateMember& member : acting[i].prepared->friction.state()) {
         states.emplace_back(member.name);
       }
-      joints.push_back({{"name", NameIn(m, mjOBJ_JOINT, acting[i].joint)},
-                        {"instance", name},
-                        {"form", bound.passive() ? "passive" : "actuator"},
-                        {"linear", m->jnt_type[acting[i].joint] == mjJNT_SLIDE},
-                        {"state", bound.joints()[i].state},
-                        {"states", states},
-                        {"report", m->plugin_stateadr[instance]},
-                        {"sensor", SensorOf(m, bound, i)},
-                        {"numbers", NumbersOf(bound, i, name)},
-                        {"inertia", EffectiveInertia(m, bound.joints()[i].dof)},
-                        {"drive", bound.joints()[i].drive},
-                        {"instances", bound.joints()[i].instances},
-                        {"damping", bound.joints()[i].viscous == Viscous::by_damping},
-                        {"initial_energy", bound.joints()[i].initial_energy},
-                        {"friction", FrictionToTree(acting[i].prepared->description)}});
+      joints.push_back(
+          {{"name", NameIn(m, mjOBJ_JOINT, acting[i].joint)},
+           {"instance", name},
+           {"form", bound.passive() ? "passive" : "actuator"},
+           {"linear", m->jnt_type[acting[i].joint] == mjJNT_SLIDE},
+           {"state", bound.joints()[i].state},
+           {"states", states},
+           {"report", m->plugin_stateadr[instance]},
+           {"sensor", SensorOf(m, bound, i)},
+           {"numbers", NumbersOf(bound, i, name)},
+           {"inertia", EffectiveInertia(m, bound.joints()[i].dof)},
+           {"drive", bound.joints()[i].drive},
+           {"slope", ExplicitSlope(m, {bound.joints()[i].friction, bound.joints()[i].viscous})},
+           {"instances", bound.joints()[i].instances},
+           {"damping", bound.joints()[i].viscous == Viscous::by_damping},
+           {"initial_energy", bound.joints()[i].initial_energy},
+           {"friction", FrictionToTree(acting[i].prepared->description)}});
     }
   }
   return {{"joints", joints}};
@@ -231,7 +233,7 @@ extern "C" {
 /// instance, form, linear, state: first place in act (actuator) or plugin_state (passive), states: [name], report:
 /// of the instance's entries in plugin_state, sensor: place in sensordata or null, numbers: {name: {field: numeric_data or
 /// dof_damping, place there, least, above, most, words}}, inertia: effective at the reference pose, kg.m^2 or kg, drive:
-/// StiffestDrives of its tree, instances: on its tree, damping: whether the joint's damping is its viscous, initial_energy: [E1,
+/// StiffestDrives of its tree, slope: ExplicitSlope, instances: on its tree, damping: whether the joint's damping is its viscous, initial_energy: [E1,
 /// E2], friction}]}.
 [[gnu::visibility("default")]] const char* warmjoint_joints(const mjModel* model) {
   return warmjoint::Answer([&] { return warmjoint::Describe(model); });

@@ -11,6 +11,7 @@ Angles are in rad, lengths in m, torques in N.m, forces in N, times in s. What c
 program's own sentence; a fit that fails is an Estimate whose `status` and `message` say so.
 """
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 from warmjoint._core import BadInput, OutputFailed
@@ -22,15 +23,21 @@ from warmjoint.log import Check, Log, check, read
 from warmjoint.robot import RobotEstimate, identify_robot, load_robot
 
 if TYPE_CHECKING:
+    from warmjoint import reference
+    from warmjoint.friction_arrays import split
     from warmjoint.mujoco_attach import attach, bind
+
+# what needs MuJoCo, or an engine, is imported where it is asked for: names of modules, and of what stands in one
+_IN = {"attach": "mujoco_attach", "bind": "mujoco_attach", "split": "friction_arrays"}
+_MODULES = ("reference",)
 
 
 def __getattr__(name: str) -> Any:
-    """`attach` and `bind`, which need MuJoCo, where they are asked for."""
-    if name in ("attach", "bind"):
-        from warmjoint import mujoco_attach
-
-        return getattr(mujoco_attach, name)
+    """What is imported where it is asked for."""
+    if name in _IN:
+        return getattr(importlib.import_module(f"warmjoint.{_IN[name]}"), name)
+    if name in _MODULES:
+        return importlib.import_module(f"warmjoint.{name}")
     raise AttributeError(f"module 'warmjoint' has no attribute '{name}'")
 
 
@@ -40,4 +47,4 @@ def __dir__() -> list[str]:
 
 __all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
            "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify",
-           "identify_robot", "laws", "load", "load_robot", "read", "run", "score", "simulate"]
+           "identify_robot", "laws", "load", "load_robot", "read", "reference", "run", "score", "simulate", "split"]
