@@ -44,7 +44,36 @@ class JointFriction:
     held: bool
 
 
-class BoundFriction:
+class _Sensed:
+    """What the sensors of joints read: arrays are [joints], of a batch [worlds x joints], in the order of `joints`."""
+
+    def _sensed(self, which: str) -> Floats:
+        """A number of each joint's sensor: torque, rise, loss or held."""
+        raise NotImplementedError
+
+    @property
+    def torque(self) -> Floats:
+        """Torque or force of the friction on each joint, N.m or N."""
+        return self._sensed("torque")
+
+    @property
+    def rise(self) -> Floats:
+        """Rise of the temperature, K; 0 where a friction knows no temperature."""
+        return self._sensed("rise")
+
+    @property
+    def loss(self) -> Floats:
+        """Power lost, W."""
+        return self._sensed("loss")
+
+    @property
+    def held(self) -> NDArray[np.bool_]:
+        """Whether friction holds the joint."""
+        held: NDArray[np.bool_] = self._sensed("held") != 0
+        return held
+
+
+class BoundFriction(_Sensed):
     """The friction of a model's joints in one mjData. Arrays are [joints], in the order of `joints`.
 
     torque, rise, loss and held are those of the last forward computation; heat is that of the state.
@@ -92,32 +121,11 @@ class BoundFriction:
         return int(joint["state"] + places[stage] + (self.model.npluginstate if joint["form"] == "actuator" else 0))
 
     @property
-    def torque(self) -> Floats:
-        """[joints] Torque or force of the friction on each joint, N.m or N."""
-        return self._sensed("torque")
-
-    @property
     def heat(self) -> Floats:
         """[joints] Change of the level by the heat, E, N.m or N: 0 cold, below 0 where warm friction is lower."""
         states = np.concatenate((self.data.plugin_state, self.data.act, [0.0]))
         heat: Floats = states[self.heat_places].sum(axis=0)
         return heat
-
-    @property
-    def rise(self) -> Floats:
-        """[joints] Rise of the temperature, K; 0 where a friction knows no temperature."""
-        return self._sensed("rise")
-
-    @property
-    def loss(self) -> Floats:
-        """[joints] Power lost, W."""
-        return self._sensed("loss")
-
-    @property
-    def held(self) -> NDArray[np.bool_]:
-        """[joints] Whether friction holds the joint."""
-        held: NDArray[np.bool_] = self._sensed("held") != 0
-        return held
 
     def __getitem__(self, joint: str) -> JointFriction:
         """The friction of one joint by its name."""
@@ -327,7 +335,7 @@ def _with_numbers(joint: dict[str, Any], model: mujoco.MjModel, fields: Mapping[
     return friction
 
 
-class WorldsFriction:
+class WorldsFriction(_Sensed):
     """The friction of joints in all worlds of a batch. Arrays are [worlds x joints], in the order of `joints`.
 
     torque, rise, loss and held are those of each world's last forward computation; heat is that of its state.
@@ -345,32 +353,11 @@ class WorldsFriction:
         return sensed
 
     @property
-    def torque(self) -> Floats:
-        """[worlds x joints] Torque or force of the friction on each joint, N.m or N."""
-        return self._sensed("torque")
-
-    @property
     def heat(self) -> Floats:
         """[worlds x joints] Change of the level by the heat, E, N.m or N."""
         states = np.concatenate((*self._fields.values(), np.zeros((len(self._sensordata), 1))), axis=1)
         heat: Floats = states[:, self._friction.heat_places].sum(axis=1)
         return heat
-
-    @property
-    def rise(self) -> Floats:
-        """[worlds x joints] Rise of the temperature, K; 0 where a friction knows no temperature."""
-        return self._sensed("rise")
-
-    @property
-    def loss(self) -> Floats:
-        """[worlds x joints] Power lost, W."""
-        return self._sensed("loss")
-
-    @property
-    def held(self) -> NDArray[np.bool_]:
-        """[worlds x joints] Whether friction holds the joint."""
-        held: NDArray[np.bool_] = self._sensed("held") != 0
-        return held
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:
