@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warmjoint import _core
+from warmjoint import _core, mujoco_library
 from warmjoint.estimate import Estimate
 from warmjoint.log import Log
 from warmjoint.values import kind_of, path_of, whole
@@ -139,6 +139,7 @@ def require_mujoco() -> None:
     if not mujoco.__version__.startswith("4.0."):
         raise ImportError(f"simulation needs MuJoCo 4.0, and {mujoco.__version__} is installed: pip install 'mujoco==4.0.*'; "
                           "identification and attach work with it as it is")
+    mujoco_library.share()
 
 
 def _engine() -> ModuleType:
