@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Some 2,500 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
+"""Some 3,600 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
 
 Each call gives an answer or raises an exception that says what is wrong: BadInput, TypeError of a wrong signature, KeyError of a name,
 Rejected. A RuntimeError, an exception of the inside, a text with options of the command line, or the end of the process is a fault.
@@ -9,6 +9,7 @@ import array
 import datetime
 import decimal
 import fractions
+import importlib
 import os
 import re
 import subprocess
@@ -78,6 +79,35 @@ def oddities():
     }
 
 
+def attach_calls(odd, friction):
+    """(name, call) of friction in MuJoCo."""
+    import mujoco
+    import warmjoint as wj
+
+    arm = """<mujoco><worldbody><body><joint name="elbow"/><geom type="capsule" fromto="0 0 0 0.5 0 0" size="0.04"/></body></worldbody></mujoco>"""
+    bound = wj.attach(arm, {"elbow": friction})
+    model = bound.spec.compile()
+    bound = bound.bind(model, mujoco.MjData(model))
+    worlds = importlib.import_module("mujoco.batch").Batch(model, 2)
+    for name, value in odd.items():
+        yield f"attach({name})", lambda v=value: wj.attach(v, {"elbow": friction})
+        yield f"attach(frictions={name})", lambda v=value: wj.attach(arm, v)
+        yield f"attach(friction={name})", lambda v=value: wj.attach(arm, {"elbow": v})
+        yield f"attach(joint={name})", lambda v=value: wj.attach(arm, {v: friction})
+        for member in ("friction", "status", "state_end", "parameters"):
+            tree = {"friction": friction.data, "status": "ok", member: value}
+            yield f"attach({member}={name})", lambda t=tree: wj.attach(arm, {"elbow": t})
+        for argument in ("form", "sensors", "randomisable", "armatures", "timestep", "integrator", "stiffest_drive"):
+            yield f"attach({argument}={name})", lambda a=argument, v=value: wj.attach(arm, {"elbow": friction}, **{a: v})
+        yield f"attach(armature={name})", lambda v=value: wj.attach(arm, {"elbow": friction}, armatures={"elbow": v})
+        for method in ("reset", "settled", "__getitem__", "of"):
+            yield f"bound.{method}({name})", lambda m=method, v=value: getattr(bound, m)(v)
+        yield f"bound.reset(speed={name})", lambda v=value: bound.reset(1, v)
+        yield f"randomise({name})", lambda v=value: bound.randomise(v, coulomb=(0.5, 1))
+        for argument in ("ids", "coulomb", "warm", "speed", "rng", "nonsense"):
+            yield f"randomise({argument}={name})", lambda a=argument, v=value: bound.randomise(worlds, **{"warm": (0, 1), a: v})
+
+
 def calls(group, folder):
     """(name, call) of a group."""
     import warmjoint as wj
@@ -134,6 +164,8 @@ def calls(group, folder):
                 broken = {**estimate.data, member: value}
                 yield f"Estimate({member}={name})", lambda d=broken: wj.Estimate(d, log).to_json()
             yield f"log[{name}]", lambda v=value: log[v]
+    elif group == "attach":
+        yield from attach_calls(odd, friction)
     else:
         for name, value in odd.items():
             yield f"simulate({name})", lambda v=value: wj.simulate(v)
@@ -144,7 +176,7 @@ def calls(group, folder):
             yield f"run({name})", lambda v=value: wj.run(v, os.path.join(folder, "run"), realizations=1)
 
 
-GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "engine"]
+GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "attach", "engine"]
 
 
 def inside(group):

@@ -20,9 +20,10 @@ from typing import Any, Literal, Protocol
 
 import mujoco
 
-from warmjoint import mujoco_plugin
+from warmjoint import _core, mujoco_plugin
 from warmjoint._core import BadInput
 from warmjoint.mujoco_bound import BoundFriction, bind
+from warmjoint.values import kind_of, number, path_of, text_of
 
 __all__ = ["Attached", "attach", "bind"]
 
@@ -49,15 +50,29 @@ class _Given:
     notice: str
 
 
-def _read(joints: str, given: FrictionLike) -> _Given:
+def _tree_of(joints: str, given: FrictionLike) -> tuple[str, dict[str, Any]]:
+    """What messages call a friction, and its content."""
     name = f"friction of '{joints}'"
     if isinstance(given, Mapping):
-        tree = dict(given)
+        text = _core.to_json(dict(given), name)
     elif isinstance(given, (str, os.PathLike)):
-        name = os.fspath(given)
-        tree = json.loads(pathlib.Path(given).read_text())
+        name = path_of(given, name)
+        text = pathlib.Path(name).read_text(encoding="utf-8", errors="surrogateescape")
+    elif hasattr(given, "to_json"):
+        text = given.to_json()
     else:
-        tree = json.loads(given.to_json())
+        raise BadInput(f"{name}: is {kind_of(given)}; give a Friction, an Estimate, or the path or the content of a file")
+    try:
+        tree = json.loads(text)
+    except (ValueError, RecursionError) as refusal:
+        raise BadInput(f"{name}: is no JSON ({refusal}); give a friction file or an estimate") from None
+    if not isinstance(tree, dict):
+        raise BadInput(f"{name}: holds no map; give a friction file or an estimate")
+    return name, tree
+
+
+def _read(joints: str, given: FrictionLike) -> _Given:
+    name, tree = _tree_of(text_of(joints), given)
     friction = tree.get("friction", tree)
     status = tree.get("status", "ok")
     if friction is None:
@@ -67,8 +82,8 @@ def _read(joints: str, given: FrictionLike) -> _Given:
     # the heat that the log left, each a number or an object with its value
     end = None
     if isinstance(tree.get("state_end"), Mapping):
-        heat = [tree["state_end"][key] for key in ("energy", "second_energy") if key in tree["state_end"]]
-        end = [float(one["value"] if isinstance(one, Mapping) else one) for one in heat]
+        heat = [(key, tree["state_end"][key]) for key in ("energy", "second_energy") if key in tree["state_end"]]
+        end = [number(f"{name}: {key}", one.get("value") if isinstance(one, Mapping) else one) for key, one in heat]
     units = {}
     if isinstance(tree.get("parameters"), Mapping):
         units = {key: one["unit"] for key, one in tree["parameters"].items() if isinstance(one, Mapping) and "unit" in one}
@@ -79,11 +94,14 @@ def _spec_of(model: mujoco.MjSpec | str | os.PathLike[str]) -> tuple[mujoco.MjSp
     """The spec of a model, and what messages call it."""
     if isinstance(model, mujoco.MjSpec):
         return model, model.modelname
-    if isinstance(model, str) and model.lstrip().startswith("<"):
-        spec = mujoco.MjSpec.from_string(model)
-        return spec, spec.modelname
-    path = pathlib.Path(model).resolve()
-    spec = mujoco.MjSpec.from_file(str(path))
+    try:
+        if isinstance(model, str) and model.lstrip().startswith("<"):
+            spec = mujoco.MjSpec.from_string(model)
+            return spec, spec.modelname
+        path = pathlib.Path(path_of(model, "model")).resolve()
+        spec = mujoco.MjSpec.from_file(str(path))
+    except (ValueError, mujoco.FatalError) as refusal:  # of the compiler, and BadInput
+        raise BadInput(str(refusal)) from None
     # its text finds its meshes from anywhere
     spec.meshdir = str(path.parent / spec.meshdir)
     spec.texturedir = str(path.parent / spec.texturedir)
@@ -152,6 +170,10 @@ def attach(
     another kind than its estimate's, or too light for its friction. The command line (`warmjoint attach`) does the same,
     in the actuator form where none is asked for.
     """
+    armatures = {} if armatures is None else armatures
+    for argument, value in (("frictions", frictions), ("armatures", armatures)):
+        if not isinstance(value, Mapping):
+            raise BadInput(f"{argument}: is {kind_of(value)}; give a dict by joint")
     given = [_read(joints, friction) for joints, friction in frictions.items()]
     spec, name = _spec_of(model)
     request: dict[str, Any] = {
@@ -160,7 +182,7 @@ def attach(
         "form": form,
         "sensors": sensors,
         "numbers": randomisable,
-        "armatures": dict(armatures or {}),
+        "armatures": {text_of(joint): number("armatures", armature) for joint, armature in armatures.items()},
     }
     request["units"] = {one.joints: one.units for one in given if one.units}
     request["stiffest_drive"] = stiffest_drive

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from warmjoint import mujoco_plugin
 from warmjoint._core import BadInput
 from warmjoint.friction import place_of, settled_energies
+from warmjoint.values import kind_of, numbers, shown, text_of, whole
 
 Floats = NDArray[np.float64]
 Warm = float | Sequence[float] | Floats | Literal["end"]
@@ -129,8 +130,8 @@ class BoundFriction(_Sensed):
 
     def __getitem__(self, joint: str) -> JointFriction:
         """The friction of one joint by its name."""
-        if joint not in self.joints:
-            raise KeyError(f"no friction acts on a joint '{joint}'{_nearest(joint, self.joints)}")
+        if not isinstance(joint, str) or joint not in self.joints:
+            raise KeyError(f"no friction acts on a joint {shown(joint)}{_nearest(text_of(joint), self.joints)}")
         i = self.joints.index(joint)
         return JointFriction(float(self.torque[i]), float(self.heat[i]), float(self.rise[i]), float(self.loss[i]), bool(self.held[i]))
 
@@ -150,12 +151,12 @@ class BoundFriction(_Sensed):
         """
         if isinstance(warm, str):
             if warm != "end":
-                raise BadInput(f"warm is '{warm}'; it must be a number of 0 or more, or 'end'")
+                raise BadInput(f"warm is {shown(warm)}; it must be a number of 0 or more, or 'end'")
             heats = [self._end(joint) for joint in self.joints]
         else:
             share = self._by_joint(warm, "warm")
             if not np.isfinite(share).all() or (share < 0).any():
-                raise BadInput(f"warm is {warm}; it must be 0 or more, or 'end'")
+                raise BadInput(f"warm is {shown(warm)}; it must be 0 or more, or 'end'")
             heats = [[one * energy for energy in heat] for one, heat in zip(share, self._settled(speed))]
         for joint, heat in zip(self._joints, heats):
             states = self._states(self.data, joint)
@@ -189,10 +190,10 @@ class BoundFriction(_Sensed):
         Raises BadInput that names number, joint, world and bound, and changes nothing, where a number would be out of
         its bounds.
         """
-        random = np.random.default_rng(rng)
+        random = rng if isinstance(rng, np.random.Generator) else np.random.default_rng(None if rng is None else whole("rng", rng))
         chosen = self._ids(worlds, ids)
         shape = (len(chosen), len(self._joints))
-        drawn = {name: random.uniform(*between, shape) for name, between in factors.items()}
+        drawn = {name: random.uniform(*_range(name, between), shape) for name, between in factors.items()}
         numbers = {name: self._numbers(name) for name in factors}
 
         # in copies first, so that what is refused changes nothing
@@ -206,7 +207,7 @@ class BoundFriction(_Sensed):
                 self._check(name, i, new[number["field"]][:, number["place"]], chosen)
         self._check_static(new["numeric_data"], chosen)
         if warm is not None:
-            drawn["warm"] = random.uniform(*warm, shape)
+            drawn["warm"] = random.uniform(*_range("warm", warm), shape)
             self._warm(worlds, new, chosen, drawn["warm"], speed)
         for field, values in expanded.items():
             values[chosen] = new[field][chosen]
@@ -214,15 +215,13 @@ class BoundFriction(_Sensed):
 
     def _ids(self, worlds: Any, ids: Sequence[int] | NDArray[np.integer[Any]] | None) -> NDArray[np.intp]:
         """The chosen worlds by their numbers."""
-        count = int(worlds.nsim)
+        count = int(_batch(worlds).nsim)
         if ids is None:
             return np.arange(count)
-        chosen = np.asarray(ids)
-        if chosen.dtype == bool and chosen.shape == (count,):
-            chosen = np.flatnonzero(chosen)
-        whole = chosen.ndim == 1 and (chosen.size == 0 or np.issubdtype(chosen.dtype, np.integer))
-        if not whole or (chosen < 0).any() or (chosen >= count).any():
-            raise BadInput(f"ids is {ids}; give numbers of worlds from 0 to {count - 1}, or a mask of {count}")
+        # a mask is no list of numbers
+        chosen = np.flatnonzero(ids) if isinstance(ids, np.ndarray) and ids.dtype == bool and ids.shape == (count,) else numbers("ids", ids)
+        if chosen.ndim != 1 or (chosen != np.floor(chosen)).any() or (chosen < 0).any() or (chosen >= count).any():
+            raise BadInput(f"ids is {shown(ids)}; give numbers of worlds from 0 to {count - 1}, or a mask of {count}")
         return chosen.astype(np.intp)
 
     def _numbers(self, name: str) -> dict[int, dict[str, Any]]:
@@ -267,6 +266,8 @@ class BoundFriction(_Sensed):
     ) -> None:
         """Heats worlds by their own numbers, now and in the arrays that their resets read."""
         speeds = self._speeds(speed)
+        if not chosen.size:
+            return
         states = {form: worlds.bind(field) for form, field in (("passive", "plugin_state"), ("actuator", "act"))}
         heats = []
         for i, joint in enumerate(self._joints):
@@ -291,7 +292,7 @@ class BoundFriction(_Sensed):
         return all_states[joint["state"] : joint["state"] + len(joint["states"])]
 
     def _by_joint(self, given: float | Sequence[float] | Floats, what: str) -> Floats:
-        values = np.asarray(given, dtype=np.float64)
+        values = numbers(what, given)
         if values.shape not in ((), (len(self.joints),)):
             raise BadInput(f"{what} has shape {values.shape}; give one number, or {len(self.joints)}, one for each joint")
         return np.broadcast_to(values, (len(self.joints),))
@@ -342,6 +343,7 @@ class WorldsFriction(_Sensed):
     """
 
     def __init__(self, friction: BoundFriction, worlds: Any):
+        worlds = _batch(worlds)
         self.joints = friction.joints
         """Names of the joints."""
         self._friction = friction
@@ -358,6 +360,21 @@ class WorldsFriction(_Sensed):
         states = np.concatenate((*self._fields.values(), np.zeros((len(self._sensordata), 1))), axis=1)
         heat: Floats = states[:, self._friction.heat_places].sum(axis=1)
         return heat
+
+
+def _batch(worlds: Any) -> Any:
+    """Worlds that are a batch."""
+    if not all(hasattr(worlds, member) for member in ("nsim", "bind", "expand")):
+        raise BadInput(f"worlds: is {kind_of(worlds)}; give a mujoco.batch.Batch of the bound model")
+    return worlds
+
+
+def _range(argument: str, between: Any) -> Floats:
+    """[2] The least and the largest of what is drawn."""
+    found = numbers(argument, between)
+    if found.shape != (2,) or not np.isfinite(found).all() or found[0] > found[1]:
+        raise BadInput(f"{argument} is {shown(between)}; give the least and the largest, as (0.7, 1.3)")
+    return found
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:

@@ -17,7 +17,7 @@ from typing import Any
 import mujoco
 
 from warmjoint import mujoco_library
-from warmjoint._core import BadInput, in_python
+from warmjoint._core import BadInput, in_python, to_json
 
 _HERE = pathlib.Path(__file__).resolve().parent
 _NAME = "libwarmjoint_friction.so"
@@ -90,7 +90,7 @@ def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
     Raises BadInput with the text of the command line, in which options are arguments.
     """
     with _files(dict(spec.assets)) as files:
-        answer = _call("warmjoint_attach", spec._address, files, json.dumps(request).encode())
+        answer = _call("warmjoint_attach", spec._address, files, to_json(request, "attach").encode())
     answer["notices"] = [in_python(notice) for notice in answer["notices"]]
     return answer
 
