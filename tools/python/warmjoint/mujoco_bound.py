@@ -369,12 +369,12 @@ def _batch(worlds: Any) -> Any:
     return worlds
 
 
-def _range(argument: str, between: Any) -> Floats:
-    """[2] The least and the largest of what is drawn."""
+def _range(argument: str, between: Any) -> tuple[float, float]:
+    """The least and the largest of what is drawn."""
     found = numbers(argument, between)
     if found.shape != (2,) or not np.isfinite(found).all() or found[0] > found[1]:
         raise BadInput(f"{argument} is {shown(between)}; give the least and the largest, as (0.7, 1.3)")
-    return found
+    return float(found[0]), float(found[1])
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:
