@@ -164,7 +164,10 @@ def _file_of(given: str | os.PathLike[str] | Mapping[str, Any], argument: str) -
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
         path = pathlib.Path(folder) / f"{argument}.yaml"
         path.write_text(text, encoding="utf-8")
-        yield os.fspath(path)
+        try:
+            yield os.fspath(path)
+        except _core.BadInput as refusal:
+            raise _core.BadInput(str(refusal).replace(os.fspath(path), argument)) from None
 
 
 def _answer(function: Identifier) -> Callable[[dict[str, Any]], str]:
