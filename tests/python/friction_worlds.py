@@ -59,7 +59,7 @@ def humanoid():
 
 
 def bare_spec(robot):
-    """The robot without drives, in Euler's steps of 2 ms."""
+    """The robot without drives and stops, in Euler's steps of 2 ms."""
     if robot == "humanoid":
         return mujoco.MjSpec.from_string(humanoid())
     name, armature = SEGMENTS[robot]
@@ -74,6 +74,8 @@ def bare_spec(robot):
     spec.option.timestep, spec.option.integrator = 0.002, mujoco.mjtIntegrator.mjINT_EULER
     for joint in spec.joints:
         joint.frictionloss = 0
+        # no stops
+        joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
         if armature is not None:
             joint.armature = armature
     return spec

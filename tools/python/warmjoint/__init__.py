@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 # what needs MuJoCo, or an engine, is imported where it is asked for: names of modules, and of what stands in one
 _IN = {"attach": "mujoco_attach", "bind": "mujoco_attach", "split": "friction_arrays"}
-_MODULES = ("reference",)
+_MODULES = ("reference", "mjx", "warp")
 
 
 def __getattr__(name: str) -> Any:

@@ -123,6 +123,16 @@ class FrictionArrays:
         _check(found, list(numbers))
         return found
 
+    def in_model(self, model: mujoco.MjModel, prefix: str = "") -> FrictionArrays:
+        """The same in a scene that holds the robot under a prefix, by the joints' names. Raises BadInput for one that the scene lacks."""
+        import mujoco
+
+        ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, prefix + joint) for joint in self.joints]
+        if -1 in ids:
+            raise BadInput(f"the model has no joint '{prefix + self.joints[ids.index(-1)]}'; give the prefix under which the robot was attached")
+        return dataclasses.replace(self, joints=tuple(prefix + joint for joint in self.joints), dofs=np.array([model.jnt_dofadr[one] for one in ids]),
+                                   positions=np.array([model.jnt_qposadr[one] for one in ids]))
+
     def check_give(self) -> None:
         """Raises BadInput where a bristle gives way too far before it slides: by level h^2 / (A m)."""
         give = self.at_rest() * self.timestep**2 / (self.stiffness * self.inertia)

@@ -1,0 +1,170 @@
+"""warmjoint.warp against the plugin. Opt-in: needs build/deps/engine-warp (tools/python/requirements_warp.txt)."""
+
+import mujoco
+import numpy as np
+import pytest
+
+mjw = pytest.importorskip("mujoco_warp")
+
+import friction_worlds as worlds  # noqa: E402
+import warmjoint as wj  # noqa: E402
+import warp as wp  # noqa: E402
+from conftest import HINGE, WARM, settled_by_steps  # noqa: E402
+from warmjoint import warp_kernel  # noqa: E402
+
+wp.config.quiet = True
+
+
+def engine(bare, friction, nworld):
+    m = mjw.put_model(bare)
+    d = mjw.put_data(bare, mujoco.MjData(bare), nworld=nworld)
+    return m, d, wj.warp.put_friction(friction, m, nworld)
+
+
+@pytest.mark.parametrize("robot", worlds.ROBOTS)
+@pytest.mark.parametrize("law", [*worlds.LAWS, "everything"])
+def test_moves_as_the_plugin(motion_of, robot, law):
+    """From the plugin's state each .1 s, over 3 s; all starts are worlds beside each other."""
+    motion = motion_of(robot, law)
+    starts = len(motion.start["qpos"])
+    m, d, f = engine(motion.bare, motion.friction, starts)
+    d.qpos.assign(motion.start["qpos"].astype(np.float32))
+    d.qvel.assign(motion.start["qvel"].astype(np.float32))
+    f.put_state(motion.start["bristle load"], np.array([motion.start["energy"], motion.start["second energy"]]), motion.start["slip"])
+    f.ambient_rise.fill_(motion.rise)
+    worst, differ = np.zeros(3), 0
+    for step in range(len(motion.torque)):
+        d.qfrc_applied.assign(motion.torque[step].astype(np.float32))
+        mjw.step(m, d)
+        pairs = ((d.qpos, motion.qpos), (d.qvel, motion.qvel), (f.energy, motion.energy))
+        worst = np.maximum(worst, [np.abs(mine.numpy() - theirs[step]).max() for mine, theirs in pairs])
+        differ += (f.held.numpy() != (motion.held[step] != 0)).sum()
+        assert f.turns.numpy().max() <= 8
+    print(f"\n{robot} {law}: dq {worst[0]:.1e} rad, dv {worst[1]:.1e} rad/s, E {worst[2]:.1e}, held differs in {differ}")
+    assert worst[0] <= 1e-5
+    assert worst[1] <= 1e-4
+
+
+def held_worlds(nworld):
+    spec = worlds.bare_spec("panda")
+    level = worlds.levels(spec)
+    bare, friction = wj.split(wj.attach(spec, worlds.frictions(spec, "coulomb")))
+    bare.opt.gravity[:] = 0
+    return (*engine(bare, friction, nworld), np.array([level[joint] for joint in friction.joints]))
+
+
+def test_held_joints_rest_also_under_torques_of_20_ms():
+    m, d, f, level = held_worlds(4)
+    random = np.random.default_rng(2)
+    speeds, places = [], []
+    for change in range(50):
+        share = np.full((4, 7), 0.6) if change == 0 else random.uniform(-0.9, 0.9, (4, 7)) * np.array([[0], [1], [1], [1]]) + np.array([[0.6], [0], [0], [0]])
+        d.qfrc_applied.assign((share * level).astype(np.float32))
+        for _ in range(10):
+            mjw.step(m, d)
+        speeds.append(np.abs(d.qvel.numpy()).max(axis=1))
+        places.append(d.qpos.numpy()[0])
+    speeds = np.array(speeds[5:])
+    print(f"\nheld: constant torque {speeds[:, 0].max():.1e}, torques of 20 ms {speeds[:, 1:].max():.1e} rad/s at the end of each")
+    assert f.held.numpy().all()
+    assert (np.array(places[5:]) == places[5]).all()
+    # single precision of the torque leaves that speed, which is too small to move a position
+    assert speeds[:, 0].max() <= max(1e-8, 3.3 * (np.spacing(level.astype(np.float32)) * m.opt.timestep.numpy()[0] / f.friction.inertia).max())
+    # after a jump the speed is n r^(n-1) h T / m with the double root r = 0.2; coupled joints feel up to 3.3 times as light
+    first = (m.opt.timestep.numpy()[0] * 2 * level / f.friction.inertia).max()
+    assert speeds[:, 1:].max() <= 1e-8 + 3.3 * 10 * 0.2**9 * first
+
+
+def test_heat_over_900000_steps():
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    m, d, f = engine(bare, friction, 1)
+    mjw.forward(m, d)
+    h, count = bare.opt.timestep, 900_000
+    speeds = (1.0 + 0.5 * np.sin(np.arange(count) * 1e-3)).astype(np.float32)
+    table, time, force = wp.array(speeds, dtype=float), wp.zeros(1, dtype=float), wp.zeros((1, 1), dtype=float)
+
+    @wp.kernel
+    def move(speeds: wp.array(dtype=float), count: wp.array(dtype=int), qvel: wp.array2d(dtype=float), time: wp.array(dtype=float)):
+        qvel[0, 0] = speeds[count[0]]
+        # whole numbers tell one step from the next
+        time[0] = float(count[0])
+        count[0] = count[0] + 1
+
+    at = wp.zeros(1, dtype=int)
+    commands = [
+        wp.launch(move, dim=1, inputs=[table, at, d.qvel, time], record_cmd=True),
+        wp.launch(warp_kernel.step_friction, dim=(1, 1),
+                  inputs=[time, d.qpos, d.qvel, d.M, d.qfrc_bias, m.M_rownnz, m.M_rowadr, m.M_colind, m.tree_dofadr, m.tree_dofnum, m.dof_damping,
+                          h, 8, f._joints, f._states, f._scratch], outputs=[force], record_cmd=True),
+    ]
+    for _ in range(count):
+        for command in commands:
+            command.launch()
+    wanted = settled_by_steps(speeds.astype(np.float64), h)
+    found = float(f._states.next_energy.numpy()[0, 0, 0])
+    print(f"\nE {found:.9f}, in double precision {wanted:.9f}: {abs(found - wanted):.1e} N.m")
+    assert abs(found - wanted) <= 1e-6
+
+
+def drive(m, d, level, steps=150):
+    random = np.random.default_rng(3)
+    for step in range(steps):
+        if step % 10 == 0:
+            torque = np.zeros(d.qvel.shape, np.float32)
+            torque[:] = (level * random.uniform(-3, 3, len(level))).astype(np.float32)
+        d.qfrc_applied.assign(torque)
+        mjw.step(m, d)
+    return d.qpos.numpy(), d.qvel.numpy()
+
+
+def test_worlds_alike_are_equal_and_worlds_of_their_own_as_single_runs():
+    spec = worlds.bare_spec("panda")
+    names = worlds.levels(spec)
+    bare, friction = wj.split(wj.attach(spec, worlds.frictions(spec, "stribeck")))
+    level = np.array([names[joint] for joint in friction.joints])
+    m, d, f = engine(bare, friction, 3)
+    q, v = drive(m, d, level)
+    assert (q == q[0]).all()
+    assert (v == v[0]).all()
+    factor = np.array([0.7, 1.0, 1.2])[:, None]
+    own = friction.changed(coulomb=factor * friction.numbers["coulomb"], static=factor * friction.numbers["static"])
+    m, d, f = engine(bare, own, 3)
+    f.reset(warm=np.array([[0.0], [0.5], [1.0]]))
+    q, v = drive(m, d, level)
+    for world in range(3):
+        single = friction.changed(coulomb=factor[world] * friction.numbers["coulomb"], static=factor[world] * friction.numbers["static"])
+        m, d, f = engine(bare, single, 1)
+        f.reset(warm=[0.0, 0.5, 1.0][world])
+        alone = drive(m, d, level)
+        assert (alone[0][0] == q[world]).all()
+        assert (alone[1][0] == v[world]).all()
+
+
+def test_resets_of_some_worlds():
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    m, d, f = engine(bare, friction, 3)
+    f.reset(warm=1.0, speed=0.5)
+    settled = wj.Friction.from_dict(WARM).settled_heat(0.5)
+    mjw.step(m, d)
+    np.testing.assert_allclose(f.energy.numpy()[:, 0], settled, rtol=1e-5)
+    f.reset(mask=[True, False, False], warm=0.0)
+    # to a time before that of the last computation
+    mjw.step(m, d)
+    mjw.reset_data(m, d, reset=wp.array([False, True, False], dtype=bool))
+    mjw.step(m, d)
+    np.testing.assert_allclose(f.energy.numpy()[:, 0], [0, 0, settled], atol=1e-3)
+
+
+@pytest.mark.parametrize("change, words", [("RK4", "RK4"), ("step", "timestep"), ("damper", "damper"), ("worlds", "worlds")])
+def test_what_the_port_does_not_step_is_refused(change, words):
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    if change == "RK4":
+        bare.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    elif change == "step":
+        bare.opt.timestep = 0.001
+    elif change == "damper":
+        bare.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
+    else:
+        friction = friction.changed(coulomb=np.ones((2, 1)))
+    with pytest.raises(wj.BadInput, match=words):
+        wj.warp.put_friction(friction, mjw.put_model(bare), 3)

@@ -1,0 +1,396 @@
+"""The kernel of warmjoint.warp: one thread steps one kinematic tree of one world. Formulas: reference.py.
+
+In arrays that hold both, friction's joints are [worlds x J] and degrees of freedom [worlds x nv]; parameters have one row for all worlds, or one for each.
+"""
+
+import warp as wp
+
+# columns of `law`
+POSITIVE, NEGATIVE, RISE, STATIC, VELOCITY, EXPONENT, BREAKS, LOAD_GAIN, PER_ENERGY = range(9)
+# of `heat`: what a loss adds to each stage and what stays, what a rise of the ambient adds
+GAIN, POLE, SECOND_GAIN, SECOND_POLE, AMBIENT = range(5)
+# of `shape`: inertia m, A and B, gear
+INERTIA, STIFFNESS, DAMPING, GEAR = range(4)
+# of `axis_int` and `axis_float`, for each axis of a table
+QUANTITY, COUNT, CIRCLE = range(3)
+FIRST, PER_STEP = range(2)
+
+
+@wp.struct
+class Joints:
+    """What does not change: friction's joints and their maps."""
+
+    of_dof: wp.array(dtype=int)  # [nv] place in J, -1 where there is no friction
+    position: wp.array(dtype=int)  # [J] in qpos
+    shape: wp.array2d(dtype=float)  # [J x 4]
+    law: wp.array3d(dtype=float)  # [1 or worlds x J x 9]
+    heat: wp.array3d(dtype=wp.float64)  # [1 or worlds x J x 5]
+    map_begin: wp.array(dtype=int)  # [J + 1]
+    map_factor: wp.array(dtype=int)  # [maps]
+    map_offset: wp.array(dtype=int)  # [maps]
+    axis_int: wp.array3d(dtype=int)  # [maps x 2 x 3]
+    axis_float: wp.array3d(dtype=float)  # [maps x 2 x 2]
+    values: wp.array(dtype=float)
+
+
+@wp.struct
+class States:
+    """What a step begins with (twice: at its begin and, of the last computation, at its end), and what it tells."""
+
+    time: wp.array2d(dtype=float)  # [worlds x trees] of the last computation, s; -1 none
+    stretch: wp.array2d(dtype=float)  # z [worlds x nv], rad or m
+    next_stretch: wp.array2d(dtype=float)
+    energy: wp.array3d(dtype=wp.float64)  # [worlds x J x 2]
+    next_energy: wp.array3d(dtype=wp.float64)
+    slip: wp.array2d(dtype=float)  # [worlds x J]
+    next_slip: wp.array2d(dtype=float)
+    first: wp.array2d(dtype=int)  # [worlds x nv] the active sets of both projections
+    second: wp.array2d(dtype=int)
+    ambient: wp.array(dtype=float)  # [worlds] rise, K
+    force: wp.array2d(dtype=float)  # [worlds x J]
+    loss: wp.array2d(dtype=float)
+    held: wp.array2d(dtype=bool)
+    total: wp.array2d(dtype=wp.float64)  # E [worlds x J]
+    start_energy: wp.array2d(dtype=wp.float64)  # [J x 2] at a reset
+    turns: wp.array2d(dtype=int)  # [worlds x trees]
+
+
+@wp.struct
+class Scratch:
+    inertia: wp.array3d(dtype=float)  # M [worlds x nv x nv]
+    factor: wp.array3d(dtype=float)
+    lower: wp.array2d(dtype=float)  # [worlds x nv]
+    upper: wp.array2d(dtype=float)
+    aim: wp.array2d(dtype=float)
+    damped: wp.array2d(dtype=float)
+    slip: wp.array2d(dtype=float)
+    force: wp.array2d(dtype=float)
+    taken: wp.array2d(dtype=int)
+
+
+@wp.func
+def cubic(t: float, k: int) -> float:
+    """The weight of the k-th of four points at -1, 0, 1, 2."""
+    if k == 0:
+        return -t * (t - 1.0) * (t - 2.0) / 6.0
+    if k == 1:
+        return (t + 1.0) * (t - 1.0) * (t - 2.0) * 0.5
+    if k == 2:
+        return -(t + 1.0) * t * (t - 2.0) * 0.5
+    return (t + 1.0) * t * (t - 1.0) / 6.0
+
+
+@wp.func
+def place_on(j: Joints, i: int, axis: int, x: float) -> float:
+    """How far along a table's axis, in steps."""
+    at = (x - j.axis_float[i, axis, FIRST]) * j.axis_float[i, axis, PER_STEP]
+    count = j.axis_int[i, axis, COUNT]
+    if j.axis_int[i, axis, CIRCLE] != 0:
+        return at - float(count) * wp.floor(at / float(count))
+    return wp.clamp(at, 0.0, float(count - 1))
+
+
+@wp.func
+def point_of(j: Joints, i: int, axis: int, base: int, k: int) -> int:
+    count = j.axis_int[i, axis, COUNT]
+    place = base - 1 + k
+    if j.axis_int[i, axis, CIRCLE] != 0:
+        return (place + count) % count
+    return wp.clamp(place, 0, count - 1)
+
+
+@wp.func
+def base_of(j: Joints, i: int, axis: int, at: float) -> int:
+    """The point before, so that four points lie around."""
+    base = int(at)
+    if j.axis_int[i, axis, CIRCLE] != 0:
+        return base
+    return wp.clamp(base, 1, wp.max(1, j.axis_int[i, axis, COUNT] - 3))
+
+
+@wp.func
+def quantity_at(which: int, position: float, motor: float, speed: float, energy: float, load: float) -> float:
+    if which == 0:
+        return position
+    if which == 1:
+        return motor
+    if which == 2:
+        return speed
+    if which == 3:
+        return energy
+    return load
+
+
+@wp.func
+def map_level(j: Joints, i: int, side: float, position: float, motor: float, speed: float, energy: float, load: float) -> float:
+    """What a map adds to the level of one side."""
+    a = place_on(j, i, 0, quantity_at(j.axis_int[i, 0, QUANTITY], position, motor, speed, energy, load))
+    na = j.axis_int[i, 0, COUNT]
+    nb = j.axis_int[i, 1, COUNT]
+    ia = base_of(j, i, 0, a)
+    offset = j.map_offset[i]
+    if side < 0.0:
+        offset = offset + na * nb
+    total = float(0.0)
+    if nb == 1:
+        for k in range(4):
+            total += cubic(a - float(ia), k) * j.values[offset + point_of(j, i, 0, ia, k)]
+    else:
+        b = place_on(j, i, 1, quantity_at(j.axis_int[i, 1, QUANTITY], position, motor, speed, energy, load))
+        ib = base_of(j, i, 1, b)
+        for k in range(4):
+            row = offset + nb * point_of(j, i, 0, ia, k)
+            sum = float(0.0)
+            for n in range(4):
+                sum += cubic(b - float(ib), n) * j.values[row + point_of(j, i, 1, ib, n)]
+            total += cubic(a - float(ia), k) * sum
+    if j.map_factor[i] == 0:
+        return side * total
+    if j.map_factor[i] == 2:
+        return speed * total
+    return total
+
+
+@wp.func
+def level_at(j: Joints, w: int, k: int, side: float, v: float, slip: float, energy: float, position: float, load: float) -> float:
+    row = w % j.law.shape[0]
+    coulomb = wp.where(side > 0.0, j.law[row, k, POSITIVE], j.law[row, k, NEGATIVE])
+    speed = wp.abs(v)
+    level = coulomb
+    if j.law[row, k, BREAKS] != 0.0:
+        if not (side * v > 0.0 and side * slip > 0.5):
+            level = j.law[row, k, STATIC]
+    elif j.law[row, k, RISE] != 0.0:
+        ratio = speed / j.law[row, k, VELOCITY]
+        if j.law[row, k, EXPONENT] == 2.0:
+            level += j.law[row, k, RISE] * wp.exp(-ratio * ratio)
+        else:
+            level += j.law[row, k, RISE] * wp.exp(-wp.pow(ratio, j.law[row, k, EXPONENT]))
+    level += energy + j.law[row, k, LOAD_GAIN] * wp.abs(load)
+    motor = j.shape[k, GEAR] * position
+    for i in range(j.map_begin[k], j.map_begin[k + 1]):
+        level += map_level(j, i, side, position, motor, speed, energy, load)
+    return level
+
+
+@wp.func
+def bound_of(s: Scratch, w: int, i: int, status: int) -> float:
+    if status > 0:
+        return s.upper[w, i]
+    if status < 0:
+        return -s.lower[w, i]
+    return 0.0
+
+
+@wp.func
+def nearest(w: int, i0: int, n: int, most: int, status: wp.array2d(dtype=int), s: Scratch) -> int:
+    """Projects s.aim onto the box: s.force and s.slip, from `status` and with what it ends with. The number of turns."""
+    turns = int(0)
+    done = int(0)
+    while done == 0:
+        turns += 1
+        # what slips, and its block of M = L L'
+        count = int(0)
+        for a in range(n):
+            i = i0 + a
+            s.slip[w, i] = 0.0
+            if s.upper[w, i] == 0.0 and s.lower[w, i] == 0.0:
+                status[w, i] = 2
+            elif status[w, i] == 2:
+                status[w, i] = 0
+            if status[w, i] != 0:
+                s.taken[w, i0 + count] = i
+                count += 1
+        for a in range(count):
+            i = s.taken[w, i0 + a]
+            bound = float(0.0)
+            if status[w, i] != 2:
+                bound = bound_of(s, w, i, status[w, i])
+            y = s.aim[w, i] - bound
+            for c in range(a + 1):
+                k = s.taken[w, i0 + c]
+                v = s.inertia[w, i, k]
+                for e in range(c):
+                    v -= s.factor[w, i, i0 + e] * s.factor[w, k, i0 + e]
+                if c == a:
+                    s.factor[w, i, i0 + c] = wp.sqrt(wp.max(v, 1.0e-30))
+                else:
+                    s.factor[w, i, i0 + c] = v / s.factor[w, k, i0 + c]
+                    y -= s.factor[w, i, i0 + c] * s.slip[w, k]
+            s.slip[w, i] = y / s.factor[w, i, i0 + a]
+        for b in range(count):
+            a = count - 1 - b
+            i = s.taken[w, i0 + a]
+            y = s.slip[w, i]
+            for c in range(a + 1, count):
+                k = s.taken[w, i0 + c]
+                y -= s.factor[w, k, i0 + a] * s.slip[w, k]
+            s.slip[w, i] = y / s.factor[w, i, i0 + a]
+        # forces of what holds, and whose status was wrong
+        done = int(1)
+        for a in range(n):
+            i = i0 + a
+            if status[w, i] == 2:
+                s.force[w, i] = 0.0
+            elif status[w, i] != 0:
+                s.force[w, i] = bound_of(s, w, i, status[w, i])
+                if float(status[w, i]) * s.slip[w, i] < 0.0 and turns < most:
+                    status[w, i] = 3
+                    done = 0
+            else:
+                x = s.aim[w, i]
+                for c in range(count):
+                    k = s.taken[w, i0 + c]
+                    x -= s.inertia[w, i, k] * s.slip[w, k]
+                s.force[w, i] = wp.clamp(x, -s.lower[w, i], s.upper[w, i])
+                # single precision is worth that much
+                room = 1.0e-6 * (s.upper[w, i] + s.lower[w, i])
+                if turns < most:
+                    if x > s.upper[w, i] + room:
+                        status[w, i] = 4
+                        done = 0
+                    elif -x > s.lower[w, i] + room:
+                        status[w, i] = 5
+                        done = 0
+        for a in range(n):
+            i = i0 + a
+            if status[w, i] == 3:
+                status[w, i] = 0
+            elif status[w, i] == 4:
+                status[w, i] = 1
+            elif status[w, i] == 5:
+                status[w, i] = -1
+    return turns
+
+
+@wp.func
+def begin(w: int, tree: int, i0: int, n: int, time: float, j: Joints, st: States):
+    """The step before is over where the time has gone on; where it went back the world was reset."""
+    last = st.time[w, tree]
+    for a in range(n):
+        i = i0 + a
+        k = j.of_dof[i]
+        if k >= 0:
+            if time > last:
+                st.stretch[w, i] = st.next_stretch[w, i]
+                st.slip[w, k] = st.next_slip[w, k]
+                st.energy[w, k, 0] = st.next_energy[w, k, 0]
+                st.energy[w, k, 1] = st.next_energy[w, k, 1]
+            elif time < last:
+                st.stretch[w, i] = 0.0
+                st.slip[w, k] = 0.0
+                st.energy[w, k, 0] = st.start_energy[k, 0]
+                st.energy[w, k, 1] = st.start_energy[k, 1]
+                st.first[w, i] = 0
+                st.second[w, i] = 0
+    st.time[w, tree] = time
+
+
+@wp.func
+def finish(w: int, i: int, k: int, v: float, kv: float, f: float, own: float, status: int, j: Joints, st: States):
+    """Force, loss and heat of one joint. own: the level on the side of its motion, N.m or N. Returns nothing."""
+    row = w % j.law.shape[0]
+    heat = w % j.heat.shape[0]
+    energy = float(st.energy[w, k, 0] + st.energy[w, k, 1])
+    viscous = wp.max(0.0, kv + j.law[row, k, PER_ENERGY] * energy) * v
+    sliding = (status == 1 and v > 0.0) or (status == -1 and v < 0.0)
+    force = viscous + f
+    loss = viscous * v
+    if sliding:
+        loss += wp.abs(f * v)
+    # a level below 0 takes from the viscous force, at most all of it
+    if f == 0.0 and v != 0.0 and own < 0.0:
+        force = wp.sign(v) * wp.max(0.0, wp.abs(force) + own)
+        loss = wp.abs(force * v)
+    st.force[w, k] = force
+    st.loss[w, k] = loss
+    st.held[w, k] = not sliding
+    st.next_slip[w, k] = wp.where(sliding, wp.sign(v), 0.0)
+    lost = wp.float64(loss)
+    st.next_energy[w, k, 0] = (
+        j.heat[heat, k, POLE] * st.energy[w, k, 0] + j.heat[heat, k, GAIN] * lost + j.heat[heat, k, AMBIENT] * wp.float64(st.ambient[w])
+    )
+    st.next_energy[w, k, 1] = j.heat[heat, k, SECOND_POLE] * st.energy[w, k, 1] + j.heat[heat, k, SECOND_GAIN] * lost
+    st.total[w, k] = st.energy[w, k, 0] + st.energy[w, k, 1]
+
+
+@wp.kernel
+def step_friction(
+    time: wp.array(dtype=float),
+    qpos: wp.array2d(dtype=float),
+    qvel: wp.array2d(dtype=float),
+    mass: wp.array2d(dtype=float),
+    bias: wp.array2d(dtype=float),
+    row_count: wp.array(dtype=int),
+    row_begin: wp.array(dtype=int),
+    column: wp.array(dtype=int),
+    tree_begin: wp.array(dtype=int),
+    tree_size: wp.array(dtype=int),
+    dof_damping: wp.array2d(dtype=float),
+    h: float,
+    most: int,
+    j: Joints,
+    st: States,
+    s: Scratch,
+    passive: wp.array2d(dtype=float),
+):
+    w, tree = wp.tid()
+    i0 = tree_begin[tree]
+    n = tree_size[tree]
+    begin(w, tree, i0, n, time[w], j, st)
+    # levels, and the inertia matrix of the tree
+    for a in range(n):
+        i = i0 + a
+        k = j.of_dof[i]
+        for c in range(n):
+            s.inertia[w, i, i0 + c] = 0.0
+        s.lower[w, i] = 0.0
+        s.upper[w, i] = 0.0
+        if k >= 0:
+            energy = float(st.energy[w, k, 0] + st.energy[w, k, 1])
+            position = qpos[w, j.position[k]]
+            s.upper[w, i] = wp.max(0.0, level_at(j, w, k, 1.0, qvel[w, i], st.slip[w, k], energy, position, bias[w, i]))
+            s.lower[w, i] = wp.max(0.0, level_at(j, w, k, -1.0, qvel[w, i], st.slip[w, k], energy, position, bias[w, i]))
+    for a in range(n):
+        i = i0 + a
+        for e in range(row_count[i]):
+            c = column[row_begin[i] + e]
+            s.inertia[w, i, c] = mass[w, row_begin[i] + e]
+            s.inertia[w, c, i] = mass[w, row_begin[i] + e]
+    # what joints without friction would add is undone by their slip
+    for a in range(n):
+        elastic = float(0.0)
+        damped = float(0.0)
+        for c in range(n):
+            i = i0 + c
+            k = j.of_dof[i]
+            if k >= 0:
+                m = s.inertia[w, i0 + a, i]
+                elastic += m * j.shape[k, STIFFNESS] * (st.stretch[w, i] + h * qvel[w, i])
+                damped += m * j.shape[k, DAMPING] * qvel[w, i]
+        s.aim[w, i0 + a] = elastic / (h * h)
+        s.damped[w, i0 + a] = damped / h
+    turns = nearest(w, i0, n, most, st.first, s)
+    for a in range(n):
+        i = i0 + a
+        k = j.of_dof[i]
+        if k >= 0:
+            st.next_stretch[w, i] = st.stretch[w, i] + h * qvel[w, i] - h * h / j.shape[k, STIFFNESS] * s.slip[w, i]
+        s.aim[w, i] = s.force[w, i] + s.damped[w, i]
+        if st.first[w, i] == 0:
+            s.upper[w, i] = 2.0 * s.upper[w, i]
+            s.lower[w, i] = 2.0 * s.lower[w, i]
+    st.turns[w, tree] = wp.max(turns, nearest(w, i0, n, most, st.second, s))
+    for a in range(n):
+        i = i0 + a
+        k = j.of_dof[i]
+        if k >= 0:
+            v = qvel[w, i]
+            own = float(0.0)
+            if s.force[w, i] == 0.0 and v != 0.0:
+                energy = float(st.energy[w, k, 0] + st.energy[w, k, 1])
+                own = level_at(j, w, k, wp.sign(v), v, st.slip[w, k], energy, qpos[w, j.position[k]], bias[w, i])
+            kv = dof_damping[w % dof_damping.shape[0], i]
+            finish(w, i, k, v, kv, s.force[w, i], own, st.first[w, i], j, st)
+            # the engine adds the joint's damping itself
+            passive[w, i] = passive[w, i] + kv * v - st.force[w, k]
