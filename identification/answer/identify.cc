@@ -120,22 +120,58 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
 constexpr int kMostRounds = 3;  // why: what a fit to unsettled torque hides shows in the next
 
 /// The fit to what has settled: the samples of segments lose their first seconds while the residual shows that the torque had not.
-/// settling: s, of all rounds
-Fit FitSettled(const Identifier& identifier, const IdentifierInput& input,
-               std::optional<Selection>& settled, double& settling) {
-  Fit fit = AtBounds(identifier.fit(input), input.measurements);
-  for (int round = 0; round < kMostRounds && !fit.refusal; ++round) {
-    const Eigen::VectorXd& time = input.measurements.time;
+struct SettledFit {
+  Fit fit;
+  std::optional<Selection> samples{};  // that it rests on, where some had not settled
+  double settling = 0;                 // s, of all rounds
+  std::optional<Fit> sooner{};  // with the samples of the run in which what is left fades away
+};
+
+SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input) {
+  const Eigen::VectorXd& time = input.measurements.time;
+  const auto fit_to = [&](const Selection& samples) {
+    return AtBounds(identifier.fit(input.With(samples)), input.measurements);
+  };
+  SettledFit settled{AtBounds(identifier.fit(input), input.measurements)};
+  Selection before;
+  double more = 0;
+  for (int round = 0; round < kMostRounds && !settled.fit.refusal; ++round) {
+    const Fit& fit = settled.fit;
     // a view that is not the input's has other samples, and rows of means have none of their own
     const bool same = fit.used.keep.size() == time.size() && fit.torque.size() == fit.used.count();
     if (input.view != View::constant_speed || !same) break;
-    const double more = SettlingTime(fit.used, time, fit.residual());
-    if (more == 0) break;
-    settling += more;
-    settled = WithoutSettling(settled.value_or(input.selection), time, more);
-    fit = AtBounds(identifier.fit(input.With(*settled)), input.measurements);
+    const double found = SettlingTime(fit.used, time, fit.residual());
+    if (found == 0) break;
+    more = found;
+    before = settled.samples.value_or(input.selection);
+    settled.samples = WithoutSettling(before, time, more);
+    settled.fit = fit_to(*settled.samples);
+    settled.settling += more;
   }
-  return fit;
+  if (settled.samples) {
+    settled.sooner = fit_to(WithoutSettling(before, time, kShownToSettle * more));
+  }
+  return settled;
+}
+
+/// What is left of a torque that settles moves law and heat by no more than the samples in which it fades away: of an exponential,
+/// and of what fades quicker, less is left behind these than in them.
+Cause SettlingCause(const SettledFit& settled) {
+  Cause cause = OfTheLog(Source::preparation, SaySettling(settled.settling));
+  const std::vector<FitParameter>& rows = settled.fit.parameters;
+  const bool alike = settled.sooner && !settled.sooner->refusal && !settled.fit.refusal &&
+                     settled.sooner->friction.law == settled.fit.friction.law &&
+                     settled.sooner->parameters.size() == rows.size();
+  if (!alike) return cause;
+  std::vector<double> moves;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].estimated || (rows[i].role != Role::law && rows[i].role != Role::heat)) continue;
+    cause.rows.push_back(i);
+    moves.push_back(settled.sooner->parameters[i].value - rows[i].value);
+  }
+  cause.action = Action::widen;
+  cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
+  return cause;
 }
 
 /// The row of a delay of the torque that a fit to motion of any kind does not hold: refuses where that changes the friction too
@@ -204,17 +240,18 @@ IdentifierInput InputOf(const Answer& answer, const Identifier& identifier,
 Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
                    const LackOfFitSettings& judging) {
   Answer answer;
-  double settling = 0;
-  answer.fit = FitSettled(identifier, SelectSamples(identifier, given), answer.settled, settling);
+  SettledFit settled = FitSettled(identifier, SelectSamples(identifier, given));
+  answer.settled = settled.samples;
+  std::optional<Cause> unsettled;
+  if (settled.samples) unsettled = SettlingCause(settled);
+  answer.fit = std::move(settled.fit);
   const IdentifierInput input = InputOf(answer, identifier, given);
   NameOneSpeed(input.measurements, input.selection, answer.fit);
   answer.inferred = Infer(answer.fit);
 
   // what is said about it, and what that leaves of it
   LackOfFit found = FindCauses(identifier, input, judging, answer);
-  if (answer.settled) {
-    found.causes.push_back(OfTheLog(Source::preparation, SaySettling(settling)));
-  }
+  if (unsettled) found.causes.push_back(*std::move(unsettled));
   answer.judged = Apply(answer.inferred, std::move(found.causes));
   answer.judged.diagnostics = std::move(found.diagnostics);
   answer.judged.assumptions =

@@ -22,6 +22,10 @@ namespace warmjoint {
 double SettlingTime(const Selection& used, const Eigen::VectorXd& time,
                     const Eigen::VectorXd& residual);
 
+/// What of a settling time the residual shows beyond chance: behind it a run follows that is half as long as all before, in which
+/// what is left fades away.
+inline constexpr double kShownToSettle = 2.0 / 3;
+
 /// A selection without the samples of each segment that are nearer to its ends than `settling`, s. time: [N] s
 Selection WithoutSettling(Selection selection, const Eigen::VectorXd& time, double settling);
 

@@ -215,8 +215,7 @@ std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
     richest = ColdStructures(FittedGravity::none).front();
     fit = richest.Fitted(input);
   }
-  const auto row = fit.RowOf(Role::delay);
-  if (!row || fit.parameters[*row].name.empty()) return std::nullopt;
+  if (!IsLate(fit)) return std::nullopt;
 
   // the law beside that of a fit without it
   const Fit in_time = richest.With(DelayOption{TorqueDelayFit::none}).Fitted(input);

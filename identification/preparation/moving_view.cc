@@ -244,10 +244,13 @@ FollowedMotion FollowMotion(const Measurements& m, MotionSource source) {
   if (source == MotionSource::positions || m.position_integrated) return followed;
   const auto column = CompareColumn(m);
   if (!column || !(column->IsLate() || column->IsOff())) return followed;
+  // what moves shows without the offset
+  Measurements still = m;
+  if (column->IsOff()) still.velocity.array() -= column->offset;
   // coarse positions tell little of the acceleration: of few samples that move by them
-  LogView by_positions = ViewMotion(m, MotionSource::positions);
+  LogView by_positions = ViewMotion(still, MotionSource::positions);
   const auto moving = static_cast<double>(
-      (by_positions.measurements.velocity.array().abs() > ClearSpeed(m)).count());
+      (by_positions.measurements.velocity.array().abs() > ClearSpeed(still)).count());
   if (static_cast<double>(by_positions.selection.count()) < kFollowed * moving) return followed;
   return {std::move(by_positions), Describe(*column, m.joint)};
 }

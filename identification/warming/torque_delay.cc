@@ -35,6 +35,9 @@ constexpr Index kRows = 5000;  // of a search; why: it only has to find the vall
 constexpr int kBits = 12;      // of its refinement, since steps over all samples follow
 constexpr int kMostRounds = 8;
 constexpr double kArrived = 0.02;  // of the standard error
+// s, over which the model is differentiated; why: noise of an acceleration, over one step of the log, would count as motion
+// and the delay as better known than it is; the derivative of a move as short as half a second loses 2 %
+constexpr double kDifference = 0.06;
 
 LogView ViewOf(const IdentifierInput& given) { return {given.measurements, given.selection}; }
 
@@ -90,10 +93,18 @@ VectorXd TorqueAlong(const Fit& fit, const LogSamples& m) {
   return torque;
 }
 
-/// d tau / d delay of a fit, over a step of the log. [N] N.m/s or N/s
+/// d tau / d delay of a fit, over kDifference where the joint does not turn within that, else over a step of the log. [N] N.m/s or N/s
 VectorXd ByDelay(const Fit& fit, const LogSamples& m, double delay, double step) {
-  const auto at = [&](double one) { return TorqueAlong(fit, Delayed(m, one)); };
-  return (at(delay + step / 2) - at(delay - step / 2)) / step;
+  const auto over = [&](double width, SampleMask* turns) -> VectorXd {
+    const LogSamples late = Delayed(m, delay + width / 2), early = Delayed(m, delay - width / 2);
+    if (turns) *turns = late.velocity.array() * early.velocity.array() <= 0;
+    return (TorqueAlong(fit, late) - TorqueAlong(fit, early)) / width;
+  };
+  const VectorXd by_step = over(step, nullptr);
+  if (step >= kDifference) return by_step;
+  SampleMask turns;
+  const VectorXd smooth = over(kDifference, &turns);
+  return turns.select(by_step, smooth);
 }
 
 /// The rows of a fit and of the delay behind them, as the fit solved them. [n x p + 1]
@@ -126,17 +137,14 @@ void AddDelay(double delay, const VectorXd& by_delay, const MatrixXd& rows, cons
   fit.effective_parameters += 1;
 }
 
-/// Says how late the torque is, beyond chance; else the row has no name.
-void NameDelay(double deviation, const LogSamples& m, Fit& fit) {
-  FitParameter& row = fit.parameters.back();
-  if (std::abs(row.value) > kCertain * deviation) {
-    fit.causes.push_back(Remark(ExplainDelay(row.value, MedianStep(m.time))));
-  } else {
-    row.name.clear();
-  }
-}
-
 }  // namespace
+
+bool IsLate(const Fit& fit) {
+  if (!fit.RowOf(Role::delay)) return false;
+  // the last of the estimated rows
+  const Uncertainty known = CovarianceOf(fit);
+  return std::abs(*fit.torque_delay) > kCertain * known.Deviation(known.covariance.rows() - 1);
+}
 
 bool MayBeLate(const IdentifierInput& given) {
   const auto* option = given.options.Find<DelayOption>();
@@ -169,7 +177,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
       if (round + 1 < kMostRounds) continue;
     }
     if (!delay || !(deviation < std::max(kToldSteps * step, std::abs(*delay) / kCertain))) break;
-    NameDelay(deviation, m, fit);
+    if (IsLate(fit)) fit.causes.push_back(Remark(ExplainDelay(*fit.torque_delay, step)));
     return fit;
   }
   return fit_in_time(given);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "identification/explain.h"
+#include "identification/fit_parameters.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
@@ -18,6 +19,12 @@ namespace {
 /// Whether the parameter repeats others, for a program that steps by the sampling interval.
 bool IsOfOneStep(const EstimatedParameter& one) {
   return one.name == kDiscreteGainName || one.name == kPoleName;
+}
+
+/// Whether the parameter is a delay that the log does not tell from 0.
+bool IsNoDelay(const EstimatedParameter& one) {
+  return one.name == NameOf(Role::delay) && one.interval95 && one.interval95->front() <= 0 &&
+         one.interval95->back() >= 0;
 }
 
 /// Whether only friction at speeds is known, and not this parameter of the law.
@@ -74,7 +81,7 @@ std::string Shortened(const std::string& warning) {
 std::vector<EstimatedParameter> OwnParameters(const Estimate& estimate) {
   std::vector<EstimatedParameter> own;
   for (const EstimatedParameter& one : estimate.parameters) {
-    if (!IsShared(estimate, one) && !IsOfOneStep(one)) own.push_back(one);
+    if (!IsShared(estimate, one) && !IsOfOneStep(one) && !IsNoDelay(one)) own.push_back(one);
   }
   return own;
 }

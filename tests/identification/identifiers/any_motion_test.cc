@@ -12,7 +12,7 @@
 namespace warmjoint {
 namespace {
 
-using ::testing::HasSubstr;
+using ::testing::HasSubstr, ::testing::Not;
 
 using test::Excited, test::kInertia, test::kSine, test::kCosine;
 
@@ -106,8 +106,10 @@ TEST(AnyMotion, ATorqueThatIsLateIsToldWithItsDelay) {
   ASSERT_TRUE(held);
   EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);
 
-  // one that is in time has none to name, and one may be told to leave it out
-  EXPECT_FALSE(AnswerTo("nominal-ls", in_time).Find("torque_delay"));
+  // of one that is in time it is not told from 0, nor named, and one may be told to leave it out
+  const Estimate punctual = AnswerTo("nominal-ls", in_time);
+  ExpectTold(punctual, "torque_delay", 0, 0.1 * step);
+  EXPECT_THAT(punctual.FullMessage(), Not(HasSubstr("late")));
   EXPECT_FALSE(
       AnswerTo("nominal-ls", Late(in_time, 2), {{"gravity", "sincos"}, {"torque_delay", "none"}})
           .Find("torque_delay"));

@@ -116,14 +116,22 @@ TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
 }
 
 TEST(JudgeHeat, FindsATemperatureThatTheLogHolds) {
-  // a room of 20 to 26 degrees, 0.3 N.m for each
-  Measurements m = RecordHour(test::TableOne(), 1);
-  m.temperature = (23 + 3 * (2 * M_PI / 1800 * m.time.array()).sin()).matrix();
-  m.torque.array() -= 0.3 * m.velocity.array().sign() * (m.temperature->array() - 20);
-  const Estimate estimate = Answer("energy-ml", m);
-  EXPECT_EQ(estimate.status, kInadequate);
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on temperature"));
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("record it at a steady temperature"));
+  // a room of 20 to 26 degrees; slope: N.m for each
+  const auto in_room = [](const Friction& friction, double slope) {
+    Measurements m = RecordHour(friction, 1);
+    m.temperature = (23 + 3 * (2 * M_PI / 1800 * m.time.array()).sin()).matrix();
+    m.torque.array() -= slope * m.velocity.array().sign() * (m.temperature->array() - 20);
+    return m;
+  };
+  // about the mean of 23 degrees it is 0.64 N.m rms, 4 % of the friction, or 2.5 N.m, more than the 10 % of --relevance
+  const Estimate slight = Answer("energy-ml", in_room(test::TableOne(), 0.3));
+  const Estimate strong = Answer("nominal-ls", in_room(test::Cold(), 1.2));
+  EXPECT_EQ(slight.status, Status::ok);
+  EXPECT_EQ(strong.status, kInadequate);
+  for (const Estimate& one : {slight, strong}) {
+    EXPECT_THAT(one.FullMessage(), HasSubstr("depends on temperature"));
+    EXPECT_THAT(one.FullMessage(), HasSubstr("record it at a steady temperature"));
+  }
 }
 
 TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {

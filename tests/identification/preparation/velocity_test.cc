@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
@@ -138,9 +139,12 @@ TEST(PreparedLog, RestsOfAColumnWithAnOffsetHoldNoSpeed) {
 TEST(PreparedLog, MotionOfAnyKindTakesThePositionsOfAColumnThatIsOffOrLate) {
   using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
   EXPECT_THAT(Prepare(Moves(0)).moving_warnings(), IsEmpty());
-  const PreparedLog off = Prepare(Moves(0.02));
-  EXPECT_THAT(off.moving_warnings(), ElementsAre(HasSubstr("off by 0.02 rad/s")));
-  EXPECT_LT(std::abs(off.moving().measurements.velocity[150]), 0.01);
+  for (const double offset : {0.02, 0.1}) {
+    const PreparedLog off = Prepare(Moves(offset));
+    EXPECT_THAT(off.moving_warnings(),
+                ElementsAre(HasSubstr(fmt::format("off by {} rad/s", offset))));
+    EXPECT_LT(std::abs(off.moving().measurements.velocity[150]), 0.01);
+  }
   Measurements late = Moves(0);
   const Eigen::VectorXd velocity = late.velocity;
   late.velocity.tail(3998) = velocity.head(3998);

@@ -317,8 +317,13 @@ class Estimate:
         raise _core.BadInput(f"{what} needs the log, and {why}; give it: load(path, log=wj.read(...))")
 
     def _shown(self) -> list[Parameter]:
-        """The parameters without the discrete pair, which repeats gain and time constant."""
-        return [one for name, one in self._rows().items() if name not in ("thermal_gain_discrete", "thermal_pole")]
+        """The parameters without the discrete pair, which repeats gain and time constant, and a delay that the log does not tell from 0."""
+        def is_hidden(one: Parameter) -> bool:
+            if one.name == "torque_delay" and one.ci95:
+                return one.ci95[0] <= 0 <= one.ci95[1]
+            return one.name in ("thermal_gain_discrete", "thermal_pole")
+
+        return [one for one in self._rows().values() if not is_hidden(one)]
 
     def _energies(self, initial: str | float) -> list[float]:
         if isinstance(initial, str):
