@@ -131,7 +131,8 @@ struct PreparedLog::Maker {
     if (const auto step = CoarseStep(measurements, found.selection)) {
       by_positions = ByPositions(measurements, holds);
       if (by_positions->faults.empty()) {
-        return Replacing(*std::move(by_positions), SayCoarse(*step, measurements.joint));
+        by_positions->warnings.push_back(SayCoarse(*step, measurements.joint));
+        return *std::move(by_positions);
       }
     }
     Log log = ByColumn(measurements, found.selection, holds);
@@ -169,17 +170,10 @@ struct PreparedLog::Maker {
     }
     KeepAlso(keep, positions.raw);
     KeepAlso(keep, *positions.constant_speed);
-    return Replacing(std::move(positions),
-                     contradiction +
-                         ": it is filtered, late, scaled or sampled too seldom, and the positions "
-                         "are used instead");
-  }
-
-  /// A log by the positions, which has a velocity column. Said of any view.
-  static Log Replacing(Log by_positions, const std::string& why) {
-    by_positions.raw.measurements.doubts.push_back(why);
-    by_positions.constant_speed->measurements.doubts.push_back(why);
-    return by_positions;
+    positions.warnings.push_back(contradiction +
+                                 ": it is filtered, late, scaled or sampled too seldom, and the "
+                                 "positions are used instead");
+    return positions;
   }
 };
 

@@ -228,6 +228,11 @@ void PreparedLog::MakeMoving(Moving& made) const {
   }
   FollowedMotion followed = FollowMotion(log_->raw.measurements, log_->source);
   made.view = std::move(followed.view);
+  // why positions take the place of a column
+  if (log_->source == MotionSource::positions) {
+    std::ranges::copy_if(log_->warnings, std::back_inserter(made.warnings),
+                         [&](const std::string& one) { return one != log_->absurd; });
+  }
   if (!followed.done.empty()) made.warnings.push_back(std::move(followed.done));
   LeaveOut(log_->left_out, made.view);
 }

@@ -234,7 +234,7 @@ class Convert(unittest.TestCase):
             self.assertIn(words, self.said)
         numpy.savez(self.folder / "log.npz", time=TIME, position=POSITION, torque=TORQUE, phase=1j * TIME, note=numpy.array(["a"] * COUNT), other=TIME[:9])
         self.output.unlink()  # of the sheets
-        self.assertIn("has 9 samples", self.refusal(self.folder / "log.npz", "--map", "time=time,position=other,torque=torque"))
+        self.assertIn("position has 9", self.refusal(self.folder / "log.npz", "--map", "time=time,position=other,torque=torque"))
 
     def test_numbers_as_text_follow_the_rule_of_tables(self):
         book = openpyxl.Workbook()
