@@ -17,6 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kTries = 8;
+constexpr double kShare = 30;  // of the log: what cools faster follows the motion, not its losses
 
 /// E at unit gain by given losses, times the direction of friction. loss: [N]
 VectorXd HeatColumn(const JointColumns& c, const VectorXd& loss, double tau) {
@@ -62,10 +63,11 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   const VectorXd level = c.sign.cwiseProduct(friction.force).cwiseMax(0.0);
   const VectorXd loss = c.velocity.cwiseAbs().cwiseProduct(level);
 
+  const double shortest = length / kShare;
   HeatGuess best;
   double blocks = 1;
   for (int i = 0; i < kTries; ++i) {
-    const double tau = length / 30 * std::pow(30.0, i / (kTries - 1.0));
+    const double tau = shortest * std::pow(kShare, i / (kTries - 1.0));
     const VectorXd z = rest_of(Kept(HeatColumn(c, loss, tau), used));
     const double squares = z.squaredNorm();
     if (!(squares > 0)) continue;
@@ -81,10 +83,11 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
     const auto count = static_cast<double>(scores.size());
     const double wald = k * squares / std::sqrt(sum * count / std::max(count - 1, 1.0));
     if (std::abs(wald) <= std::abs(best.deviations)) continue;
-    best = {false, wald, k, tau, 0};
+    best = {false, wald, k, tau, 0, 0};
     blocks = count;
   }
   const double level_of_one = q.error_level / kTries / std::max(q.joints, 1);
+  best.shortest = shortest;
   // friction that falls, to one side
   best.limit = StudentQuantile(std::max(blocks - 1, 1.0), 1 - 2 * level_of_one);
   best.warms = best.deviations < -best.limit;

@@ -14,6 +14,7 @@ struct HeatGuess {
   double gain = 0;           // N.m/W or N/W
   double time_constant = 1;  // s
   double limit = 0;          // deviations below 0 from which it warms
+  double shortest = 0;       // s, of the time constants that were tried
 };
 
 /// The gain of E by the losses of the cold fit, by least squares beside all its columns, for eight time constants from a thirtieth of the

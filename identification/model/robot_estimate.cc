@@ -24,6 +24,7 @@ Tree RobotEstimateToTree(const RobotEstimate& robot, const std::filesystem::path
   tree["robot"] = robot.robot;
   tree["log"] = robot.log;
   tree["notices"] = robot.notices;
+  tree["payload"] = robot.payload ? WriteFields(EstimatedParameter(*robot.payload)) : Tree();
   tree["summary"] = std::move(summary);
   tree["joints"] = std::move(joints);
   return tree;
@@ -55,6 +56,10 @@ RobotEstimate ReadRobotEstimate(const std::filesystem::path& file) {
     for (const Node& entry : list->Entries("give texts")) found.push_back(entry.Text());
     return found;
   };
+  if (const auto load = node.Find("payload")) {
+    robot.payload = ReadAs<EstimatedParameter>(*load);
+    robot.payload->name = "payload";
+  }
   if (const auto name = node.Find("robot")) robot.robot = name->Text();
   robot.log = texts("log");
   robot.notices = texts("notices");

@@ -25,6 +25,8 @@ constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor 
 constexpr double kLoadSpread = .2;
 /// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
 constexpr double kRippleShare = .2;
+/// Share of the log, at its end, that a further mechanism has to predict.
+constexpr double kUnseen = .4;
 
 std::string UnitFor(const JointUnit& unit, const JointColumns& c) {
   // a viscous friction of a current is A.s/rad
@@ -202,6 +204,22 @@ void FindBeyond(const JointColumns& c, JointFit& fit) {
   }
 }
 
+/// Mean square on the last part of the log by a fit of the first, from the given fit on.
+double HeldOutSquare(const JointFit& fit, const JointColumns& c) {
+  ModelSamples train = c.samples;
+  const Index tail = static_cast<Index>(kUnseen * static_cast<double>(c.velocity.size()));
+  train.keep.tail(tail) = false;
+  Selection test{c.samples.keep, {}};
+  test.keep.head(c.velocity.size() - tail) = false;
+  return Kept(FitAgain(fit, c, train).residual, test).squaredNorm();
+}
+
+/// Whether a further mechanism predicts what it has not seen no worse than the fit without it: what a log shows by chance, or in place of
+/// something else that the model lacks, does not go on.
+bool Predicts(const JointFit& further, const JointFit& without, const JointColumns& c) {
+  return HeldOutSquare(further, c) <= HeldOutSquare(without, c);
+}
+
 }  // namespace
 
 GainGuess GuessGain(const JointColumns& c) {
@@ -235,7 +253,9 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
     const Index rise = slow.at.law.end() - 1;
     const double reach =
         StudentQuantile(slow.known.degrees_of_freedom, 1 - q.error_level / q.joints);
-    if (slow.Value(rise) > reach * slow.Deviation(rise)) fit = std::move(slow);
+    if (slow.Value(rise) > reach * slow.Deviation(rise) && Predicts(slow, fit, c)) {
+      fit = std::move(slow);
+    }
   }
   if (q.warms) {
     const HeatGuess heat = FindHeat(c, fit, q);
@@ -245,9 +265,11 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       AddHeat(c, heat, warm);
       SolveOn(c, warm);
       warm.known = CovarianceOf(warm.model, c.samples, warm.solved);
-      // the fit has to say the same
+      // the fit has to say the same, within the time constants that were tried
       const Index gain = warm.at.heat->begin;
-      if (warm.Value(gain) < -heat.limit * warm.Deviation(gain)) fit = std::move(warm);
+      const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&
+                           warm.Value(gain + 1) >= std::log(heat.shortest);
+      if (is_told && Predicts(warm, fit, c)) fit = std::move(warm);
     }
   }
   FindBeyond(c, fit);

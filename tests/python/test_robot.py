@@ -96,10 +96,18 @@ def test_a_turned_torque_is_named_and_fitted(wrong, log):
 
 
 def test_no_load_is_claimed_where_there_is_none_and_an_unknown_one_is_taken_in(wrong, log):
-    assert not [one for one in wj.identify_robot(wrong, log).notices if "a load" in one]
+    unloaded = wj.identify_robot(wrong, log)
+    assert unloaded.payload is None and not [one for one in unloaded.notices if "a load" in one]
+    lower, upper = wj.identify_robot(wrong, log, tool="unknown").payload.ci95
+    assert lower < 0 < upper
     model = mujoco.MjModel.from_xml_string(ARM)
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    loaded = wj.identify_robot(wrong, log_of(model, payload=3), tool="unknown")
+    heavy = log_of(model, payload=3)
+    lower, upper = wj.identify_robot(wrong, heavy).payload.ci95
+    assert lower < 3 < upper and upper - lower < 3
+    loaded = wj.identify_robot(wrong, heavy, tool="unknown")
+    lower, upper = loaded.payload.ci95
+    assert lower < 3 < upper
     for j, (name, estimate) in enumerate(loaded.items()):
         assert estimate.ok, f"{name}: {estimate.message}"
         assert abs(estimate["viscous"].value - VISCOUS[j]) < 4 * estimate["viscous"].std

@@ -1,9 +1,9 @@
 """How often intervals of identify-robot hold the truth, on logs of a robot whose description is wrong by a tenth.
 
-    robot_wrong_inertials.py PROGRAM ROBOT.xml REALIZATIONS OUT.json [OPTION of identify-robot]...
+    robot_wrong_inertials.py PROGRAM ROBOT.xml fourier|moves REALIZATIONS OUT.json [OPTION of identify-robot]...
 
-Aim: coverage of 95 % intervals and rms error over the reported deviation, by parameter. Data: 20 minutes at 100 Hz, sums of four sines a
-joint; rigid torque of the true robot by mj_inverse, friction with load (gravity and Coriolis) and warming, white noise; masses, places and
+Aim: coverage of 95 % intervals and rms error over the reported deviation, by parameter, with the description as prior and, as peers take it
+(least squares), as true. Data: 20 minutes at 100 Hz, sums of four sines a joint, or moves between six places with rests; rigid torque of the true robot by mj_inverse, friction with load (gravity and Coriolis) and warming, white noise; masses, places and
 inertias of the description are off by 10 % each. One joint does not warm. No engine steps: nothing but the noise and the description is wrong.
 Prints each kind of parameter with the p of an exact binomial test against 95 %; failures count as such.
 """
@@ -20,10 +20,19 @@ import numpy as np
 STEP = .01  # s
 
 
-def motion(k, n):
+METHODS = {"the description as prior": [], "least squares with the description as true": ["--inertials", "exact"]}
+
+
+def motion(kind, k, n):
     random = np.random.default_rng(k)
     t = np.arange(0, 1200, STEP)
     centre = np.resize([0, -1.5, 1.5, -1.5, -1.5, 0], n)
+    if kind == "moves":  # 2 s from place to place by a cosine, .6 s of rest
+        places = centre + random.uniform(-.8, .8, (6, n))
+        i, x = np.divmod(t, 2.6)
+        x, i = np.clip(x / 2, 0, 1)[:, None], i.astype(int)
+        way, w = places[(i + 1) % 6] - places[i % 6], np.pi / 2 * (x < 1)
+        return t, places[i % 6] + way * (.5 - .5 * np.cos(np.pi * x)), way * .5 * w * np.sin(np.pi * x), way * .5 * w**2 * np.cos(np.pi * x)
     w, a, p = 2 * np.pi * random.uniform(.03, .25, (4, n)), random.uniform(.05, .35, (4, n)), random.uniform(0, 6.28, (4, n))
     q, v, acc = (sum(a[i] * w[i] ** m * np.sin(np.outer(t, w[i]) + p[i] + m * np.pi / 2) for i in range(4)) for m in range(3))
     return t, q + centre, v, acc
@@ -71,49 +80,69 @@ def friction(truth, v, carried):
     return force
 
 
-def main():
-    program, robot, count, out, *options = sys.argv[1:]
+class Count:
+    """What one method answers, beside the truth."""
+
+    def __init__(self):
+        self.found, self.claimed, self.warm, self.failed = {}, 0, 0, 0
+
+    def add(self, answer, truth):
+        for j, estimate in enumerate(answer["joints"].values()):
+            parameters = estimate["parameters"]
+            self.failed += estimate["status"] != "ok"
+            warms = truth["thermal_gain"][j] != 0
+            self.warm += warms and "thermal_gain" in parameters
+            self.claimed += not warms and "thermal_gain" in parameters
+            for key, value in (*((key, one[j]) for key, one in truth.items()), ("gain", 1)):
+                one = parameters.get(key)
+                if one and one["interval95"] and (warms or not key.startswith("thermal")):
+                    lower, upper = one["interval95"]
+                    self.found.setdefault(key, []).append((lower <= value <= upper, (one["value"] - value) / one["std"]))
+
+    def report(self):
+        report = {"not ok": self.failed, "warming found": self.warm, "warming claimed falsely": self.claimed}
+        for key, rows in self.found.items():
+            held = [one[0] for one in rows]
+            report[key] = {"of": len(held), "coverage": float(np.mean(held)), "rms over deviation": float(np.sqrt(np.mean([one[1] ** 2 for one in rows]))),
+                           "p": _binomial(sum(held), len(held), .95)}
+        return report
+
+
+def simulate(robot, kind, seed, motions):
+    """Time, positions, torques, the wrong description and the truth of one realization."""
     n = passive(robot).nv
-    motions, found, claimed, warm, failed = {}, {}, 0, 0, 0
+    if seed % 3 not in motions:
+        t, q, v, acc = motion(kind, seed % 3, n)
+        motions[seed % 3] = (t, q, v, acc, *torques(passive(robot), q, v, acc))
+    t, q, v, acc, rigid, carried = motions[seed % 3]
+    truth, random = draw(seed, n)
+    wrong = passive(robot)
+    wrong.body_mass[:] *= 1 + .1 * random.standard_normal(wrong.nbody)
+    wrong.body_ipos[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 3))
+    wrong.body_inertia[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 1))
+    noise = np.where(np.arange(n) < n // 2, .5, .15)
+    torque = rigid + truth["rotor_inertia"] * acc + friction(truth, v, carried) + noise * random.standard_normal(v.shape)
+    return t, q, torque, wrong, truth
+
+
+def main():
+    program, robot, kind, count, out, *options = sys.argv[1:]
+    motions, counts = {}, {name: Count() for name in METHODS}
     for seed in range(1, int(count) + 1):
-        if seed % 3 not in motions:
-            t, q, v, acc = motion(seed % 3, n)
-            motions[seed % 3] = (t, q, v, acc, *torques(passive(robot), q, v, acc))
-        t, q, v, acc, rigid, carried = motions[seed % 3]
-        truth, random = draw(seed, n)
-        wrong = passive(robot)
-        wrong.body_mass[:] *= 1 + .1 * random.standard_normal(wrong.nbody)
-        wrong.body_ipos[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 3))
-        wrong.body_inertia[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 1))
-        noise = np.where(np.arange(n) < n // 2, .5, .15)
-        torque = rigid + truth["rotor_inertia"] * acc + friction(truth, v, carried) + noise * random.standard_normal(v.shape)
+        t, q, torque, wrong, truth = simulate(robot, kind, seed, motions)
+        n = q.shape[1]
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             mujoco.mj_saveModel(wrong, str(folder / "robot.mjb"))
             header = ",".join(["time", *(f"q{j}" for j in range(n)), *(f"torque{j}" for j in range(n))])
             np.savetxt(folder / "log.csv", np.column_stack([t, q, torque]), delimiter=",", header=header, comments="", fmt="%.9g")
-            subprocess.run([program, "identify-robot", folder / "robot.mjb", folder / "log.csv", "-o", folder / "robot.json", *options],
-                           capture_output=True, check=False)
-            answer = json.loads((folder / "robot.json").read_text())
-        for j, estimate in enumerate(answer["joints"].values()):
-            parameters = estimate["parameters"]
-            failed += estimate["status"] != "ok"
-            if truth["thermal_gain"][j] == 0:
-                claimed += "thermal_gain" in parameters
-            else:
-                warm += "thermal_gain" in parameters
-            for key, value in (*((key, one[j]) for key, one in truth.items()), ("gain", 1)):
-                one = parameters.get(key)
-                if one and one["interval95"] and (truth["thermal_gain"][j] or not key.startswith("thermal")):
-                    lower, upper = one["interval95"]
-                    found.setdefault(key, []).append((lower <= value <= upper, (one["value"] - value) / one["std"]))
+            for method, own in METHODS.items():
+                subprocess.run([program, "identify-robot", folder / "robot.mjb", folder / "log.csv", "-o", folder / "robot.json", *own, *options],
+                               capture_output=True, check=False)
+                counts[method].add(json.loads((folder / "robot.json").read_text()), truth)
+        report = {"robot": robot, "motion": kind, "realizations": seed, **{name: one.report() for name, one in counts.items()}}
+        pathlib.Path(out).write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
         print(f"{seed} of {count}", flush=True)
-    report = {"robot": robot, "realizations": int(count), "joints": n, "not ok": failed, "warming found": warm, "warming claimed falsely": claimed}
-    for key, rows in found.items():
-        held = [one[0] for one in rows]
-        report[key] = {"of": len(held), "coverage": float(np.mean(held)), "rms over deviation": float(np.sqrt(np.mean([one[1] ** 2 for one in rows]))),
-                       "p": _binomial(sum(held), len(held), .95)}
-    pathlib.Path(out).write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
     print(json.dumps(report, indent=2))
 
 

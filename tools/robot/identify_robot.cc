@@ -2,15 +2,12 @@
 #include <warmjoint/identify_robot.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 #include "identification/model/explain_robot.h"
 #include "identification/model/report_joint.h"
+#include "tools/robot/at_once.h"
 #include "tools/robot/find_faults.h"
 #include "tools/robot/joint_data.h"
 #include "tools/robot/payload.h"
@@ -20,31 +17,6 @@ namespace warmjoint {
 namespace {
 
 using Eigen::Index;
-
-/// Does it for 0, ..., count - 1, several at once.
-template <typename Work>
-void ForEachAtOnce(Index count, const Work& work) {
-  std::atomic<Index> next{0};
-  std::exception_ptr thrown;
-  std::mutex one;
-  const auto run = [&] {
-    for (Index i; (i = next++) < count;) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard lock(one);
-        if (!thrown) thrown = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    const Index threads = std::clamp<Index>(std::thread::hardware_concurrency(), 1, 8);
-    for (Index i = 1; i < std::min(threads, count); ++i) others.emplace_back(run);
-    run();
-  }
-  if (thrown) std::rethrow_exception(thrown);
-}
 
 /// The middle gain of the joints that know theirs; 1 where none does.
 double MiddleGain(const std::vector<GainGuess>& guesses) {
@@ -120,7 +92,8 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   tell("rigid torque along the motion");
   RobotRows rows = MakeRows(data, settings);
   const bool is_asked = settings.tool.known == ToolKnown::unknown;
-  if (is_asked) rows.deviations = FreeLastLink(data, rows.deviations);
+  const Eigen::VectorXd described = rows.deviations;
+  if (is_asked) rows.deviations = FreeLastLink(data, described);
 
   const Index n = std::ssize(data.robot.joints);
   std::vector<Joint> joints(static_cast<std::size_t>(n));
@@ -165,15 +138,17 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   });
 
   // a load that nobody told
-  if (settings.tool.known != ToolKnown::none) return answer;
+  if (settings.tool.known == ToolKnown::given || settings.inertials == 0) return answer;
   tell("looking for a load");
   std::vector<Index> fitted;
   for (Index j = 0; j < n; ++j) {
     if (joints[static_cast<std::size_t>(j)].nothing.empty()) fitted.push_back(j);
   }
-  if (fitted.empty() || settings.inertials == 0) return answer;
+  if (fitted.empty()) return answer;
+  rows.deviations = described;
   const Payload payload = FindPayload(data, rows, guesses, fitted, question);
-  if (payload.is_shown) answer.notices.push_back(ExplainPayload(payload));
+  if (payload.is_shown) answer.notices.push_back(ExplainPayload(payload, settings.tool.known));
+  if (payload.is_shown || is_asked) answer.payload = payload.mass;
   return answer;
 }
 

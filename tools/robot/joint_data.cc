@@ -78,7 +78,8 @@ RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
   return rows;
 }
 
-JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j) {
+JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
+                       Directions directions) {
   const auto joint = static_cast<std::size_t>(j);
   JointColumns c;
   c.joint = data.robot.joints[joint].name;
@@ -120,7 +121,8 @@ JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j) {
     return Stacked(rows, [&](std::size_t i) { return rows.motions[i].Regressor(weights, which); });
   };
   const MatrixXd y = regressor(Accelerations::counted), still = regressor(Accelerations::left_out);
-  const MatrixXd basis = DirectionsSeen(y, rows.deviations).basis;
+  const MatrixXd basis = directions == Directions::seen ? DirectionsSeen(y, rows.deviations).basis
+                                                        : MatrixXd(rows.deviations.asDiagonal());
   c.rigid = {y * rows.parameters, y * basis};
   c.carried = {still * rows.parameters, still * basis};
   return c;

@@ -20,8 +20,12 @@ struct RobotRows {
 
 RobotRows MakeRows(const RobotData& data, const RobotSettings& settings);
 
+/// What the prior of a description is turned to: what the torque of the joint sees, or a direction for each parameter, the same for all joints.
+enum class Directions { seen, parameters };
+
 /// Columns of joint (motor) j. The rows of several logs stand one behind the other.
-JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Eigen::Index j);
+JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Eigen::Index j,
+                       Directions directions = Directions::seen);
 
 /// The link at the end: the last of those that most joints move.
 Eigen::Index LastLink(const RobotDescription& robot);

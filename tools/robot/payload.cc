@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "identification/model/report_joint.h"
+#include "identification/model/shared_directions.h"
+#include "identification/uncertainty/tails.h"
+#include "tools/robot/at_once.h"
 
 namespace warmjoint {
 namespace {
@@ -70,6 +75,35 @@ VectorXd FreeLastLink(const RobotData& data, const VectorXd& deviations) {
   return free;
 }
 
+namespace {
+
+/// Mass of the load: what the last link has beyond what the description may have wrong. free: deviations with a free last link
+EstimatedParameter MassOf(const RobotData& data, const VectorXd& described, const VectorXd& free,
+                          const SharedDirections& shared) {
+  const Index at = 10 * LastLink(data.robot);  // the mass of that link
+  const double own = described[at] * described[at], all = free[at] * free[at];
+  // of two normal parts of one sum: the load's share, and what stays open between both
+  const double share = 1 - own / all;
+  const double variance = share * share * all * shared.covariance(at, at) + own * share;
+  EstimatedParameter mass{.name = "payload",
+                          .value = share * free[at] * shared.z[at],
+                          .unit = "kg",
+                          .std = std::sqrt(variance),
+                          .interval95 = {}};
+  const double reach = StudentQuantile(shared.degrees_of_freedom, kIntervalLevel) * *mass.std;
+  mass.interval95 = {{mass.value - reach, mass.value + reach}};
+  return mass;
+}
+
+/// A joint with the last link free, and by what its held-out residual falls; nothing where too little is left to hold out.
+struct Loaded {
+  JointColumns columns;
+  JointFit fit;
+  std::optional<double> falls;
+};
+
+}  // namespace
+
 Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Index>& joints,
                     JointQuestion question) {
@@ -77,33 +111,43 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   const RobotRows as_given = Thinned(data, rows);
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
-  Payload payload;
-  bool rises = false;
-  for (const Index j : joints) {
+  std::vector<Loaded> loaded(joints.size());
+  ForEachAtOnce(std::ssize(joints), [&](Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Index j = joints[at];
     const GainGuess& guess = guesses[static_cast<std::size_t>(j)];
     const JointColumns given = ColumnsOf(data, as_given, j);
-    const JointColumns loaded = ColumnsOf(data, free, j);
-    const JointFit without = FitJoint(given, guess, question),
-                   with = FitJoint(loaded, guess, question);
-    const auto before = HoldOutJoint(without, given, kHeldOut),
-               after = HoldOutJoint(with, loaded, kHeldOut);
-    if (!before || !after) continue;
-    const double falls = after->metrics.rmse / before->metrics.rmse;
-    payload.falls = std::min(payload.falls, falls);
-    rises = rises || falls > kHarms;
-  }
+    Loaded& one = loaded[at];
+    one.columns = ColumnsOf(data, free, j, Directions::parameters);
+    one.fit = FitJoint(one.columns, guess, question);
+    const auto before = HoldOutJoint(FitJoint(given, guess, question), given, kHeldOut),
+               after = HoldOutJoint(one.fit, one.columns, kHeldOut);
+    if (before && after) one.falls = after->metrics.rmse / before->metrics.rmse;
+  });
 
+  Payload payload;
+  bool rises = false;
+  std::vector<JointFit> fits;
+  std::vector<JointColumns> columns;
+  for (Loaded& one : loaded) {
+    if (one.falls) payload.falls = std::min(payload.falls, *one.falls);
+    rises = rises || one.falls > kHarms;
+    fits.push_back(std::move(one.fit));
+    columns.push_back(std::move(one.columns));
+  }
   payload.is_shown = payload.falls < kHelps && !rises;
+  payload.mass = MassOf(data, rows.deviations, free.deviations, FitShared(fits, columns));
   return payload;
 }
 
-std::string ExplainPayload(const Payload& payload) {
-  return fmt::format(
-      "the log shows a load at the last link that the description lacks: with that link free a "
-      "joint's held-out residual falls to {:.0f} %. --tool unknown takes it in, --tool "
-      "mass=..,com=.. "
-      "where it is known",
-      100 * payload.falls);
+std::string ExplainPayload(const Payload& payload, ToolKnown tool) {
+  const auto& [lower, upper] = *payload.mass.interval95;
+  std::string text = fmt::format(
+      "the log shows a load at the last link that the description lacks, {:.2g} kg ({:.2g} to "
+      "{:.2g}): with that link free a joint's held-out residual falls to {:.0f} %",
+      payload.mass.value, lower, upper, 100 * payload.falls);
+  if (tool == ToolKnown::unknown) return text;
+  return text + ". --tool unknown takes it in, --tool mass=..,com=.. where it is known";
 }
 
 }  // namespace warmjoint

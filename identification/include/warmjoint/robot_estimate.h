@@ -68,12 +68,15 @@ struct RobotEstimate {
   std::vector<std::string> log;            // files
   std::vector<RobotJointEstimate> joints;  // in the order of the log
   std::vector<std::string> notices;        // one sentence each
+  /// Mass of the load at the last link that the description lacks, kg; where one is shown or asked for.
+  std::optional<EstimatedParameter> payload{};
 
   /// The joint of that name, or nullptr.
   const RobotJointEstimate* Find(std::string_view joint) const;
 };
 
-/// {joints{NAME: an estimate}, summary{NAME: ...}, robot, log, notices[]}, and the inverse. Throws BadInput.
+/// {joints{NAME: an estimate}, summary{NAME: ...}, robot, log, notices[], payload: null or {value, unit, std, interval95}}, and the
+/// inverse. Throws BadInput.
 std::string RobotEstimateToJson(const RobotEstimate& robot,
                                 const std::filesystem::path& target = {});
 RobotEstimate ReadRobotEstimate(const std::filesystem::path& file);

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from warmjoint import _core
 from warmjoint.engine import _engine
-from warmjoint.estimate import Estimate
+from warmjoint.estimate import Estimate, Parameter
 from warmjoint.friction import Friction
 
 Numbers = float | Mapping[str, float]
@@ -48,6 +48,14 @@ class RobotEstimate(Mapping[str, Estimate]):
         """{joint: {"torque_unit", "travel", "top_speed", "minutes", "gain", "gain_is_known", "rms_held_out", "rms_moving",
         "rms_without_friction"}}, torques in the log's unit."""
         return dict(self.data["summary"])
+
+    @property
+    def payload(self) -> Parameter | None:
+        """Mass of the load at the last link that the description lacks, kg; None where none is shown and tool="unknown" is not given."""
+        one = self.data.get("payload")
+        if not one:
+            return None
+        return Parameter("payload", one["value"], one["unit"], one["std"], tuple(one["interval95"]) if one["interval95"] else None)
 
     @property
     def frictions(self) -> dict[str, Friction]:
