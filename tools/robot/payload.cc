@@ -21,7 +21,6 @@ using Eigen::VectorXd;
 constexpr double kShare =
     .2;  // of the mass that moves, and of the reach: what arms are built to carry
 constexpr double kHelps = 2.0 / 3;  // of the residual
-constexpr double kHarms = 1.1;
 constexpr double kHeldOut = .4;
 constexpr Index kMostRows =
     5000;  // why: inertials are told by the poses, of which a log has far fewer
@@ -126,16 +125,18 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   });
 
   Payload payload;
-  bool rises = false;
+  double falls_of_all = 0;  // logarithm
   std::vector<JointFit> fits;
   std::vector<JointColumns> columns;
   for (Loaded& one : loaded) {
-    if (one.falls) payload.falls = std::min(payload.falls, *one.falls);
-    rises = rises || one.falls > kHarms;
+    if (one.falls) {
+      payload.falls = std::min(payload.falls, *one.falls);
+      falls_of_all += std::log(*one.falls);
+    }
     fits.push_back(std::move(one.fit));
     columns.push_back(std::move(one.columns));
   }
-  payload.is_shown = payload.falls < kHelps && !rises;
+  payload.is_shown = payload.falls < kHelps && falls_of_all < std::log(kHelps);
   payload.mass = MassOf(data, rows.deviations, free.deviations, FitShared(fits, columns));
   return payload;
 }

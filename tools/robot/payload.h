@@ -22,7 +22,7 @@ struct Payload {
 Eigen::VectorXd FreeLastLink(const RobotData& data, const Eigen::VectorXd& deviations);
 
 /// Fits each joint with and without a free last link, and compares them on held-out samples: a load is shown where the residual of one joint falls
-/// by a third and none rises by a tenth. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
+/// by a third, and the product of all joints' as well. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
 Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Eigen::Index>& joints,
                     JointQuestion question);
