@@ -92,7 +92,7 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   tell("rigid torque along the motion");
   RobotRows rows = MakeRows(data, settings);
   const bool is_asked = settings.tool.known == ToolKnown::unknown;
-  const Eigen::VectorXd described = rows.deviations;
+  const Eigen::MatrixXd described = rows.deviations;
   if (is_asked) rows.deviations = FreeLastLink(data, described);
 
   const Index n = std::ssize(data.robot.joints);

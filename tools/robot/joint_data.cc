@@ -42,6 +42,18 @@ InertialParameters PointMass(double mass, const std::vector<double>& at) {
   return p;
 }
 
+/// The prior of a description that is wrong by a factor of e in mass, place of the mass and inertia. A link of another mass, equal in shape, has all ten
+/// parameters in proportion.
+MatrixXd SpreadOf(const RobotDescription& robot) {
+  MatrixXd spread = robot.Spreads().asDiagonal();
+  for (Index at = 0; const RobotLink& link : robot.links) {
+    spread.block<10, 1>(at, at) +=
+        link.parameters - Eigen::Matrix<double, 10, 1>::Unit(0) * link.parameters[0];
+    at += 10;
+  }
+  return spread;
+}
+
 }  // namespace
 
 Index LastLink(const RobotDescription& robot) {
@@ -70,7 +82,7 @@ RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
     rows.motions.emplace_back(data.robot, s.joint_position, s.joint_velocity, s.joint_acceleration);
   }
   rows.parameters = data.robot.Parameters();
-  rows.deviations = settings.inertials * data.robot.Spreads();
+  rows.deviations = settings.inertials * SpreadOf(data.robot);
   if (settings.tool.known == ToolKnown::given) {
     rows.parameters.segment<10>(10 * LastLink(data.robot)) +=
         PointMass(settings.tool.mass, settings.tool.centre);
@@ -121,8 +133,10 @@ JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
     return Stacked(rows, [&](std::size_t i) { return rows.motions[i].Regressor(weights, which); });
   };
   const MatrixXd y = regressor(Accelerations::counted), still = regressor(Accelerations::left_out);
-  const MatrixXd basis = directions == Directions::seen ? DirectionsSeen(y, rows.deviations).basis
-                                                        : MatrixXd(rows.deviations.asDiagonal());
+  MatrixXd basis = rows.deviations;
+  if (directions == Directions::seen) {
+    basis *= DirectionsSeen(y * basis, VectorXd::Ones(basis.cols())).basis;
+  }
   c.rigid = {y * rows.parameters, y * basis};
   c.carried = {still * rows.parameters, still * basis};
   return c;

@@ -15,13 +15,15 @@ struct RobotRows {
   std::vector<RobotSamples> samples;  // one for each log
   std::vector<RobotMotion> motions;
   Eigen::VectorXd parameters;  // [10 L] of the description, a given tool included
-  Eigen::VectorXd deviations;  // [10 L] of its prior
+  /// [10 L x 10 L] what a deviation of 1 in each direction of the prior adds to the parameters, a block a link: all ten with its mass, then
+  /// the place of the mass (3), inertia (6).
+  Eigen::MatrixXd deviations;
 };
 
 RobotRows MakeRows(const RobotData& data, const RobotSettings& settings);
 
-/// What the prior of a description is turned to: what the torque of the joint sees, or a direction for each parameter, the same for all joints.
-enum class Directions { seen, parameters };
+/// What the prior of a description is turned to: what the torque of the joint sees, or all directions, the same for all joints.
+enum class Directions { seen, all };
 
 /// Columns of joint (motor) j. The rows of several logs stand one behind the other.
 JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Eigen::Index j,

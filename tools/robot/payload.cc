@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -56,8 +57,12 @@ RobotRows Thinned(const RobotData& data, const RobotRows& rows) {
 
 }  // namespace
 
-VectorXd FreeLastLink(const RobotData& data, const VectorXd& deviations) {
-  const RobotDescription& robot = data.robot;
+namespace {
+
+using LinkMatrix = Eigen::Matrix<double, 10, 10>;
+
+/// Deviations of a load at the last link, about none: a fifth of all that moves, within a fifth of the reach.
+InertialParameters LoadSpread(const RobotDescription& robot) {
   double mass = 0, reach = 0;
   for (const RobotLink& link : robot.links) {
     mass += link.parameters[0];
@@ -68,24 +73,39 @@ VectorXd FreeLastLink(const RobotData& data, const VectorXd& deviations) {
   InertialParameters load;
   load << mass, Eigen::Vector3d::Constant(mass * size),
       Eigen::Matrix<double, 6, 1>::Constant(mass * size * size);
-  VectorXd free = deviations;
-  const Index at = 10 * LastLink(robot);
-  free.segment<10>(at) = (free.segment<10>(at).cwiseAbs2() + load.cwiseAbs2()).cwiseSqrt();
+  return load;
+}
+
+}  // namespace
+
+MatrixXd FreeLastLink(const RobotData& data, const MatrixXd& deviations) {
+  const Index at = 10 * LastLink(data.robot);
+  const LinkMatrix own = deviations.block<10, 10>(at, at);
+  const InertialParameters load = LoadSpread(data.robot);
+  LinkMatrix covariance = own * own.transpose();
+  covariance.diagonal() += load.cwiseAbs2();
+  MatrixXd free = deviations;
+  free.block<10, 10>(at, at) = covariance.llt().matrixL();
   return free;
 }
 
 namespace {
 
-/// Mass of the load: what the last link has beyond what the description may have wrong. free: deviations with a free last link
-EstimatedParameter MassOf(const RobotData& data, const VectorXd& described, const VectorXd& free,
+/// Mass of the load: what the last link has beyond what the description may have wrong. described, free: [10 L x 10 L] deviations
+EstimatedParameter MassOf(const RobotData& data, const MatrixXd& described, const MatrixXd& free,
                           const SharedDirections& shared) {
-  const Index at = 10 * LastLink(data.robot);  // the mass of that link
-  const double own = described[at] * described[at], all = free[at] * free[at];
-  // of two normal parts of one sum: the load's share, and what stays open between both
-  const double share = 1 - own / all;
-  const double variance = share * share * all * shared.covariance(at, at) + own * share;
+  const Index at = 10 * LastLink(data.robot);
+  const LinkMatrix own = described.block<10, 10>(at, at), all = free.block<10, 10>(at, at);
+  // of two normal parts of one sum: the load's mass by that sum, and what stays open between both
+  const double prior = std::pow(LoadSpread(data.robot)[0], 2);
+  const InertialParameters share =
+      prior * InverseScaled(all * all.transpose()).col(0);  // of the link's ten
+  const InertialParameters of_z = all.transpose() * share;
+  const double open = share.dot(own * own.transpose() * InertialParameters::Unit(0));
+  const double variance =
+      of_z.dot(shared.covariance.block<10, 10>(at, at) * of_z) + std::max(open, 0.0);
   EstimatedParameter mass{.name = "payload",
-                          .value = share * free[at] * shared.z[at],
+                          .value = of_z.dot(shared.z.segment<10>(at)),
                           .unit = "kg",
                           .std = std::sqrt(variance),
                           .interval95 = {}};
@@ -117,7 +137,7 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     const GainGuess& guess = guesses[static_cast<std::size_t>(j)];
     const JointColumns given = ColumnsOf(data, as_given, j);
     Loaded& one = loaded[at];
-    one.columns = ColumnsOf(data, free, j, Directions::parameters);
+    one.columns = ColumnsOf(data, free, j, Directions::all);
     one.fit = FitJoint(one.columns, guess, question);
     const auto before = HoldOutJoint(FitJoint(given, guess, question), given, kHeldOut),
                after = HoldOutJoint(one.fit, one.columns, kHeldOut);

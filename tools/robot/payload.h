@@ -18,8 +18,8 @@ struct Payload {
   EstimatedParameter mass;  // kg, with its interval, of all joints together
 };
 
-/// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L]
-Eigen::VectorXd FreeLastLink(const RobotData& data, const Eigen::VectorXd& deviations);
+/// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L x 10 L]
+Eigen::MatrixXd FreeLastLink(const RobotData& data, const Eigen::MatrixXd& deviations);
 
 /// Fits each joint with and without a free last link, and compares them on held-out samples: a load is shown where the residual of one joint falls
 /// by a third, and the product of all joints' as well. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
