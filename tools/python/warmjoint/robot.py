@@ -55,7 +55,8 @@ class RobotEstimate(Mapping[str, Estimate]):
         one = self.data.get("payload")
         if not one:
             return None
-        return Parameter("payload", one["value"], one["unit"], one["std"], tuple(one["interval95"]) if one["interval95"] else None)
+        lower, upper = one["interval95"]
+        return Parameter("payload", one["value"], one["unit"], one["std"], (lower, upper))
 
     @property
     def frictions(self) -> dict[str, Friction]:
