@@ -21,7 +21,7 @@ PictureFormat PictureFormatOf(const std::string& path) {
   Refuse({path}, "pictures end in .png, .svg or .pdf, not in '{}'", end);
 }
 
-Backend::Backend() : script_(DataFolder() / "tools/python/warmjoint/draw.py") {
+Backend::Backend() : folder_(DataFolder() / "tools/python/warmjoint/figures") {
   const std::vector<std::string> candidates = Pythons();
   // looked for and not imported, which would take half a second
   const char* const has =
@@ -38,44 +38,49 @@ Backend::Backend() : script_(DataFolder() / "tools/python/warmjoint/draw.py") {
       fmt::join(candidates, " or ")));
 }
 
-std::string Backend::Ask(const Tree& request) const {
-  const Ended ended = CallPython({python_, "-B", script_.string()}, request.dump());
-  if (!ended.well) {
-    throw OutputFailed(
-        fmt::format("{} {} failed: {}", python_, script_.string(), LastLine(ended.err)));
-  }
-  return ended.out;
+std::string Backend::Ask(const shown::ShownData& request) const {
+  const Ended ended = CallPython({python_, "-B", folder_.string()}, shown::Packed(request));
+  if (ended.well) return ended.out;
+  throw OutputFailed(
+      fmt::format("{} {} failed: {}", python_, folder_.string(), LastLine(ended.err)));
 }
 
-std::vector<DrawnFigure> Backend::Draw(const std::vector<figures::Figure>& figures,
-                                       const PictureSetting& setting) const {
-  std::vector<DrawnFigure> drawn;
-  if (figures.empty()) return drawn;
-  Tree list = Tree::array();
-  for (const figures::Figure& figure : figures) list.push_back(figures::FigureJson(figure));
-  const std::string answer = Ask({{"figures", std::move(list)}, {"setting", WriteFields(setting)}});
+Drawn Backend::Draw(DrawRequest request, const PictureSetting& setting) const {
+  if (request.sources.empty()) return {};
+  request.data.facts = {{"sources", std::move(request.sources)},
+                        {"setting", WriteFields(setting)},
+                        {"figures", request.figures},
+                        {"data", request.with_data}};
+  const std::string answer = Ask(request.data);
 
-  // one line with the sizes of the files, or refusals; then their bytes
+  // one line with what the files are, or a refusal; then their bytes
   std::size_t at = answer.find('\n');
-  const Tree heads = Tree::parse(answer.substr(0, at++));
-  for (const Tree& head : heads) {
-    const auto size = head.at("size").get<std::size_t>();
-    drawn.push_back({answer.substr(at, size), head.value("refusal", "")});
+  const Tree head = Tree::parse(answer.substr(0, at++));
+  if (head.contains("refusal")) {
+    Refuse({head["refusal"]["place"].get<std::string>()}, "{}",
+           head["refusal"]["why"].get<std::string>());
+  }
+  Drawn drawn;
+  drawn.left_out = head.at("left_out").get<std::vector<std::string>>();
+  for (const Tree& file : head.at("files")) {
+    const auto size = file.at("size").get<std::size_t>();
+    drawn.files.push_back({file.at("source"), file.at("name"), file.at("finding"),
+                           answer.substr(at, size), file.at("is_data")});
     at += size;
   }
   return drawn;
 }
 
-std::string Backend::FillPage(const std::string& page, const Tree& data) const {
-  return Ask({{"page", page}, {"data", data}});
+std::string Backend::FillPage(const std::string& page, shown::ShownData data) const {
+  data.facts = {{"page", page}, {"content", std::move(data.facts)}};
+  return Ask(data);
 }
 
-void WritePicture(const Backend& backend, const figures::Figure& figure, const std::string& path) {
+void WritePicture(const Backend& backend, DrawRequest request, const std::string& path) {
   PictureSetting setting;
   setting.format = PictureFormatOf(path);
-  const DrawnFigure drawn = backend.Draw({figure}, setting).front();
-  if (!drawn.refusal.empty()) throw OutputFailed(path + ": " + drawn.refusal);
-  WriteWholeFile(path, drawn.bytes);
+  const Drawn drawn = backend.Draw(std::move(request), setting);
+  WriteWholeFile(path, drawn.files.at(0).bytes);
 }
 
 }  // namespace warmjoint

@@ -1,11 +1,14 @@
-// The Python programs that draw figures and fill pages (tools/python/warmjoint), called once a command.
+// The Python program that draws figures and fills pages (tools/python/warmjoint/figures), called once a command.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "tools/figures/figure.h"
+#include "models/foundation/serialize.h"
+#include "tools/shown/shown_data.h"
 
 namespace warmjoint {
 
@@ -24,7 +27,7 @@ PictureFormat PictureFormatOf(const std::string& path);
 /// How figures become files.
 struct PictureSetting {
   PictureFormat format = PictureFormat::png;
-  std::string style = "screen";  // of draw.py
+  std::string style = "screen";  // of style.py
   double width = 0;              // mm; 0: the style's
   double height = 0;             // mm; 0: what the figure needs
   double dpi = 0;                // pixels an inch; 0: the style's
@@ -41,10 +44,25 @@ struct PictureSetting {
   }
 };
 
-/// A file, or why the figure has no room in the size that is asked for.
-struct DrawnFigure {
+/// What is drawn.
+struct DrawRequest {
+  Tree sources = Tree::array();        // [{kind, name, ...facts}], whose arrays `data` holds
+  shown::ShownData data{};             // its facts are not used
+  std::vector<std::string> figures{};  // by name or by the paper's number; empty: all
+  bool with_data = false;              // also what they show, as CSV
+};
+
+struct DrawnFile {
+  std::size_t source = 0;  // position in the request; its size: of all sources together
+  std::string name;        // with its end
+  std::string finding;     // one sentence
   std::string bytes;
-  std::string refusal;
+  bool is_data = false;
+};
+
+struct Drawn {
+  std::vector<DrawnFile> files;
+  std::vector<std::string> left_out;  // a line each
 };
 
 /// A Python that has what drawing needs: the environment variable WARMJOINT_PYTHON, else python3 in PATH, else
@@ -54,22 +72,21 @@ class Backend {
   /// Throws OutputFailed, with what is to be installed, where there is none.
   Backend();
 
-  /// In the order of the figures. The same figure and setting give the same bytes. Throws OutputFailed where the backend
-  /// fails.
-  std::vector<DrawnFigure> Draw(const std::vector<figures::Figure>& figures,
-                                const PictureSetting& setting) const;
+  /// The same request and setting give the same bytes. Throws BadInput for a figure that a source cannot give, or that has no room in
+  /// the size that is asked for, where it was asked for by name; OutputFailed where the backend fails.
+  Drawn Draw(DrawRequest request, const PictureSetting& setting) const;
 
-  /// A page of one of the templates, self-contained HTML. data: of FigureJson and texts. Throws OutputFailed.
-  std::string FillPage(const std::string& page, const Tree& data) const;
+  /// A page of one of the templates, self-contained HTML. Throws OutputFailed.
+  std::string FillPage(const std::string& page, shown::ShownData data) const;
 
  private:
-  std::string Ask(const Tree& request) const;
+  std::string Ask(const shown::ShownData& request) const;
 
-  std::filesystem::path script_;
+  std::filesystem::path folder_;
   std::string python_;
 };
 
-/// Draws one figure into a file of the format that its end names. Throws OutputFailed, and BadInput as PictureFormatOf does.
-void WritePicture(const Backend& backend, const figures::Figure& figure, const std::string& path);
+/// Draws one figure of one source into a file of the format that its end names. Throws OutputFailed, and BadInput as PictureFormatOf does.
+void WritePicture(const Backend& backend, DrawRequest request, const std::string& path);
 
 }  // namespace warmjoint

@@ -15,7 +15,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/estimate_figures.h"
+#include "tools/shown/estimate_data.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
@@ -150,8 +150,10 @@ ExitStatus Check(const CheckArguments& arguments) {
     // numbers and picture of what could be read
     AppendSegments(*log, static_cast<int>(files.size()), segments);
     if (files.size() == 1 && backend) {
-      WritePicture(*backend, figures::MakeLogFigure(figures::MakeFitView(*log, {})),
-                   arguments.plot);
+      DrawRequest request{.figures = {"log"}};
+      request.sources.push_back({{"kind", "estimate"}, {"place", arguments.plot}});
+      request.sources[0].update(shown::FitFacts(shown::MakeFitView(*log, {}), request.data));
+      WritePicture(*backend, std::move(request), arguments.plot);
     }
   }
   if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);

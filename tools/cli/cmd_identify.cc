@@ -16,8 +16,8 @@
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/estimate_figures.h"
 #include "tools/identify/identify_recording.h"
+#include "tools/shown/estimate_data.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
@@ -167,7 +167,10 @@ void Deliver(const IdentifyArguments& arguments, const Identified& identified,
   WriteOutputs(arguments, written, file, measurements, activity);
   if (backend) {
     activity.Is("drawing " + arguments.plot);
-    WritePicture(*backend, figures::MakeFitPage(figures::MakeFitView(log, shown)), arguments.plot);
+    DrawRequest request{.figures = {"fit"}};
+    request.sources.push_back({{"kind", "estimate"}, {"place", arguments.plot}});
+    request.sources[0].update(shown::FitFacts(shown::MakeFitView(log, shown), request.data));
+    WritePicture(*backend, std::move(request), arguments.plot);
   }
 
   // then the words, in the format that was asked for

@@ -17,8 +17,8 @@
 #include "tools/cli/command.h"
 #include "tools/cli/robot_table.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/robot/robot_figure.h"
 #include "tools/robot/robot_friction.h"
+#include "tools/shown/estimate_data.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
@@ -187,16 +187,14 @@ void AddRobotOptions(CLI::App& parser, RobotArguments& arguments) {
 
 /// A picture a joint, JOINT.png in a folder.
 void DrawJoints(const Backend& backend, const RobotEstimate& answer, const std::string& folder) {
-  std::vector<figures::Figure> figures;
-  for (const RobotJointEstimate& one : answer.joints) {
-    if (auto made = figures::MakeJointFigure(one)) figures.push_back(*std::move(made));
-  }
+  DrawRequest request;
+  request.sources.push_back(
+      {{"kind", "robot"}, {"place", folder}, {"joints", shown::RobotFacts(answer, request.data)}});
   std::filesystem::create_directories(folder);
-  const std::vector<DrawnFigure> drawn = backend.Draw(figures, {});
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    std::string name = figures[i].name + ".png";
+  for (const DrawnFile& file : backend.Draw(std::move(request), {}).files) {
+    std::string name = file.name;
     std::ranges::replace(name, '/', '_');
-    WriteWholeFile(std::filesystem::path(folder) / name, drawn[i].bytes);
+    WriteWholeFile(std::filesystem::path(folder) / name, file.bytes);
   }
 }
 

@@ -1,7 +1,6 @@
 // warmjoint plot SOURCE... -o DIR: pictures of runs, estimates and simulated recordings.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
-#include <map>
 #include <memory>
 #include <set>
 
@@ -13,7 +12,6 @@
 #include "tools/cli/pictures.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/estimate_figures.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
@@ -30,39 +28,15 @@ struct PlotArguments {
   std::string output;
 };
 
-/// A figure with the folder of its picture.
-struct Wanted {
-  fs::path folder;
-  figures::Figure figure;
-  std::string source;
-};
-
-/// Writes the picture and, where wanted, the numbers of each figure, and prints what each shows.
-void WriteAll(const std::vector<Wanted>& wanted, const std::vector<DrawnFigure>& drawn,
-              const PlotArguments& arguments, const std::vector<fs::path>& recordings,
-              Activity& activity) {
-  const auto print = [&](const fs::path& path, const std::string& finding) {
-    activity.Aside([&] { fmt::print(stdout, "{}: {}\n", path.string(), finding); });
-  };
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const figures::Figure& figure = wanted[i].figure;
-    // one that was not asked for by name is no reason to lose the others
-    if (!drawn[i].refusal.empty()) {
-      activity.Aside([&] { SayNotice("{}: left out: {}\n", wanted[i].source, drawn[i].refusal); });
-      continue;
-    }
-    // the file is called as the figure
-    const auto format = NameOf(arguments.pictures.setting.format);
-    const fs::path path = wanted[i].folder / fmt::format("{}.{}", figure.name, format);
-    WriteWholeFile(path, drawn[i].bytes);
-    print(path, figure.finding);
-
-    // the numbers that it shows
-    if (!arguments.data) continue;
-    const fs::path data = wanted[i].folder / (figure.name + ".csv");
-    KeepApart({data}, recordings);
-    WriteWholeFile(data, figures::FigureCsv(figure));
-    print(data, "the series of " + figure.name);
+/// Writes each picture and its numbers where they are wanted, and prints what each shows.
+void WriteAll(const Drawn& drawn, const std::vector<fs::path>& folders,
+              const std::vector<fs::path>& recordings, const fs::path& output, Activity& activity) {
+  for (const DrawnFile& file : drawn.files) {
+    const fs::path folder = file.source < folders.size() ? folders[file.source] : output;
+    const fs::path path = folder / file.name;
+    if (file.is_data) KeepApart({path}, recordings);
+    WriteWholeFile(path, file.bytes);
+    activity.Aside([&] { fmt::print(stdout, "{}: {}\n", path.string(), file.finding); });
   }
 }
 
@@ -82,19 +56,6 @@ std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
     }
   }
   return folders;
-}
-
-/// Says which figures of its family a source does not give, and why.
-void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
-  // figures that need the same are told together
-  std::map<std::string, std::vector<std::string>> by_need;
-  for (const auto& [name, need] : pictures.left_out) by_need[need].push_back(name);
-  std::vector<std::string> clauses;
-  for (const auto& [need, names] : by_need) {
-    clauses.push_back(fmt::format("{} ({} {})", fmt::join(names, ", "),
-                                  names.size() == 1 ? "needs" : "need", need));
-  }
-  if (!clauses.empty()) SayNotice("{}: left out: {}\n", source, fmt::join(clauses, "; "));
 }
 
 /// Throws BadInput for what is there and no folder.
@@ -120,40 +81,25 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   for (const fs::path& folder : folders) RefuseFile(folder);
   const Backend backend;
   Activity activity("preparing to draw");
-  std::vector<Wanted> wanted;
-  std::vector<figures::NamedEstimate> estimates;
+  DrawRequest request{.figures = arguments.pictures.figures, .with_data = arguments.data};
   std::vector<fs::path> recordings;
-  // without --figure the whole family, and word of what it lacks
-  const bool all = arguments.pictures.figures.empty();
-  for (std::size_t i = 0; i < folders.size(); ++i) {
-    const std::string& source = arguments.sources[i];
+  std::vector<PictureSource> sources;
+  for (const std::string& source : arguments.sources) {
     activity.Is("reading " + source);
-    SourcePictures pictures = PicturesOf(source, arguments.recording);
-    if (all) activity.Aside([&] { TellLeftOut(source, pictures); });
-    for (figures::Figure& figure : Chosen(arguments.pictures, source, pictures)) {
-      wanted.push_back({folders[i], std::move(figure), source});
-    }
-    recordings.insert(recordings.end(), pictures.recordings.begin(), pictures.recordings.end());
-    if (pictures.estimate) {
-      estimates.emplace_back(fs::path(source).stem().string(), *std::move(pictures.estimate));
-    }
-  }
-  // several estimates in one figure
-  if (auto overlay = figures::MakeOverlay(estimates); overlay && all) {
-    wanted.push_back({arguments.output, *std::move(overlay), arguments.output});
+    sources.push_back(SourceOf(source, arguments.recording, request.data));
+    request.sources.push_back(sources.back().facts);
+    recordings.insert(recordings.end(), sources.back().recordings.begin(),
+                      sources.back().recordings.end());
   }
 
-  // all of them at once
-  activity.Is(fmt::format("drawing {} pictures", wanted.size()));
-  std::vector<figures::Figure> figures;
-  for (const Wanted& one : wanted) figures.push_back(one.figure);
-  const auto drawn = backend.Draw(figures, setting);
-  // nothing is written where a figure that was asked for by name could not be drawn
-  for (const DrawnFigure& one : drawn) {
-    if (!all && !one.refusal.empty()) Refuse({}, "{}", one.refusal);
-  }
+  // all of them at once; nothing is written where one that was asked for by name could not be drawn
+  activity.Is("drawing");
+  const Drawn drawn = backend.Draw(std::move(request), setting);
+  activity.Aside([&] {
+    for (const std::string& line : drawn.left_out) SayNotice("{}\n", line);
+  });
   for (const fs::path& folder : folders) MakeFolder(folder);
-  WriteAll(wanted, drawn, arguments, recordings, activity);
+  WriteAll(drawn, folders, recordings, arguments.output, activity);
   return ExitStatus::done;
 }
 
@@ -178,8 +124,7 @@ Command AddPlotCommand(CLI::App& program) {
 
   // how it looks
   AddPictureOptions(*parser, arguments->pictures);
-  parser->add_flag("--data", arguments->data,
-                   "also the series of each picture, before thinning, as NAME.csv");
+  parser->add_flag("--data", arguments->data, "also what each picture shows, as NAME.csv");
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
             return PlotSources(*arguments);

@@ -14,12 +14,9 @@
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/estimate_view.h"
-#include "tools/figures/log_page.h"
-#include "tools/figures/run/run_figures.h"
-#include "tools/figures/run/run_page.h"
 #include "tools/identify/identify_recording.h"
-#include "tools/suite/run_realization.h"
+#include "tools/shown/estimate_data.h"
+#include "tools/shown/run/run_data.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 
@@ -40,45 +37,9 @@ struct ReportArguments {
 struct Page {
   fs::path target;
   std::string kind;  // of template
-  Tree data;
+  shown::ShownData data;
+  std::shared_ptr<RunStore> store{};  // of a run, whose database is read until the page is filled
 };
-
-/// Position of the best identifier of the suite that is none from outside; nothing where all are.
-std::optional<std::size_t> BestOfOurs(const figures::RunPage& page) {
-  // by rank on the board, then by its place in the suite
-  for (const LeaderboardRow& best : page.view.board.rows) {
-    for (std::size_t i = 0; i < page.suite.identifiers.size(); ++i) {
-      const SuiteIdentifier& identifier = page.suite.identifiers[i];
-      if (identifier.label == best.identifier && identifier.name != kExternal) return i;
-    }
-  }
-  return std::nullopt;
-}
-
-/// Torque and fit of the extremes of that identifier, each simulated and identified once more; or why there
-/// are none.
-void ReplayExtremes(figures::RunPage& page, Activity& activity) {
-  // what the page says where it shows no extremes
-  page.without_extremes = "No identifier of warmjoint's own gave numbers that could be shown.";
-  const std::optional<std::size_t> best = BestOfOurs(page);
-  if (!best) return;
-  const figures::RunRow& row = page.view.rows[*best];
-  std::vector<figures::ReplayedExtreme> replayed;
-  // the extremes are simulated again by their seed, and identified again
-  try {
-    for (const figures::Extreme& extreme : figures::ExtremesOf(row)) {
-      activity.Is(fmt::format("simulating the {} realization again", extreme.rank));
-      const Replayed again = ReplayUnit(page.suite, extreme.unit, page.suite.identifiers[*best]);
-      replayed.push_back({extreme, NameOf(page.suite, extreme.unit),
-                          figures::MakeFitView(again.log, again.estimate)});
-    }
-  } catch (const BadInput& refusal) {
-    // a realization that cannot be repeated is no reason to lose the page
-    page.without_extremes = fmt::format("No realization is shown: {}.", refusal.what());
-    return;
-  }
-  if (!replayed.empty()) page.extremes = figures::ExtremesFigure(row.label, replayed);
-}
 
 /// Refuses, before time is spent, a page that would be written over what it is made of, or cannot be written.
 void ClaimOutput(const fs::path& target, const std::vector<fs::path>& inputs) {
@@ -87,24 +48,24 @@ void ClaimOutput(const fs::path& target, const std::vector<fs::path>& inputs) {
 }
 
 Page RunReport(const ReportArguments& arguments, Activity& activity) {
-  const RunStore store = RunStore::OpenToRead(arguments.source);
+  const auto store = std::make_shared<RunStore>(RunStore::OpenToRead(arguments.source));
   const fs::path beside = fs::path(arguments.source) / "report.html";
   const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
-  ClaimOutput(target, {store.results_file(), store.suite_file()});
-  NoticeEditedSuite(store);
-  // all that the run itself gives
-  figures::RunPage page{figures::ReadRunView(store), store.suite(), store.description(), {}};
-  for (const figures::RunFigure& figure : figures::RunFigures()) {
-    if (auto made = figure.make(page.view)) page.figures.push_back(*std::move(made));
-  }
-  // then what is simulated again for this page
-  ReplayExtremes(page, activity);
-  return {target, "run", figures::RunPageData(page)};
+  ClaimOutput(target, {store->results_file(), store->suite_file()});
+  NoticeEditedSuite(*store);
+  Page page{target, "run", {}};
+  page.data.facts =
+      shown::RunPageFacts(*store, page.data, [&](const std::string& words) { activity.Is(words); });
+  page.store = store;
+  return page;
 }
 
-Tree LogReport(const PreparedLog& log, const Estimate& estimate,
-               const std::vector<std::string>& commands) {
-  return figures::LogPageData({figures::MakeFitView(log, estimate), CheckRecording(log), commands});
+shown::ShownData LogReport(const PreparedLog& log, const Estimate& estimate,
+                           const std::vector<std::string>& commands) {
+  shown::ShownData data;
+  data.facts =
+      shown::PageFacts(shown::MakeFitView(log, estimate), CheckRecording(log), commands, data);
+  return data;
 }
 
 bool IsEstimate(const fs::path& source) { return source.extension() == ".json"; }
@@ -114,7 +75,7 @@ bool IsRecording(const fs::path& source) {
 }
 
 /// Of a log that is identified here, so that the page can show a void fit, too.
-Tree RecordingReport(const ReportArguments& arguments, Activity& activity) {
+shown::ShownData RecordingReport(const ReportArguments& arguments, Activity& activity) {
   const RecordingSource& recording = arguments.recording;
   // identified as `identify` would
   IdentifySettings settings = arguments.settings;
@@ -137,7 +98,7 @@ Tree RecordingReport(const ReportArguments& arguments, Activity& activity) {
 }
 
 /// Of an estimate file, with the recording that it remembers.
-Tree EstimateReport(const ReportArguments& arguments) {
+shown::ShownData EstimateReport(const ReportArguments& arguments) {
   // the estimate, and the recording that it remembers
   const Estimate estimate = ReadEstimate(arguments.source);
   const std::optional<RecordingSource> recording = RecordingOf(estimate, arguments.source);
@@ -147,7 +108,7 @@ Tree EstimateReport(const ReportArguments& arguments) {
   const PreparedLog log = ReadAndPrepare(*recording);
   // of a refused estimate the fit is made again, so that the page can show it
   return LogReport(
-      log, figures::WithFitAgain(estimate, log),
+      log, shown::WithFitAgain(estimate, log),
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
@@ -181,12 +142,13 @@ ExitStatus Report(const ReportArguments& arguments) {
     ClaimOutput(arguments.output, {arguments.source});
     page = {arguments.output, "log",
             IsEstimate(arguments.source) ? EstimateReport(arguments)
-                                         : RecordingReport(arguments, activity)};
+                                         : RecordingReport(arguments, activity),
+            nullptr};
   }
 
   // the page as a whole, and where it lies
   activity.Is("drawing the page");
-  WriteWholeFile(page.target, backend.FillPage(page.kind, page.data));
+  WriteWholeFile(page.target, backend.FillPage(page.kind, std::move(page.data)));
   activity.Aside([&] { fmt::print(WordsBeside({page.target}), "{}\n", page.target.string()); });
   return ExitStatus::done;
 }

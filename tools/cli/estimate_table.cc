@@ -10,7 +10,7 @@
 #include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
-#include "tools/figures/shown_estimate.h"
+#include "tools/shown/shown_estimate.h"
 
 namespace warmjoint {
 namespace {

@@ -1,39 +1,25 @@
 #include "tools/cli/pictures.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "identification/estimate.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/parse_number.h"
 #include "tools/cli/typed_options.h"
-#include "tools/figures/estimate_figures.h"
-#include "tools/figures/run/run_figures.h"
-#include "tools/figures/run/simulation_figures.h"
-#include "tools/figures/run/warm_robot.h"
+#include "tools/shown/estimate_data.h"
+#include "tools/shown/kernel_example.h"
+#include "tools/shown/run/run_data.h"
+#include "tools/shown/run/simulation_view.h"
+#include "tools/shown/run/warm_robot.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// All members of a family that have something to show, and what the others lack.
-template <typename View>
-SourcePictures Make(const std::vector<figures::NamedFigure<View>>& family, const View& view) {
-  SourcePictures pictures;
-  // who has nothing to draw says what is needed for it
-  for (const auto& one : family) {
-    if (auto figure = one.make(view)) {
-      pictures.figures.push_back(*std::move(figure));
-    } else {
-      pictures.left_out.emplace_back(one.name, one.needs);
-    }
-  }
-  return pictures;
-}
 
 /// The recording that an estimate file remembers; none where it names none, or it has gone.
 RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) {
@@ -55,59 +41,31 @@ RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) 
   return *remembered;
 }
 
-SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& given) {
+PictureSource OfEstimate(const fs::path& path, const RecordingSource& given,
+                         shown::ShownData& data) {
   // the estimate beside the recording that is given, else beside its own, else alone
   Estimate estimate = ReadEstimate(path);
   const bool is_own = given.files.empty();
   const RecordingSource shown = is_own ? OwnRecording(estimate, path) : given;
-  figures::EstimateView view =
-      shown.files.empty() ? figures::EstimateView{std::move(estimate)}
-      : is_own            ? figures::ViewOwnRecording(std::move(estimate), ReadAndPrepare(shown))
-                          : figures::MakeEstimateView(std::move(estimate), ReadAndPrepare(shown));
-
-  // what it gives, and itself for the figure of several
-  SourcePictures pictures = Make(figures::EstimateFigures(), view);
-  pictures.estimate = std::move(view);
-  pictures.recordings.assign(shown.files.begin(), shown.files.end());
-  return pictures;
+  const shown::EstimateView view =
+      shown.files.empty() ? shown::EstimateView{std::move(estimate)}
+      : is_own            ? shown::ViewOwnRecording(std::move(estimate), ReadAndPrepare(shown))
+                          : shown::MakeEstimateView(std::move(estimate), ReadAndPrepare(shown));
+  return {shown::EstimateFacts(view, data), {shown.files.begin(), shown.files.end()}};
 }
 
-SourcePictures PicturesOfSimulation(const fs::path& directory) {
-  const figures::SimulationView view = figures::ReadSimulationView(directory);
+PictureSource OfSimulation(const fs::path& directory, shown::ShownData& data) {
+  const shown::SimulationView view = shown::ReadSimulationView(directory);
+  PictureSource source{shown::SimulationFacts(view, data), {directory / "recording.csv"}};
   // a robot that warms needs OpenGL for its pictures
-  SourcePictures pictures = Make(figures::SimulationFigures(), view);
-  pictures.recordings = {directory / "recording.csv"};
-  if (!figures::HasWarmRobot(view)) return pictures;
+  source.facts["robot"] = nullptr;
+  if (!shown::HasWarmRobot(view)) return source;
   const std::unique_ptr<scene::GlContext> context = scene::MakeGlContext();
-  pictures.figures.push_back(*figures::MakeWarmRobot(view, *context));
-  return pictures;
+  source.facts["robot"] = shown::WarmRobotFacts(view, *context, data);
+  return source;
 }
-
-using Names = std::vector<std::string>;
 
 constexpr double kSmallest = 20, kLargest = 2000;  // mm
-
-/// A figure of the paper: ours that repeat it, and what they are drawn of.
-struct PaperFigure {
-  Names names;
-  const char* sources;
-};
-
-const std::map<std::string, PaperFigure>& PaperFigures() {
-  static const std::map<std::string, PaperFigure> figures{
-      {"3", {{"kernels"}, "`kernels`"}},
-      {"4", {{"envelope"}, "an estimate or a simulation of a log that warms"}},
-      {"5", {{"parameters_by_iteration"}, "a run of an identifier that iterates"}},
-      {"6", {{"error_by_iteration"}, "a run of an identifier that iterates"}},
-      {"7", {{"motor_angle"}, "an estimate of a log with a motor angle or a gear"}},
-      {"8", {{"parameters_by_iteration", "trace"}, "a run, or an estimate, that iterates"}},
-      {"9", {{"motor_fit"}, "an estimate with a map over the motor's angle"}},
-      {"10", {{"motor_map"}, "an estimate with a map over the motor's angle"}},
-      {"11", {{"agreement"}, "a run"}},
-      {"12", {{"agreement"}, "a run"}},
-  };
-  return figures;
-}
 
 double Millimetres(const std::string& text, const std::string& size) {
   // within what can be printed
@@ -121,30 +79,29 @@ double Millimetres(const std::string& text, const std::string& size) {
   return *number;
 }
 
-Names NamesOf(const std::vector<figures::Figure>& figures) {
-  Names names;
-  for (const figures::Figure& figure : figures) names.push_back(figure.name);
-  return names;
-}
-
-/// Why a source has no figure of that name.
-std::string Lacking(const std::string& figure, const SourcePictures& pictures) {
-  // a figure of the family that the source cannot give, or none of the family at all
-  for (const auto& [name, need] : pictures.left_out) {
-    if (name == figure) return fmt::format("{} needs {}", figure, need);
-  }
-  return fmt::format("there is no figure '{}'", figure);
-}
-
 }  // namespace
 
-SourcePictures PicturesOf(const std::string& source, const RecordingSource& recording) {
+PictureSource SourceOf(const std::string& source, const RecordingSource& recording,
+                       shown::ShownData& data) {
   // by what stands there, of a file by its kind, of a directory by what it holds
-  if (source == kKernelsSource && !fs::exists(source))
-    return {{figures::MakeKernels()}, {}, {}, {}};
-  if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
-  if (figures::IsSimulation(source)) return PicturesOfSimulation(source);
-  return Make(figures::RunFigures(), figures::ReadRunView(RunStore::OpenToRead(source)));
+  PictureSource made;
+  std::string kind = "kernels";
+  if (source == kKernelsSource && !fs::exists(source)) {
+    made.facts = shown::KernelFacts(data);
+  } else if (fs::is_regular_file(source)) {
+    kind = "estimate";
+    made = OfEstimate(source, recording, data);
+  } else if (shown::IsSimulation(source)) {
+    kind = "simulation";
+    made = OfSimulation(source, data);
+  } else {
+    kind = "run";
+    made.store = std::make_shared<RunStore>(RunStore::OpenToRead(source));
+    made.facts = shown::RunFacts(*made.store, data);
+  }
+  made.facts["kind"] = kind;
+  made.facts["place"] = source;
+  return made;
 }
 
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
@@ -184,35 +141,6 @@ PictureSetting SettingOf(const PictureArguments& arguments) {
     }
   }
   return setting;
-}
-
-std::vector<figures::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
-                                    const SourcePictures& pictures) {
-  std::vector<figures::Figure> figures = pictures.figures;
-  if (arguments.figures.empty()) return figures;
-  Names wanted;
-  // each by the name of the figure, or by the paper's number for it
-  for (const std::string& figure : arguments.figures) {
-    const auto paper = PaperFigures().find(figure);
-    const Names names = paper == PaperFigures().end() ? Names{figure} : paper->second.names;
-    const Names there = NamesOf(figures);
-    // what cannot be had is refused with what there is
-    if (std::ranges::find_first_of(there, names) == there.end()) {
-      const std::string what = paper == PaperFigures().end()
-                                   ? Lacking(figure, pictures)
-                                   : fmt::format("figure {} of the paper ({}) needs {}", figure,
-                                                 fmt::join(names, " or "), paper->second.sources);
-      Refuse({source}, "{}; this source gives: {}", what,
-             there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", ")));
-    }
-    wanted.insert(wanted.end(), names.begin(), names.end());
-  }
-
-  // in the family's own order, each once
-  std::erase_if(figures, [&](const figures::Figure& figure) {
-    return std::ranges::find(wanted, figure.name) == wanted.end();
-  });
-  return figures;
 }
 
 }  // namespace warmjoint

@@ -1,36 +1,33 @@
-// What `plot` draws: the pictures of each kind of source, their format and look, and which of them.
+// What `plot` draws of each kind of source, and the format and look of its pictures.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/cli/backend.h"
 #include "tools/cli/recording_options.h"
-#include "tools/figures/estimate_view.h"
-#include "tools/figures/figure.h"
+#include "tools/shown/shown_data.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint {
 
 /// The name by which `plot` draws the figure of normalised and plain kernels.
 inline constexpr const char* kKernelsSource = "kernels";
 
-/// The pictures of one source.
-struct SourcePictures {
-  std::vector<figures::Figure> figures;
-  /// Figures that this source does not give, and what they need.
-  std::vector<std::pair<std::string, std::string>> left_out;
-  std::optional<figures::EstimateView> estimate = std::nullopt;
+/// A directory of `run` or `simulate`, an estimate file, or `kernels`, as the backend takes it: {kind, name, ...}.
+struct PictureSource {
+  Tree facts;
   std::vector<std::filesystem::path> recordings{};  // that were read for them
+  std::shared_ptr<RunStore> store{};  // of a run, whose database is read until it is drawn
 };
 
-/// A directory of `run` or `simulate`, an estimate file, or `kernels`. recording: in place of the
-/// one that an estimate file remembers, where given. Says on stderr what cannot be drawn.
+/// recording: in place of the one that an estimate file remembers, where given. Says on stderr what cannot be drawn.
 /// Throws BadInput.
-SourcePictures PicturesOf(const std::string& source, const RecordingSource& recording);
+PictureSource SourceOf(const std::string& source, const RecordingSource& recording,
+                       shown::ShownData& data);
 
 /// The options as given.
 struct PictureArguments {
@@ -44,11 +41,5 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments);
 
 /// What the options ask for. Throws BadInput for a size that is none.
 PictureSetting SettingOf(const PictureArguments& arguments);
-
-/// Leaves the figures that --figure names, by name or by the number that the paper gives them; all
-/// without it. source: what they are of. Throws BadInput where one of them is not among them, and says
-/// what it needs.
-std::vector<figures::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
-                                    const SourcePictures& pictures);
 
 }  // namespace warmjoint

@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
 
 # the rooms, whose public headers lie together
-set(rooms models recording robots scenarios truth plugin attach sim identification score store terminal board identify actions robot_log rigid model figures robot)
+set(rooms models recording robots scenarios truth plugin attach sim identification score store terminal board identify actions robot_log rigid model shown robot)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
   install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -43,7 +43,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites ${PROJECT_SOURCE_DIR}/s
   COMPONENT program)
 # what draws pictures and fills pages
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/python/warmjoint DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/tools/python
-  COMPONENT program FILES_MATCHING PATTERN "draw.py" PATTERN "layout.py" PATTERN "page.py" PATTERN "templates/*" PATTERN "formats/*.py")
+  COMPONENT program FILES_MATCHING PATTERN "figures/*" PATTERN "templates/*" PATTERN "formats/*.py")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/docs/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 

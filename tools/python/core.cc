@@ -28,9 +28,6 @@
 #include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/friction/friction_json.h"
-#include "tools/figures/estimate_figures.h"
-#include "tools/figures/fit_view.h"
-#include "tools/figures/log_page.h"
 #include "tools/identify/catalogue.h"
 #include "tools/identify/identify_recording.h"
 #include "tools/identify/predict_recording.h"
@@ -38,6 +35,7 @@
 #include "tools/python/logs.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
+#include "tools/shown/estimate_data.h"
 
 namespace warmjoint::python {
 namespace {
@@ -121,28 +119,32 @@ nb::object ScoreInPython(nb::handle estimate, const Log& log, nb::handle truth) 
       ScoreEstimate(EstimateOf(estimate), log.prepared, FieldsFromPython<Truth>(truth, "truth")));
 }
 
-// Figures and pages as data.
+// What is shown, as data.
 
-/// {name: figure}, as tools/figures/figure.h describes them: what an estimate gives with its log, or without.
-nb::object FiguresInPython(nb::handle given, const std::optional<Log>& log) {
-  const Estimate estimate = EstimateOf(given);
-  const Tree all = Interruptibly([estimate, log](const auto&) {
-    const figures::EstimateView view =
-        log ? figures::ViewOwnRecording(estimate, log->prepared) : figures::EstimateView{estimate};
-    Tree made = Tree::object();
-    for (const figures::EstimateFigure& one : figures::EstimateFigures()) {
-      if (auto figure = one.make(view)) made[one.name] = figures::FigureJson(*std::move(figure));
-    }
-    return made;
-  });
-  return ToPython(all);
+/// (facts, arrays), as tools/shown/shown_data.h has them.
+nb::object ShownToPython(const shown::ShownData& data) {
+  nb::list arrays;
+  for (const Eigen::VectorXd& array : data.arrays) arrays.append(ToPython(array));
+  return nb::make_tuple(ToPython(data.facts), arrays);
 }
 
-/// Names of all figures that estimates may give.
-std::vector<std::string> FigureNames() {
-  std::vector<std::string> names;
-  for (const figures::EstimateFigure& one : figures::EstimateFigures()) names.push_back(one.name);
-  return names;
+/// Of an estimate with its log, or without.
+nb::object ShownOfEstimate(nb::handle given, const std::optional<Log>& log) {
+  const Estimate estimate = EstimateOf(given);
+  return ShownToPython(Interruptibly([estimate, log](const auto&) {
+    const shown::EstimateView view =
+        log ? shown::ViewOwnRecording(estimate, log->prepared) : shown::EstimateView{estimate};
+    shown::ShownData data;
+    data.facts = shown::EstimateFacts(view, data);
+    return data;
+  }));
+}
+
+/// Of a log alone.
+nb::object ShownOfLog(const Log& log) {
+  shown::ShownData data;
+  data.facts = shown::FitFacts(shown::MakeFitView(log.prepared, {}), data);
+  return ShownToPython(data);
 }
 
 /// Settings of ReadLog for the recording that an estimate remembers; None where it remembers none. Whether the files are there is for
@@ -154,17 +156,19 @@ nb::object RecordingInPython(nb::handle given) {
 
 /// Times (s), and torque less fit (N.m or N), of the samples that the fit takes, [n] each; nothing without a friction.
 nb::object ResidualsInPython(nb::handle given, const Log& log) {
-  const figures::FitView view = figures::MakeFitView(log.prepared, EstimateOf(given));
+  const shown::FitView view = shown::MakeFitView(log.prepared, EstimateOf(given));
   if (!view.has_fit) return nb::none();
   const Eigen::VectorXd time = view.time.array() + log.measurements().time[0];
-  return nb::make_tuple(ToPython(figures::KeptOf(view, time)), ToPython(figures::Residuals(view)));
+  return nb::make_tuple(ToPython(shown::KeptOf(view, time)), ToPython(shown::Residuals(view)));
 }
 
 /// What the page of a log and its estimate shows.
-nb::object LogPageInPython(nb::handle given, const Log& log) {
-  const Estimate shown = figures::WithFitAgain(EstimateOf(given), log.prepared);
-  return ToPython(figures::LogPageData(
-      {figures::MakeFitView(log.prepared, shown), CheckRecording(log.prepared), {}}));
+nb::object ShownOnPage(nb::handle given, const Log& log) {
+  const Estimate estimate = shown::WithFitAgain(EstimateOf(given), log.prepared);
+  shown::ShownData data;
+  data.facts = shown::PageFacts(shown::MakeFitView(log.prepared, estimate),
+                                CheckRecording(log.prepared), {}, data);
+  return ShownToPython(data);
 }
 
 // Friction.
@@ -228,20 +232,22 @@ void AddIdentification(nb::module_& module) {
         WriteEstimate(EstimateOf(estimate), file);
       },
       nb::sig("def write_estimate(estimate: dict[str, typing.Any], file: str) -> None"));
-  module.def("figures", &FiguresInPython, nb::arg("estimate"), nb::arg("log").none(),
-             nb::sig("def figures(estimate: dict[str, typing.Any], log: Log | None) -> dict[str, "
-                     "dict[str, typing.Any]]"));
+  module.def("shown_of_estimate", &ShownOfEstimate, nb::arg("estimate"), nb::arg("log").none(),
+             nb::sig("def shown_of_estimate(estimate: dict[str, typing.Any], log: Log | None) -> "
+                     "tuple[dict[str, typing.Any], list[numpy.typing.NDArray[numpy.float64]]]"));
+  module.def("shown_of_log", &ShownOfLog,
+             nb::sig("def shown_of_log(log: Log) -> tuple[dict[str, typing.Any], "
+                     "list[numpy.typing.NDArray[numpy.float64]]]"));
+  module.def("shown_on_page", &ShownOnPage,
+             nb::sig("def shown_on_page(estimate: dict[str, typing.Any], log: Log) -> "
+                     "tuple[dict[str, typing.Any], list[numpy.typing.NDArray[numpy.float64]]]"));
   module.def("residuals", &ResidualsInPython,
              nb::sig("def residuals(estimate: dict[str, typing.Any], log: Log) -> "
                      "tuple[numpy.typing.NDArray[numpy.float64], "
                      "numpy.typing.NDArray[numpy.float64]] | None"));
-  module.def("figure_names", &FigureNames);
   module.def("recording", &RecordingInPython,
              nb::sig("def recording(estimate: dict[str, typing.Any]) -> dict[str, typing.Any] | "
                      "None"));
-  module.def(
-      "log_page", &LogPageInPython,
-      nb::sig("def log_page(estimate: dict[str, typing.Any], log: Log) -> dict[str, typing.Any]"));
   module.def("score", &ScoreInPython,
              nb::sig("def score(estimate: dict[str, typing.Any], log: Log, truth: dict[str, "
                      "typing.Any]) -> dict[str, typing.Any]"));

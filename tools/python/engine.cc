@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "identification/model/robot_estimate.h"
-#include "tools/figures/robot/robot_figure.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
+#include "tools/shown/estimate_data.h"
 
 namespace warmjoint::python {
 namespace {
@@ -90,7 +90,7 @@ nb::dict RunInPython(const std::string& suite, const std::string& output, nb::ha
 
 using GivenColumn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-/// columns: of one log in memory; none: the files of `source`. Returns (robot.json, {joint: figure}).
+/// columns: of one log in memory; none: the files of `source`. Returns (robot.json, facts and arrays of its pictures).
 nb::object IdentifyRobotInPython(const std::string& robot, nb::handle source,
                                  const std::map<std::string, GivenColumn>& columns,
                                  nb::handle given) {
@@ -110,13 +110,11 @@ nb::object IdentifyRobotInPython(const std::string& robot, nb::handle source,
       return IdentifyRobot(robot, values, read.read, settings, [&](const std::string&) { stop(); });
     });
   }
-  Tree figures = Tree::object();
-  for (const RobotJointEstimate& one : answer.joints) {
-    if (auto made = figures::MakeJointFigure(one)) {
-      figures[one.summary.joint] = figures::FigureJson(*std::move(made));
-    }
-  }
-  return nb::make_tuple(ToPython(RobotEstimateToTree(answer)), ToPython(figures));
+  shown::ShownData data;
+  data.facts = shown::RobotFacts(answer, data);
+  nb::list arrays;
+  for (const Eigen::VectorXd& array : data.arrays) arrays.append(ToPython(array));
+  return nb::make_tuple(ToPython(RobotEstimateToTree(answer)), ToPython(data.facts), arrays);
 }
 
 }  // namespace
@@ -141,7 +139,8 @@ NB_MODULE(_engine, module) {
   module.def("identify_robot", &python::IdentifyRobotInPython,
              nb::sig("def identify_robot(robot: str, source: dict[str, object], columns: dict[str, "
                      "numpy.typing.NDArray[numpy.float64]], settings: dict[str, object]) -> "
-                     "tuple[dict[str, typing.Any], dict[str, dict[str, typing.Any]]]"));
+                     "tuple[dict[str, typing.Any], list[dict[str, typing.Any]], "
+                     "list[numpy.typing.NDArray[numpy.float64]]]"));
   module.def("leaderboard", [](const std::string& directory, const std::string& format) {
     return FormatLeaderboard(directory, format);
   });

@@ -20,8 +20,6 @@
 #include "models/recording/recording_columns.h"
 #include "models/recording/table_format.h"
 #include "models/recording/units.h"
-#include "tools/figures/estimate_figures.h"
-#include "tools/figures/fit_view.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
@@ -320,13 +318,6 @@ void AddLogs(nb::module_& module) {
         return std::pair(ToPython(Tree(CheckToJson(check))), InPython(CheckToText(check)));
       },
       nb::sig("def check(log: Log) -> tuple[dict[str, typing.Any], str]"));
-  module.def(
-      "log_figure",
-      [](const Log& self) {
-        return ToPython(
-            figures::FigureJson(figures::MakeLogFigure(figures::MakeFitView(self.prepared, {}))));
-      },
-      nb::sig("def log_figure(log: Log) -> dict[str, typing.Any]"));
 }
 
 }  // namespace warmjoint::python

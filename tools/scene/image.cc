@@ -1,10 +1,6 @@
 #include "tools/scene/image.h"
 
-#include <png.h>
-
 #include <cassert>
-#include <cmath>
-#include <stdexcept>
 
 namespace warmjoint::scene {
 
@@ -30,40 +26,6 @@ Image Shrink(const Image& image, int factor) {
     }
   }
   return small;
-}
-
-std::string EncodePng(const Image& image) {
-  std::string bytes;
-  // errors of the library are thrown, its bytes are gathered in a text
-  png_structp png = png_create_write_struct(
-      PNG_LIBPNG_VER_STRING, nullptr,
-      [](png_structp, png_const_charp message) { throw std::runtime_error(message); }, nullptr);
-  png_infop info = png_create_info_struct(png);
-  png_set_write_fn(
-      png, &bytes,
-      [](png_structp writer, png_bytep data, png_size_t size) {
-        static_cast<std::string*>(png_get_io_ptr(writer))
-            ->append(reinterpret_cast<const char*>(data), size);
-      },
-      nullptr);
-  // red, green and blue, eight bits each
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
-               static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-
-  // how large the picture is meant to be on paper
-  constexpr double kInchesPerMetre = 1 / 0.0254, kDpi = 144;
-  const auto per_metre = static_cast<png_uint_32>(std::lround(kInchesPerMetre * kDpi));
-  png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
-
-  // rows from above
-  png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) {
-    png_write_row(png, &image.pixels[std::size_t{3} * image.width * y]);
-  }
-  png_write_end(png, info);
-  png_destroy_write_struct(&png, &info);
-  return bytes;
 }
 
 }  // namespace warmjoint::scene

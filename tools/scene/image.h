@@ -1,8 +1,7 @@
-// Pictures in memory and as PNG.
+// Pictures in memory.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace warmjoint::scene {
@@ -28,8 +27,5 @@ struct Image {
 
 /// The mean of each block of factor x factor pixels; width and height must be multiples of factor.
 Image Shrink(const Image& image, int factor);
-
-/// The bytes of a PNG file of 144 pixels an inch. The same image gives the same bytes.
-std::string EncodePng(const Image& image);
 
 }  // namespace warmjoint::scene

@@ -123,24 +123,41 @@ ViewFrom RobotRenderer::Closer(const ViewFrom& from, const Covered& covered, dou
   return closer;
 }
 
-Image RobotRenderer::Draw(const mjData& data, const ViewFrom& from, Rgb background,
-                          const AxisLine& axis) {
-  SetUp(data, from);
-  // the axis as a thin dark rod
+void RobotRenderer::AddFloor(const mjData& data) {
   mjvScene& scene = scene_->scene;
-  if (scene.ngeom < scene.maxgeom) {
-    const double half = 0.22 * model_.stat.extent, radius = 0.008 * model_.stat.extent;
-    double ends[2][3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      ends[0][i] = axis.middle[i] - half * axis.direction[i];
-      ends[1][i] = axis.middle[i] + half * axis.direction[i];
-    }
-    const float dark[4] = {0.1f, 0.1f, 0.12f, 1};
-    mjvGeom* rod = &scene.geoms[scene.ngeom++];
-    mjv_initGeom(rod, mjGEOM_CAPSULE, nullptr, nullptr, nullptr, dark);
-    mjv_connector(rod, mjGEOM_CAPSULE, radius, ends[0], ends[1]);
-    rod->segid = scene.ngeom - 1;
+  if (scene.ngeom >= scene.maxgeom) return;
+  // a thin disc below the base, which is the first body that stands in the world
+  const double* base = model_.nbody > 1 ? data.xpos + 3 : data.xpos;
+  const mjtNum extent = model_.stat.extent;
+  const mjtNum size[3] = {0.3 * extent, 0.002 * extent, 0};  // radius, half of the height
+  const mjtNum at[3] = {base[0], base[1], base[2] - 1.5 * size[1]};
+  const float grey[4] = {0.93f, 0.94f, 0.95f, 1};
+  mjvGeom* floor = &scene.geoms[scene.ngeom++];
+  mjv_initGeom(floor, mjGEOM_CYLINDER, size, at, nullptr, grey);
+  floor->emission = 0.3f;  // as light from above as from the side
+  floor->segid = scene.ngeom - 1;
+}
+
+Pixel RobotRenderer::PlaceOf(const std::array<double, 3>& point) const {
+  const mjvGLCamera eye = mjv_averageCamera(&scene_->scene.camera[0], &scene_->scene.camera[1]);
+  // to the right, up and away from the eye
+  double right = 0, up = 0, away = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double offset = point[i] - eye.pos[i];
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    right += offset * (eye.forward[j] * eye.up[k] - eye.forward[k] * eye.up[j]);
+    up += offset * eye.up[i];
+    away += offset * eye.forward[i];
   }
+  // half of what the picture shows, at the near plane
+  const double half = (eye.frustum_top - eye.frustum_bottom) / 2.0;
+  const double scale = height_ / 2.0 / half * eye.frustum_near / away;
+  return {width_ / 2.0 + scale * right, height_ / 2.0 - scale * up};
+}
+
+Image RobotRenderer::Draw(const mjData& data, const ViewFrom& from, Rgb background) {
+  SetUp(data, from);
+  AddFloor(data);
   // colours of the robot, and a mask that tells it from the background
   const std::vector<unsigned char> colours = Render(Paint::colours), mask = Render(Paint::geoms);
   Image image{kOversampling * width_, kOversampling * height_,

@@ -27,11 +27,8 @@ struct Covered {
   void Join(const Covered& other);
 };
 
-/// A line through the scene, as the axis of a joint.
-struct AxisLine {
-  std::array<double, 3> middle{};     // m
-  std::array<double, 3> direction{};  // of length 1
-};
+/// A place in a picture: pixels from its left and upper edge.
+using Pixel = std::array<double, 2>;
 
 /// Draws one model. The context must outlive it; model and data are the caller's.
 class RobotRenderer {
@@ -40,8 +37,11 @@ class RobotRenderer {
   RobotRenderer(GlContext& context, const mjModel& model, int width, int height);
   ~RobotRenderer();
 
-  /// The model as `data` has it (after mj_forward), before a plain background, with the axis as a dark rod.
-  Image Draw(const mjData& data, const ViewFrom& from, Rgb background, const AxisLine& axis);
+  /// The model as `data` has it (after mj_forward), on a grey floor before a plain background.
+  Image Draw(const mjData& data, const ViewFrom& from, Rgb background);
+
+  /// Where a point of the world, m, is in the picture that Draw made last.
+  Pixel PlaceOf(const std::array<double, 3>& point) const;
 
   /// The part of the picture that the model covers.
   Covered Box(const mjData& data, const ViewFrom& from);
@@ -54,6 +54,8 @@ class RobotRenderer {
 
   /// Makes the scene current and fills it.
   void SetUp(const mjData& data, const ViewFrom& from);
+  /// Adds the floor to the scene that SetUp filled.
+  void AddFloor(const mjData& data);
   /// Pixels of the scene, RGB, rows from the bottom: colours, or the numbers of the geoms (0:
   /// none).
   enum class Paint { colours, geoms };

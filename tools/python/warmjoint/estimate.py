@@ -249,33 +249,53 @@ class Estimate:
         found = _core.predict(self.data, log_of(log)._core, self._energies(initial))
         return Prediction(found["time"], found["torque"], found["energy"], found["compared"] > 0, found["metrics"])
 
-    def figures(self) -> dict[str, dict[str, Any]]:
-        """Every figure of this estimate as data, {name: figure}: panels, series and axes, which plot() draws. Figures of the log need
-        the log that it was identified from."""
-        return _core.figures(self.data, self.log._core if self.log else None)
+    def figures(self) -> dict[str, dict[str, dict[str, Array]]]:
+        """What each figure of this estimate shows, {name: {series: {x, y, ...}}}: arrays of what plot() draws. Figures of the log need the log
+        that it was identified from."""
+        from warmjoint.figures import style
+
+        with style.use("screen"):
+            return {name: sheet.series() for name, (make, _) in self._source().figures().items() if (sheet := make()) is not None}
+
+    def _source(self) -> Any:
+        from warmjoint.figures import families, view
+
+        facts, arrays = _core.shown_of_estimate(self.data, self.log._core if self.log else None)
+        return families.Source({**view.unpacked(facts, arrays), "kind": "estimate"})
 
     def plot(self, figure: str = "", ax: Any = None, style: str | dict[str, Any] = "screen") -> Any:
         """Draws one of figures() and returns the matplotlib Figure: "fit" where none is named, data, fit and verdict on one page.
-        ax: axes that a figure of one plot is drawn into, "friction_curve" where none is named. style: screen, paper, or changes of
+        ax: axes that a figure of one panel is drawn into, "friction_curve" where none is named. style: screen, paper, or changes of
         them as {"base": "paper", "rc": {"font.family": "serif"}}."""
-        from warmjoint import draw
+        from warmjoint.figures import families
+        from warmjoint.figures.style import use
 
         if not isinstance(figure, str):
             raise _core.BadInput(f"figure: is {kind_of(figure)}; give the name of one of figures()")
-        found = self.figures()
-        name = figure or ("fit" if ax is None else "friction_curve")
-        if name not in found:
-            if name in _core.figure_names() and self.log is None:
+        source, name = self._source(), figure or ("fit" if ax is None else "friction_curve")
+        family = source.figures()
+        with use(style):
+            if ax is not None and not hasattr(ax, "get_xlabel"):
+                raise ValueError(f"ax: is a value of the type {type(ax).__name__}; give axes of matplotlib")
+            if ax is not None and name in families.PANELS and source.view is not None:
+                families.PANELS[name](ax, source.view)
+                return ax.figure
+            sheet = family[name][0]() if name in family else None
+        if sheet is None:
+            if name in family and self.log is None:
                 self._need_log(f"figure: '{name}'")
-            raise _core.BadInput(f"figure: this estimate gives no {shown(name)}; it gives {', '.join(found)}")
-        return draw.draw(found[name], style=style, ax=ax)
+            raise _core.BadInput(f"figure: this estimate gives no {shown(name)}; it gives {', '.join(self.figures())}")
+        if ax is not None:
+            raise ValueError(f"'{name}' has {len(sheet.axes)} panels, and axes take one: {' or '.join(families.PANELS)}; leave ax out")
+        return sheet
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes one self-contained web page: verdict, what to do next, parameters, the log, pictures, tests and assumptions."""
-        from warmjoint import draw, page
+        from warmjoint.figures import pages, view
 
         log = self._need_log("report")
-        _core.write_text(path_of(path), page.fill("log", _core.log_page(self.data, log._core), draw))
+        facts, arrays = _core.shown_on_page(self.data, log._core)
+        _core.write_text(path_of(path), pages.fill("log", view.unpacked(facts, arrays)))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes estimate.json, which `warmjoint attach`, scenarios and the plugin read."""

@@ -147,9 +147,12 @@ class Log:
 
     def plot(self, style: str | dict[str, Any] = "screen") -> Any:
         """Draws position, velocity and torque over time, with the samples in colour that a fit takes, as a matplotlib Figure."""
-        from warmjoint import draw
+        from warmjoint.figures import along_log, view
+        from warmjoint.figures.style import use
 
-        return draw.draw(_core.log_figure(self._core), style=style)
+        facts, arrays = _core.shown_of_log(self._core)
+        with use(style):
+            return along_log.log(view.View(view.unpacked(facts["fit"], arrays)))
 
     def between(self, begin: float, end: float) -> Log:
         """The samples of the times begin to end, s, end left out."""

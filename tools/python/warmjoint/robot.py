@@ -15,6 +15,7 @@ import numpy.typing as npt
 from warmjoint import _core
 from warmjoint.engine import _engine
 from warmjoint.estimate import Estimate, Parameter
+from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 
 Numbers = float | Mapping[str, float]
@@ -23,9 +24,9 @@ Numbers = float | Mapping[str, float]
 class RobotEstimate(Mapping[str, Estimate]):
     """What identify_robot answers: an Estimate for each joint by its name, robot["elbow"]. `data` is robot.json as a dict."""
 
-    def __init__(self, data: dict[str, Any], figures: dict[str, dict[str, Any]] | None = None) -> None:
+    def __init__(self, data: dict[str, Any], drawn: Sequence[dict[str, Any]] = ()) -> None:
         self.data = data
-        self._figures = figures or {}
+        self._drawn = {one["file"]: one for one in drawn}
 
     def __getitem__(self, joint: str) -> Estimate:
         if joint not in self.data["joints"]:
@@ -66,11 +67,13 @@ class RobotEstimate(Mapping[str, Estimate]):
 
     def plot(self, joint: str, style: str | dict[str, Any] = "screen") -> Any:
         """Draws friction over velocity, along the log, and what is left of one joint; returns the matplotlib Figure."""
-        from warmjoint import draw
+        from warmjoint.figures import robots
+        from warmjoint.figures.style import use
 
-        if joint not in self._figures:
-            raise _core.BadInput(f"plot: there is no picture of '{joint}'; there are {', '.join(self._figures) or 'none in a file'}")
-        return draw.draw(self._figures[joint], style=style)
+        if joint not in self._drawn:
+            raise _core.BadInput(f"plot: there is no picture of '{joint}'; there are {', '.join(self._drawn) or 'none in a file'}")
+        with use(style):
+            return robots.joint(self._drawn[joint])
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes robot.json, which `warmjoint attach MODEL --friction robot.json` reads."""
@@ -108,8 +111,8 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
     files, arrays = _log(log)
     source = {"files": files, "map": dict(map or {}), "unit": dict(unit or {}), "columns": list(columns), "rate": float(rate)}
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
-        data, figures = _engine().identify_robot(_model(model, folder), source, arrays, settings)
-    return RobotEstimate(data, figures)
+        data, facts, columns_of = _engine().identify_robot(_model(model, folder), source, arrays, settings)
+    return RobotEstimate(data, unpacked(facts, columns_of))
 
 
 def load_robot(path: str | os.PathLike[str]) -> RobotEstimate:

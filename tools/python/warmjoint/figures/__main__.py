@@ -1,0 +1,38 @@
+"""Answers one request of `warmjoint` on standard input: figures to draw, or a page to fill.
+
+A request is a line of JSON, {facts, sizes[]}, and arrays of float64 behind it (tools/shown/shown_data.h). The answer to figures is a line of
+JSON, {files[{source, name, finding, is_data, size}], left_out[]} or {refusal{place, why}}, and the files behind it; to a page its HTML.
+"""
+
+import json
+import os
+import sys
+
+sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+import numpy as np  # noqa: E402
+from figures.view import unpacked  # noqa: E402
+
+sys.path.pop(0)  # other modules of that folder are none of others
+
+
+def read_request(stream):
+    """The facts with their arrays."""
+    head = json.loads(stream.readline())
+    numbers = np.frombuffer(stream.read(), "=f8")
+    return unpacked(head["facts"], np.split(numbers, np.cumsum(head["sizes"])[:-1]) if head["sizes"] else [])
+
+
+def main():
+    request = read_request(sys.stdin.buffer)
+    if "page" in request:
+        from figures import pages
+
+        return sys.stdout.buffer.write(pages.fill(request["page"], request["content"]).encode())
+    from figures import plot
+
+    return sys.stdout.buffer.write(plot.answer(request))
+
+
+if __name__ == "__main__":
+    main()

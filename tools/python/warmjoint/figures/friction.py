@@ -1,0 +1,143 @@
+"""Figures of a fitted friction: over velocity at three heats, at one speed while it warms, several in one picture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import sheet as draw
+from .numerals import significant, unit_text
+from .sheet import Sheet
+from .speeds import groups_of
+from .view import View
+
+HEATS = (("cold", "blue"), ("half as warm", "orange"), ("warmest", "vermilion"))
+SEVERAL = ("blue", "vermilion", "green", "purple", "orange", "sky")
+Z95 = 1.959964
+
+
+def over_velocity(ax: Any, view: View, title: str = "") -> None:
+    """Samples, coloured by their heat, and the fitted curve cold, half as warm and at its warmest with their 95 % bands. With maps the mean at
+    each speed over the places where the joint moved so."""
+    speed, torque = view.kept(view.velocity), view.kept(view.torque)
+    heats = HEATS if view.warms else HEATS[:1]
+    if view.warms:
+        nearest = np.rint(2 * view.kept(view.energy) / (view.energy[view.warmest] or 1)).clip(0, 2)
+        for i, (name, hue) in enumerate(heats):
+            of_heat = nearest == i
+            draw.dots(ax, speed[of_heat], torque[of_heat], f"measured, {name}", hue, 1.0, opacity=0.45)
+    else:
+        draw.dots(ax, speed, torque, "measured")
+    for i, (name, hue) in enumerate(heats):
+        label = f"{view.fit_name}, {name}" if view.warms else view.fit_name
+        if view.has_maps and view.has_fit:
+            _means_of_maps(ax, view, view.facts["at_heats"][i]["force"], label, hue)
+        else:
+            _curves(ax, [one for one in view.facts.get("curves", ()) if _same(one["energy"], i, view)], label, hue, view)
+    draw.finish(ax, view.speed_name, view.torque_name("torque"), title)
+
+
+def _same(energy: float, place: int, view: View) -> bool:
+    return bool(np.isclose(energy, view.energy[view.warmest] * place / 2)) if view.warms else True
+
+
+def _curves(ax: Any, curves: list[dict[str, Any]], label: str, hue: str, view: View) -> None:
+    """One for each direction; the label stands in the legend once."""
+    for curve in curves:
+        if curve["std"].size:
+            half = Z95 * curve["std"]
+            draw.band(ax, curve["speed"], curve["force"] - half, curve["force"] + half, hue=hue, opacity=0.35)
+        draw.line(ax, curve["speed"], curve["force"], label, hue, 2.0, view.dash)
+        label = ""
+
+
+def _means_of_maps(ax: Any, view: View, force: np.ndarray, label: str, hue: str) -> None:
+    for direction in (1, -1):
+        found = [(np.mean(view.velocity[own]), np.mean(force[own])) for _, _, own in groups_of(view, direction) if own.size]
+        if found:
+            speeds, means = map(np.array, zip(*found))
+            draw.line(ax, speeds, means, f"{label}, mean at each speed" if label else "", hue, 2.0, view.dash)
+            draw.dots(ax, speeds, means, "", hue, 3.0, "diamond")
+            label = ""
+
+
+def friction_curve(view: View) -> Sheet | None:
+    """Friction over velocity."""
+    if not view.has_fit or not view.count:
+        return None
+    taken = f"; the torque is less {view.taken_off}" if view.taken_off else ""
+    bands = "; bands are 95 % intervals of the curve" if any(one["std"].size for one in view.facts["curves"]) else ""
+    said = ", ".join(f"{row['name']} {significant(row['value'])} {unit_text(row['unit'])}" for row in view.facts["parameters"]
+                     if row["name"] not in ("thermal_gain_discrete", "thermal_pole"))
+    fig = Sheet("friction_curve", "Friction over velocity", view.origin + taken + bands, f"Friction over velocity from these parameters: {said}.")
+    over_velocity(fig.panels((400, [1]))[0], view)
+    return fig
+
+
+def while_warming(ax: Any, view: View, title: str = "") -> None:
+    """Friction at one speed over time with its 95 % band, what the samples say of it, and the same of a joint that stays cold. Of a friction
+    with maps its change E."""
+    sign = np.sign(view.velocity)
+    left = view.kept((view.torque - view.fitted) * sign)
+    at = view.facts.get("at_speed")
+    curve = at["force"] if at else view.energy
+    deviation = at["std"] if at else view.energy_std
+    limits = draw.bulk([view.kept(curve) + left], 0.01)
+    draw.dots(ax, view.kept(view.clock), view.kept(curve) + left, "measured, brought to that speed" if at else "(torque − F_{n}) · sign(v)")
+    if deviation is not None and deviation.size:
+        draw.band(ax, view.clock, curve - Z95 * deviation, curve + Z95 * deviation, "95 % interval", "vermilion", 0.35)
+    draw.line(ax, view.clock, curve, view.fit_name if at else "E (void)" if view.void else "E", "vermilion", 2.0, view.dash)
+    if at:
+        draw.level(ax, at["cold"], "cold model, without heat", "blue", 1.6)
+    reach = (curve.min(), curve.max(), at["cold"] if at else 0.0)
+    spare = 0.04 * (max(*reach, limits[1]) - min(*reach, limits[0]))
+    ax.set_ylim(min(*reach, limits[0]) - spare, max(*reach, limits[1]) + spare)
+    speed = f"friction at {significant(at['speed'], 2)} {view.speed_unit}" if at else "change of the level, E"
+    draw.finish(ax, view.time_name, view.torque_name(speed), title)
+
+
+def warm_up(view: View) -> Sheet | None:
+    """Friction at one speed while the joint warms. Nothing without a fit that warms."""
+    if not view.warms or not view.count:
+        return None
+    at, warmest = view.facts.get("at_speed"), view.warmest
+    when = f"after {significant(view.clock[warmest])} {view.time_unit}"
+    if at:
+        title = f"Friction at {significant(at['speed'], 2)} {view.speed_unit} while the joint warms"
+        found = (f"Friction at {significant(at['speed'], 2)} {view.speed_unit} goes from {significant(at['force'][0])} to "
+                 f"{significant(at['force'][warmest])} {view.torque_unit} {when}.")
+    else:
+        title = "Change of friction by its own heat"
+        found = f"Friction changes by E = {significant(view.energy[warmest])} {view.torque_unit} at most, {when}."
+    fig = Sheet("warm_up", title, view.origin, found)
+    while_warming(fig.panels((390, [1]))[0], view)
+    return fig
+
+
+def estimates(named: list[tuple[str, View]]) -> Sheet | None:
+    """Friction over velocity of each, cold, over the samples of the first, and E over time of those that warm. Nothing of fewer than two."""
+    fits = [(name, view) for name, view in named if view.has_fit and view.count]
+    if len(fits) < 2:
+        return None
+    first = fits[0][1]
+    warm = [(i, name, view) for i, (name, view) in enumerate(fits) if view.warms]
+    fig = Sheet("estimates", "Friction by several estimates", f"samples are of {first.source}",
+                f"Cold friction over velocity by {', '.join(name for name, _ in fits)}.")
+    axes = fig.panels((370, [1, 1] if warm else [1]))
+    draw.dots(axes[0], first.kept(first.velocity), first.kept(first.torque), "measured")
+    for i, (name, view) in enumerate(fits):
+        hue, dash = SEVERAL[i % 6], ("solid", "dashed", "dotted")[i // 6 % 3]
+        label = name
+        for curve in view.facts["curves"]:
+            if curve["energy"] == 0:
+                draw.line(axes[0], curve["speed"], curve["force"], label, hue, 2.0, dash)
+                label = ""
+        if view.has_maps:
+            _means_of_maps(axes[0], view, view.facts["at_heats"][0]["force"], name, hue)
+    draw.finish(axes[0], first.speed_name, first.torque_name("torque"), "Friction over velocity, cold")
+    for i, name, view in warm:
+        draw.line(axes[1], view.time / first.seconds, view.energy, name, SEVERAL[i % 6], 2.0, ("solid", "dashed", "dotted")[i // 6 % 3])
+    if warm:
+        draw.finish(axes[1], first.time_name, first.torque_name("E"), "Warm-up")
+    return fig
