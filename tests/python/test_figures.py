@@ -6,7 +6,7 @@ import pytest
 pytest.importorskip("matplotlib")
 import shown
 from warmjoint.figures import along_log, families, fit_page, friction, log_page, motor, residuals, robots, run_page, runs, speeds, steps
-from warmjoint.figures.numerals import hue_of, significant, to_digits_of, unit_text
+from warmjoint.figures.numerals import hue_of, plain_number, significant, to_digits_of, unit_text
 from warmjoint.figures.sheet import Sheet, TooSmall, encode, page_size
 from warmjoint.figures.sheet import dots as draw_dots
 from warmjoint.figures.sheet import finish as finish_panel
@@ -159,7 +159,7 @@ def test_friction_over_velocity_has_three_heats_with_bands_and_dots_by_heat():
 def test_friction_with_maps_is_a_mean_at_each_speed_without_a_band():
     sheet = look(friction.friction_curve(View(shown.mapped_facts())))
     assert "band" not in [series.kind for series in sheet.drawn]
-    mean = next(series for series in sheet.drawn if series.label == "fit, cold, mean at each speed").columns
+    mean = next(series for series in sheet.drawn if series.label == "fit, cold").columns
     np.testing.assert_allclose(mean["x"], [0.2, 0.5, 0.9])
     np.testing.assert_allclose(mean["y"], [16, 17.5, 19.5])
 
@@ -483,6 +483,7 @@ def test_numbers_are_rounded_as_people_do():
                                 (0.09999, 2, "0.10"), (9.999e-5, 2, "1.0·10⁻⁴"), (float("nan"), 3, "–"), (None, 3, "–")):
         assert significant(value, digits) == text
     assert to_digits_of(5.00321, 0.06) == "5.003" and to_digits_of(600.7, 12) == "601" and to_digits_of(0.0035, None) == "0.003500"
+    assert plain_number(0.003498, 4) == "0.003498" and plain_number(7.318e-4, 4) == "0.0007318" and plain_number(93.3, 4) == "93.30"
     assert unit_text("N.m.s^2/rad") == "N·m·s²/rad"
 
 

@@ -57,7 +57,7 @@ def _means_of_maps(ax: Any, view: View, force: np.ndarray, label: str, hue: str)
         found = [(np.mean(view.velocity[own]), np.mean(force[own])) for _, _, own in groups_of(view, direction) if own.size]
         if found:
             speeds, means = map(np.array, zip(*found))
-            draw.line(ax, speeds, means, f"{label}, mean at each speed" if label else "", hue, 2.0, view.dash)
+            draw.line(ax, speeds, means, label, hue, 2.0, view.dash)
             draw.dots(ax, speeds, means, "", hue, 3.0, "diamond")
             label = ""
 
@@ -68,6 +68,7 @@ def friction_curve(view: View) -> Sheet | None:
         return None
     taken = f"; the torque is less {view.taken_off}" if view.taken_off else ""
     bands = "; bands are 95 % intervals of the curve" if any(one["std"].size for one in view.facts["curves"]) else ""
+    bands += "; lines are means at each speed over the places of the samples" if view.has_maps else ""
     said = ", ".join(f"{row['name']} {significant(row['value'])} {unit_text(row['unit'])}" for row in view.facts["parameters"]
                      if row["name"] not in ("thermal_gain_discrete", "thermal_pole"))
     fig = Sheet("friction_curve", "Friction over velocity", view.origin + taken + bands, f"Friction over velocity from these parameters: {said}.")

@@ -147,7 +147,8 @@ def friction_map(view: View) -> Sheet | None:
     angle = view.motor_angle if over_motor else view.position
     if angle is None:
         return None
-    levels = [np.where(passed(view, angle, lower, upper, fastest, one.shape), one, np.nan) for one in grid["levels"]]
+    was_there = passed(view, angle, lower, upper, fastest, grid["levels"][0].shape)
+    levels = [np.where(was_there, one, np.nan) for one in grid["levels"]]
     names = ["cold", f"warmest: E = {significant(grid['energies'][-1])} {view.torque_unit}"][:len(levels)]
     said = "".join(f" {word} {significant(np.nanmin(one))} to {significant(np.nanmax(one))} {view.torque_unit}," for word, one in zip(("cold", "warm"), levels))
     ways = [(way, title) for way, title in ((1, "Forwards"), (-1, "Backwards")) if np.isfinite(_half(levels[0], way)).any()]

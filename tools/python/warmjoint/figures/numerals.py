@@ -27,6 +27,13 @@ def significant(value: float | None, digits: int = 3) -> str:
     return f"{value:.{max(0, digits - 1 - exponent)}f}".replace("-", "−")
 
 
+def plain_number(value: float, digits: int) -> str:
+    """So many significant digits, never as a power of ten: for numbers that stand beside each other."""
+    if not value or not math.isfinite(value):
+        return significant(value)
+    return f"{value:.{max(0, digits - 1 - math.floor(math.log10(abs(value))))}f}".replace("-", "−")
+
+
 def to_digits_of(value: float, deviation: float | None) -> str:
     """So many digits that the deviation has two; four where it is not known."""
     if not deviation or not value or not math.isfinite(value) or not math.isfinite(deviation) or deviation < 0:

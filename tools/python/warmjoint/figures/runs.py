@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import sheet as draw
-from .numerals import hue_of, look_of, significant, unit_text
+from .numerals import hue_of, look_of, plain_number, significant, unit_text
 from .run_view import Column, Row, Run
 from .sheet import Sheet
 from .view import quantiles, quartiles
@@ -284,7 +284,7 @@ def _bars(ax: Any, rows: list[Row], values: list[np.ndarray]) -> None:
         if known.size > 1:
             draw.line(ax, [place, place], [low, high], "", "text", 1.4)
         tops.append(float(max(middle, high)))
-        ax.annotate(significant(float(middle), 4), (place, max(middle, high, 0)), (0, 4), textcoords="offset points", ha="center",
+        ax.annotate(plain_number(float(middle), 4), (place, max(middle, high, 0)), (0, 4), textcoords="offset points", ha="center",
                     fontsize=draw.look()["scale"] * draw.TICK)
     ax.set_ylim(0, 1.16 * max([*tops, 1e-300]))
     draw.categories(ax, [row.label for row in rows])

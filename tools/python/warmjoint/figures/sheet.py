@@ -108,7 +108,7 @@ class Sheet(Figure):
             for place, share in zip(row, shares):
                 ax = self.add_subplot(place)
                 ax.panel_width = width * share / sum(shares)
-                ax.xaxis.set_major_locator(MaxNLocator(max(3, int(ax.panel_width / 70)), steps=[1, 2, 2.5, 5, 10]))
+                ax.xaxis.set_major_locator(MaxNLocator(max(3, int(ax.panel_width / 62)), steps=[1, 2, 2.5, 5, 10]))
                 ax.yaxis.set_major_locator(MaxNLocator(max(3, int(height / 38)), steps=[1, 2, 2.5, 5, 10]))
                 axes.append(ax)
         return axes
@@ -321,7 +321,7 @@ def whole_numbers(ax: Any) -> None:
         ax.set_xlim(max(1, low), high)
         logarithmic(ax, "x")
     else:
-        ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+        ax.xaxis.set_major_locator(MaxNLocator(8, integer=True, steps=[1, 2, 5, 10]))
 
 
 def logarithmic(ax: Any, side: str) -> None:
@@ -445,7 +445,7 @@ def _png(sheet: Sheet, dpi: float) -> bytes:
         words.add_itxt(key, text)
     sheet.set_dpi(dpi)
     sheet.canvas.draw()
-    Image.fromarray(np.asarray(sheet.canvas.buffer_rgba())).convert("RGB").save(file, "png", pnginfo=words, dpi=(dpi, dpi))
+    Image.fromarray(np.asarray(sheet.canvas.buffer_rgba())).convert("RGB").save(file, "png", pnginfo=words, dpi=(dpi, dpi), compress_level=4)
     return file.getvalue()
 
 

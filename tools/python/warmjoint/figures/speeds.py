@@ -24,18 +24,17 @@ def groups_of(view: View, direction: int) -> list[tuple[str, str, np.ndarray]]:
     sizes = np.sort(np.abs(own[np.isfinite(own)]))
     if not sizes.size:
         return []
-    edges = [group[-1] for group in _clusters(sizes)]
-    place = np.searchsorted(np.array(edges), np.abs(own))
+    clusters = _clusters(sizes)
+    place = np.searchsorted(np.array([group[-1] for group in clusters]), np.abs(own))
     moved = np.isfinite(own) & (own * direction > 0)
-    return [(HUES[i], _label(group, view.speed_unit), np.flatnonzero(moved & (place == i))) for i, group in enumerate(_clusters(sizes))]
+    return [(HUES[i], _label(group, view.speed_unit), np.flatnonzero(moved & (place == i))) for i, group in enumerate(clusters)]
 
 
 def _clusters(sizes: np.ndarray) -> list[np.ndarray]:
     """sizes: ascending. One array for each group."""
     starts = [0]
-    for i, size in enumerate(sizes):
-        if size > (1 + ALIKE) * sizes[starts[-1]]:
-            starts.append(i)
+    while (further := int(np.searchsorted(sizes, (1 + ALIKE) * sizes[starts[-1]], side="right"))) < sizes.size:
+        starts.append(further)
     single = np.split(sizes, starts[1:])
     groups = _without_strays(single, sizes.size)
     if len(groups) <= len(HUES):
