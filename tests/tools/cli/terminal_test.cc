@@ -16,14 +16,16 @@ using testing::Not;
 
 constexpr const char* kEscape = "\033[";
 
-/// The widest of what a progress line showed, in ASCII: each but the last return begins one.
+/// The widest of what progress lines showed, in ASCII: each but the last return begins one. Where a line ends, a command
+/// printed other words after it had cleared its progress.
 size_t WidestProgress(const std::string& shown) {
   const std::string redraw = "\r\033[K";
   size_t widest = 0, begin = shown.find(redraw);
   while (begin != std::string::npos) {
     begin += redraw.size();
     const size_t end = shown.find(redraw, begin);
-    if (end != std::string::npos) widest = std::max(widest, end - begin);
+    const bool printed = shown.substr(begin, end - begin).find('\n') != std::string::npos;
+    if (end != std::string::npos && !printed) widest = std::max(widest, end - begin);
     begin = end;
   }
   return widest;
