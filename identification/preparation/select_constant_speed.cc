@@ -17,8 +17,9 @@ constexpr double kSettled = 0.005;    // of the speed: to which a start must set
 constexpr double kDriftOfBand = 0.6;  // a hold that drifts by more leaves its band
 constexpr double kSlowly = 0.01;      // of the steepest acceleration: a hold that drifts, no ramp
 
-// of the band; why: a sine whose peaks leave the band has four times its amplitude, noise at most a little more than the band
-constexpr double kRipples = 2;
+// standard deviation of a robust deviation of n independent normal samples, times sqrt(n), over its value: its variance is
+// 1 / 0.37 of that of the standard deviation, 1 / (2 n)
+constexpr double kRobustSpread = 1.16;
 
 // a jump from one speed to the next
 constexpr double kJumpDeviations = 8;   // of the noise
@@ -153,6 +154,16 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
   } else {
     CutInwards(run, is_inside);
   }
+}
+
+/// How far the samples of a hold may lie from its level: the band, which holds what noise there is, or where they spread by
+/// more than chance lets that noise spread, a ripple of the load. A handful of samples shows no ripple. strays: [n] distances
+double LimitOfStrays(const Eigen::ArrayXd& strays, double level, const VelocityScale& scale) {
+  const double band = scale.Band(level);
+  const double rippling = VelocityScale::kFar * SpreadOfStrays(strays);
+  const double independent = std::max(1.0, static_cast<double>(strays.size()) / scale.memory);
+  const double by_chance = 1 + VelocityScale::kFar * kRobustSpread / std::sqrt(independent);
+  return strays.size() >= kHandful && rippling > by_chance * band ? rippling : band;
 }
 
 /// Quarters of a run; halves of a short one.
@@ -333,10 +344,8 @@ ConstantSpeed FindConstantSpeed(const Measurements& measurements) {
     // outliers within a segment are not kept, the peaks of a ripple of the load are
     const auto values = v.segment(segment.begin, Length(segment)).array();
     const Eigen::ArrayXd strays = (values - segment.velocity).abs();
-    const double band = scale.Band(segment.velocity);
-    const double rippling = VelocityScale::kFar * SpreadOfStrays(strays);
-    const bool ripples = Length(segment) >= kHandful && rippling > kRipples * band;
-    selection.keep.segment(segment.begin, Length(segment)) = strays <= (ripples ? rippling : band);
+    selection.keep.segment(segment.begin, Length(segment)) =
+        strays <= LimitOfStrays(strays, segment.velocity, scale);
     segment.velocity = values.mean();
     selection.segments.push_back(segment);
   }

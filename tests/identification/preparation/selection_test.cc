@@ -154,6 +154,25 @@ TEST(SelectConstantSpeed, KeepsASpeedThatRippleOfTheLoadLetsWobbleInTheMiddle) {
   EXPECT_LT(outcome.wrong, 0.002);
 }
 
+TEST(SelectConstantSpeed, KeepsThePeaksOfAMotorsRippleAtASlowSpeed) {
+  // noise of 0.003 rad/s, whose band is 0.012; a speed of 0.1 rad/s that ripples by -0.009 to 0.017 from 0.1 on, twelve samples a turn
+  Motion motion = WithNoise(Alternating({.step = 0.05}), 0.003);
+  std::size_t slow = 0, kept = 0;
+  for (std::size_t i = 0; i < 800; ++i) {
+    const double angle = 0.5 * static_cast<double>(i);
+    const double direction = i < 400 ? 1 : -1;
+    motion.velocity[i] = direction * (0.1 + 0.012 * std::sin(angle) - 0.005 * std::cos(2 * angle));
+  }
+  const Selection selection = SelectConstantSpeed(motion.Log());
+  for (Index i = 0; i < 800; ++i) {
+    if (std::abs(motion.velocity[static_cast<std::size_t>(i)]) < 0.115) continue;
+    ++slow;
+    kept += selection.keep[i] ? 1 : 0;
+  }
+  EXPECT_GT(slow, 60U);
+  EXPECT_GT(static_cast<double>(kept), 0.95 * static_cast<double>(slow));
+}
+
 TEST(SelectConstantSpeed, LeavesOutTheCreepOfAReversal) {
   // at 20 Hz: presliding holds the speed for half a second on the way from each speed to the next
   Motion motion = Alternating({.step = 0.05});
