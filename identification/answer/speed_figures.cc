@@ -182,7 +182,7 @@ std::optional<Cause> UnknownFriction(const std::vector<SpeedFigure>& at_speeds,
   size_t counted = 0;
   for (size_t i = 0; i < at_speeds.size(); ++i) {
     const SpeedFigure& one = at_speeds[i];
-    const FigureChange change = ChangeOf(causes, one.derivatives);
+    const FigureChange change = ChangeOf(causes, one.derivatives, About::friction);
     if (!change.has_interval) continue;
     ++counted;
     const double half = one.HalfWidth() + change.Reach();

@@ -55,7 +55,7 @@ void Apply(const std::vector<Cause>& causes, std::vector<SpeedFigure>& at_speeds
   std::vector<SpeedFigure> left;
   for (std::size_t i = 0; i < at_speeds.size(); ++i) {
     SpeedFigure& one = at_speeds[i];
-    const FigureChange change = ChangeOf(causes, one.derivatives);
+    const FigureChange change = ChangeOf(causes, one.derivatives, About::friction);
     if (!stays[i] || !change.has_interval) continue;
     Move(change, one.at.value, &one.at.interval95, one.parts);
     left.push_back(std::move(one));
@@ -80,7 +80,7 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
   // the numbers
   const auto count = std::ssize(answer.parameters);
   for (Eigen::Index i = 0; i < count; ++i) {
-    Apply(ChangeOf(causes, Eigen::VectorXd::Unit(count, i)),
+    Apply(ChangeOf(causes, Eigen::VectorXd::Unit(count, i), About::parameters),
           answer.parameters[static_cast<std::size_t>(i)]);
   }
   Apply(causes, answer.at_speeds);
@@ -127,7 +127,8 @@ double MostOf(const Cause& cause, const Eigen::VectorXd& by) {
 
 }  // namespace
 
-FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives) {
+FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives,
+                      About of) {
   FigureChange change;
   std::map<Source, double> widened;
   for (const Cause& cause : causes) {
@@ -137,6 +138,7 @@ FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& d
       if (derivatives[static_cast<Eigen::Index>(row)] != 0) change.has_interval = false;
     }
     if (cause.action == Action::note || cause.bias.size() == 0) continue;
+    if (cause.about != About::all && cause.about != of) continue;
 
     const Eigen::VectorXd by = derivatives(cause.rows);
     const double bias = by.dot(cause.bias);

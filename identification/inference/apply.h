@@ -30,7 +30,8 @@ struct FigureChange {
 
 /// Each row's biases act together, |d b| + 1.96 |d S|, within what it allows at most. Rows of one source are several ways in which the same may be wrong, of
 /// which the worst counts; sources add. causes: Inference::causes; derivatives: [P] of the figure by the value of each row of
-/// the fit's table, a unit vector for one parameter
-FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives);
+/// the fit's table, a unit vector for one parameter; of: what the figure is, parameters also for what is made of them
+FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives,
+                      About of);
 
 }  // namespace warmjoint

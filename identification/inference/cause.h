@@ -103,12 +103,20 @@ enum class Action {
   refuse,          // no interval, friction or band; the answer's status is the row's
 };
 
+/// Numbers that a row may be about.
+enum class About {
+  all,
+  parameters,
+  friction  // at speeds and along maps
+};
+
 /// A sentence is a warning, ends the message, or is a warning that a refused answer has, too: it is about the log.
 enum class SentenceIn { warning, message, any_answer };
 
 struct Cause {
   Source source = Source::fit;
   Action action = Action::note;
+  About about = About::all;         // whose values and intervals bias, spread and most change
   std::vector<std::size_t> rows{};  // [p] of the fit's table that the bias is about
   Eigen::VectorXd bias{};  // [p] change of each value, were this taken into account; empty: of none
   Eigen::MatrixXd spread{};  // [p x k] S, the bias' covariance is S S^T; empty: 0

@@ -222,27 +222,6 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
   return effect;
 }
 
-/// Sums up how what was found moves the parameters, and how far that changes the friction.
-void SumMoves(const OverBins& over, Examination& examination) {
-  if (examination.Found().empty()) return;
-  const Index p = std::ssize(examination.rows);
-  Eigen::VectorXd bias = Eigen::VectorXd::Zero(p);
-  // findings count as independent of each other: their covariances add up
-  Eigen::MatrixXd spread(p, 0);
-  for (const Finding& finding : examination.findings) {
-    if (!finding.rejected || finding.moves.size() == 0) continue;
-    bias += finding.moves.head(p);
-    spread = ConcatColumns(spread, finding.move_spread.topRows(p));
-  }
-  examination.Add(Source::findings, Action::widen, std::move(bias));
-  examination.causes.back().spread = std::move(spread);
-
-  const FrictionChange change(over, examination.friction);
-  for (Finding& finding : examination.findings) {
-    if (finding.rejected) finding.harm = HarmOf(finding, change, examination);
-  }
-}
-
 /// Share of the friction by which it may differ at any of its samples for what a finding explains: sqrt(10) times the effect, which
 /// the effect may be in the worst tenth of the log; infinite for those that count by their moves.
 double MostChange(const Finding& finding, const FrictionChange& change,
@@ -251,6 +230,51 @@ double MostChange(const Finding& finding, const FrictionChange& change,
   const bool by_moves = harm == Harm::of_moves || harm == Harm::of_either ||
                         (harm == Harm::of_drift && change.HasHeat());
   return by_moves ? kInfinity : kWorstTenth * examination.Rms(finding) / examination.friction;
+}
+
+/// How much of what a finding moves can be: moves of parameters that change the friction by more than what was found take each other
+/// back.
+struct BoundedMoves {
+  double most = 0;   // of the friction by which it changes, as a share
+  double share = 1;  // of the moves
+};
+
+BoundedMoves Bounded(const Finding& finding, const FrictionChange& change,
+                     const Examination& examination) {
+  double variance = 0;
+  for (const auto& column : finding.move_spread.colwise()) {
+    variance += std::pow(change.By(column), 2);
+  }
+  const double reach = change.By(finding.moves) + kNormal95 * std::sqrt(variance);
+  const double most = std::min(reach, MostChange(finding, change, examination));
+  return {most, reach > 0 ? most / reach : 1};
+}
+
+/// Sums up how what was found moves the parameters, and how far that changes the friction: the parameters by all of it, since what
+/// one takes back of another still is in both, the friction by no more than there was.
+void SumMoves(const OverBins& over, Examination& examination) {
+  if (examination.Found().empty()) return;
+  const FrictionChange change(over, examination.friction);
+  const Index p = std::ssize(examination.rows);
+  Eigen::VectorXd bias = Eigen::VectorXd::Zero(p), of_friction = bias;
+  // findings count as independent of each other: their covariances add up
+  Eigen::MatrixXd spread(p, 0), spread_of_friction(p, 0);
+  for (Finding& finding : examination.findings) {
+    if (!finding.rejected) continue;
+    finding.harm = HarmOf(finding, change, examination);
+    if (finding.moves.size() == 0) continue;
+    const double share = Bounded(finding, change, examination).share;
+    bias += finding.moves.head(p);
+    of_friction += share * finding.moves.head(p);
+    spread = ConcatColumns(spread, finding.move_spread.topRows(p));
+    spread_of_friction = ConcatColumns(spread_of_friction, share * finding.move_spread.topRows(p));
+  }
+  examination.Add(Source::findings, Action::widen, std::move(bias));
+  examination.causes.back().about = About::parameters;
+  examination.causes.back().spread = std::move(spread);
+  examination.Add(Source::findings, Action::widen, std::move(of_friction));
+  examination.causes.back().about = About::friction;
+  examination.causes.back().spread = std::move(spread_of_friction);
 }
 
 /// What findings before adjustment move parameters by, as far as that changes the friction. They may be one and the same thing
@@ -263,13 +287,7 @@ void AddUnadjusted(const OverBins& over, Examination& examination) {
   VectorXd own(p);  // of the friction, by a change of each parameter by 1
   for (Index i = 0; i < p; ++i) own[i] = change.By(VectorXd::Unit(q, i));
   for (const Finding* one : found) {
-    double variance = 0;
-    for (const auto& column : one->move_spread.colwise()) {
-      variance += std::pow(change.By(column), 2);
-    }
-    const double reach = change.By(one->moves) + kNormal95 * std::sqrt(variance);
-    const double most = std::min(reach, MostChange(*one, change, examination));
-    const double share = reach > 0 ? most / reach : 1;
+    const auto [most, share] = Bounded(*one, change, examination);
     examination.Add(Source::unadjusted_findings, Action::widen, share * one->moves);
     examination.causes.back().spread = share * one->move_spread.topRows(p);
     examination.causes.back().most = (own.array() > 0).select(most / own.array(), kInfinity);

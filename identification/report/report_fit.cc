@@ -120,7 +120,7 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
         slopes.col(at.column) / ValueByCoordinate(fit.parameters[at.row], known.value);
   }
   for (Eigen::Index i = 0; i < by_value.rows(); ++i) {
-    errors.widened[i] = ChangeOf(inference.causes, by_value.row(i)).Reach();
+    errors.widened[i] = ChangeOf(inference.causes, by_value.row(i), About::parameters).Reach();
   }
   return errors;
 }
@@ -264,7 +264,7 @@ void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double&
            std::array<double, 2>& interval) {
   Eigen::VectorXd derivatives = Eigen::VectorXd::Zero(std::ssize(inference.parameters));
   derivatives.head(by_law.size()) = by_law;
-  const FigureChange change = ChangeOf(inference.causes, derivatives);
+  const FigureChange change = ChangeOf(inference.causes, derivatives, About::friction);
   const double shift = change.shift, reach = change.Reach();
   value += shift;
   interval = {interval[0] + shift - reach, interval[1] + shift + reach};
