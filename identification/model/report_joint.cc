@@ -86,26 +86,19 @@ Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
   return friction;
 }
 
-/// E at the last sample, and its derivatives by central differences.
+/// E at the last sample, and its derivatives.
 EndEnergy EndOf(const JointFit& fit) {
-  const auto end_at = [&](const VectorXd& x) {
-    VectorXd energy;
-    FrictionAlong(fit, x, energy);
-    return energy.tail(1)[0];
-  };
-  EndEnergy end{end_at(fit.solved.x), VectorXd::Zero(fit.model.size())};
-  std::vector<Index> rows;
-  for (const Slice& slice : {fit.at.law, fit.at.load, *fit.at.heat}) {
-    for (Index row = slice.begin; row < slice.end(); ++row) rows.push_back(row);
+  const Index samples = fit.model.samples, size = fit.model.size();
+  ModelRows friction{VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, size)};
+  for (const auto& block : fit.model.blocks) {
+    if (block->MakesHeat()) block->Fill(fit.solved.x, friction);
   }
-  for (const Index row : rows) {
-    const double reach = std::max(1e-3 * fit.Deviation(row), 1e-9);
-    VectorXd above = fit.solved.x, below = above;
-    above[row] += reach;
-    below[row] -= reach;
-    end.slopes[row] = (end_at(above) - end_at(below)) / (2 * reach);
-  }
-  return end;
+  // as it adds to the force, without the direction
+  HeatBlock heat = *fit.model.heat;
+  heat.direction.setOnes();
+  ModelRows energy{VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, size)};
+  heat.Fill(fit.solved.x, friction, energy);
+  return {energy.force.tail(1)[0], energy.derivatives.bottomRows(1).transpose()};
 }
 
 /// The fit as all that judges and reports one reads it.

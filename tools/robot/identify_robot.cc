@@ -146,9 +146,9 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   }
   if (fitted.empty()) return answer;
   rows.deviations = described;
-  const Payload payload = FindPayload(data, rows, guesses, fitted, question);
+  const Payload payload = FindPayload(data, rows, guesses, fitted, question, settings.tool.known);
   if (payload.is_shown) answer.notices.push_back(ExplainPayload(payload, settings.tool.known));
-  if (payload.is_shown || is_asked) answer.payload = payload.mass;
+  answer.payload = payload.mass;
   return answer;
 }
 

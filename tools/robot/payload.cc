@@ -114,59 +114,73 @@ EstimatedParameter MassOf(const RobotData& data, const MatrixXd& described, cons
   return mass;
 }
 
-/// A joint with the last link free, and by what its held-out residual falls; nothing where too little is left to hold out.
-struct Loaded {
-  JointColumns columns;
-  JointFit fit;
-  std::optional<double> falls;
-};
+/// By what a free last link lets the held-out residual of joint j fall; nothing where too little is left to hold out.
+std::optional<double> FallOf(const RobotData& data, const RobotRows& as_given,
+                             const RobotRows& free, Index j, const GainGuess& guess,
+                             const JointQuestion& question) {
+  const auto held_out = [&](const RobotRows& rows) {
+    const JointColumns columns = ColumnsOf(data, rows, j);
+    return HoldOutJoint(FitJoint(columns, guess, question), columns, kHeldOut);
+  };
+  const auto before = held_out(as_given);
+  if (!before) return std::nullopt;
+  const auto after = held_out(free);
+  if (!after) return std::nullopt;
+  return after->metrics.rmse / before->metrics.rmse;
+}
+
+/// What all joints say together of the description with a free last link.
+SharedDirections SharedOf(const RobotData& data, const RobotRows& free,
+                          const std::vector<GainGuess>& guesses, const std::vector<Index>& joints,
+                          const JointQuestion& question) {
+  std::vector<JointFit> fits(joints.size());
+  std::vector<JointColumns> columns(joints.size());
+  ForEachAtOnce(std::ssize(joints), [&](Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    columns[at] = ColumnsOf(data, free, joints[at], Directions::all);
+    fits[at] = FitJoint(columns[at], guesses[static_cast<std::size_t>(joints[at])], question);
+  });
+  return FitShared(fits, columns);
+}
 
 }  // namespace
 
 Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Index>& joints,
-                    JointQuestion question) {
+                    JointQuestion question, ToolKnown tool) {
   question.warms = question.slows = false;
   const RobotRows as_given = Thinned(data, rows);
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
-  std::vector<Loaded> loaded(joints.size());
+  std::vector<std::optional<double>> falls(joints.size());
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
-    const Index j = joints[at];
-    const GainGuess& guess = guesses[static_cast<std::size_t>(j)];
-    const JointColumns given = ColumnsOf(data, as_given, j);
-    Loaded& one = loaded[at];
-    one.columns = ColumnsOf(data, free, j, Directions::all);
-    one.fit = FitJoint(one.columns, guess, question);
-    const auto before = HoldOutJoint(FitJoint(given, guess, question), given, kHeldOut),
-               after = HoldOutJoint(one.fit, one.columns, kHeldOut);
-    if (before && after) one.falls = after->metrics.rmse / before->metrics.rmse;
+    const GainGuess& guess = guesses[static_cast<std::size_t>(joints[at])];
+    falls[at] = FallOf(data, as_given, free, joints[at], guess, question);
   });
 
   Payload payload;
   double falls_of_all = 0;  // logarithm
-  std::vector<JointFit> fits;
-  std::vector<JointColumns> columns;
-  for (Loaded& one : loaded) {
-    if (one.falls) {
-      payload.falls = std::min(payload.falls, *one.falls);
-      falls_of_all += std::log(*one.falls);
-    }
-    fits.push_back(std::move(one.fit));
-    columns.push_back(std::move(one.columns));
+  for (const std::optional<double>& one : falls) {
+    if (!one) continue;
+    payload.falls = std::min(payload.falls, *one);
+    falls_of_all += std::log(*one);
   }
   payload.is_shown = payload.falls < kHelps && falls_of_all < std::log(kHelps);
-  payload.mass = MassOf(data, rows.deviations, free.deviations, FitShared(fits, columns));
+  // the mass needs all directions of all joints at once, which takes as long as everything else
+  if (payload.is_shown || tool == ToolKnown::unknown) {
+    const SharedDirections shared = SharedOf(data, free, guesses, joints, question);
+    payload.mass = MassOf(data, rows.deviations, free.deviations, shared);
+  }
   return payload;
 }
 
 std::string ExplainPayload(const Payload& payload, ToolKnown tool) {
-  const auto& [lower, upper] = *payload.mass.interval95;
+  const auto& [lower, upper] = *payload.mass->interval95;
   std::string text = fmt::format(
       "the log shows a load at the last link that the description lacks, {:.2g} kg ({:.2g} to "
       "{:.2g}): with that link free a joint's held-out residual falls to {:.0f} %",
-      payload.mass.value, lower, upper, 100 * payload.falls);
+      payload.mass->value, lower, upper, 100 * payload.falls);
   if (tool == ToolKnown::unknown) return text;
   return text + ". --tool unknown takes it in, --tool mass=..,com=.. where it is known";
 }

@@ -15,17 +15,19 @@ namespace warmjoint {
 struct Payload {
   double falls = 1;  // held-out residual of the joint that it helps most, over that without it
   bool is_shown = false;
-  EstimatedParameter mass;  // kg, with its interval, of all joints together
+  std::optional<EstimatedParameter>
+      mass;  // kg, with its interval, of all joints together; where shown or asked for
 };
 
 /// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L x 10 L]
 Eigen::MatrixXd FreeLastLink(const RobotData& data, const Eigen::MatrixXd& deviations);
 
 /// Fits each joint with and without a free last link, and compares them on held-out samples: a load is shown where the residual of one joint falls
-/// by a third, and the product of all joints' as well. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
+/// by a third, and the product of all joints' as well. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too;
+/// it is computed where a load is shown or `tool` is unknown. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
 Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Eigen::Index>& joints,
-                    JointQuestion question);
+                    JointQuestion question, ToolKnown tool);
 
 /// What is said of a load that is shown.
 std::string ExplainPayload(const Payload& payload, ToolKnown tool);
