@@ -20,7 +20,9 @@ import numpy as np
 STEP = .01  # s
 
 
-METHODS = {"the description as prior": [], "least squares with the description as true": ["--inertials", "exact"]}
+METHODS = {"the description as prior": [], "the description as true": ["--inertials", "exact"]}
+POINTS = "points by least squares"
+LOGARITHMS = ("thermal_time_constant", "gain")
 
 
 def motion(kind, k, n):
@@ -80,32 +82,63 @@ def friction(truth, v, carried):
     return force
 
 
-class Count:
-    """What one method answers, beside the truth."""
+def row(seed, joint, method, key, truth, value, std, interval):
+    """One parameter as a method answers it. Times constant and gain have errors of their logarithms."""
+    error = np.log(value / truth) / (std / value) if key in LOGARITHMS else (value - truth) / std
+    return {"seed": seed, "joint": joint, "method": method, "parameter": key, "truth": float(truth), "value": float(value), "std": float(std),
+            "interval95": [float(one) for one in interval], "deviations": float(error), "holds": bool(interval[0] <= truth <= interval[1])}
 
-    def __init__(self):
-        self.found, self.claimed, self.warm, self.failed = {}, 0, 0, 0
 
-    def add(self, answer, truth):
-        for j, estimate in enumerate(answer["joints"].values()):
-            parameters = estimate["parameters"]
-            self.failed += estimate["status"] != "ok"
-            warms = truth["thermal_gain"][j] != 0
-            self.warm += warms and "thermal_gain" in parameters
-            self.claimed += not warms and "thermal_gain" in parameters
-            for key, value in (*((key, one[j]) for key, one in truth.items()), ("gain", 1)):
-                one = parameters.get(key)
-                if one and one["interval95"] and (warms or not key.startswith("thermal")):
-                    lower, upper = one["interval95"]
-                    self.found.setdefault(key, []).append((lower <= value <= upper, (one["value"] - value) / one["std"]))
+def rows_of(answer, truth, seed, method):
+    """What the program answers, a row a parameter; and what it claims of warming, a row a joint."""
+    rows, claims = [], []
+    for j, (joint, estimate) in enumerate(answer["joints"].items()):
+        parameters, warms = estimate["parameters"], bool(truth["thermal_gain"][j])
+        claims.append({"seed": seed, "joint": joint, "method": method, "ok": estimate["status"] == "ok", "warms": warms, "claimed": "thermal_gain" in parameters})
+        for key, value in (*((key, one[j]) for key, one in truth.items()), ("gain", 1)):
+            one = parameters.get(key)
+            if one and one["interval95"] and (warms or not key.startswith("thermal")):
+                rows.append(row(seed, joint, method, key, value, one["value"], one["std"], one["interval95"]))
+    return rows, claims
 
-    def report(self):
-        report = {"not ok": self.failed, "warming found": self.warm, "warming claimed falsely": self.claimed}
-        for key, rows in self.found.items():
-            held = [one[0] for one in rows]
-            report[key] = {"of": len(held), "coverage": float(np.mean(held)), "rms over deviation": float(np.sqrt(np.mean([one[1] ** 2 for one in rows]))),
-                           "p": _binomial(sum(held), len(held), .95)}
-        return report
+
+def least_squares(t, q, torque, model, truth, seed, names):
+    """Points by least squares with the description as true, rotor and load, as AURT fits them; white noise. A row a parameter."""
+    v = np.gradient(q, STEP, axis=0)
+    acc = np.gradient(v, STEP, axis=0)
+    used = slice(2, -2, 5)
+    v, acc, y = v[used], acc[used], torque[used]
+    rigid, carried = torques(model, q[used], v, acc)
+    rows = []
+    for j, joint in enumerate(names):
+        x = np.column_stack([v[:, j], v[:, j] > 0, -1.0 * (v[:, j] < 0), acc[:, j], np.abs(carried[:, j]) * np.sign(v[:, j])])
+        moves = np.abs(v[:, j]) > .02 * np.abs(v[:, j]).max()
+        x, left = x[moves], (y - rigid)[moves, j]
+        inverse = np.linalg.pinv(x.T @ x)
+        found = inverse @ (x.T @ left)
+        variance = np.mean((left - x @ found) ** 2)
+        weights = np.vstack([np.eye(5), [0, .5, .5, 0, 0]])
+        for key, one in zip(("viscous", "coulomb_positive", "coulomb_negative", "rotor_inertia", "load_gain", "coulomb"), weights, strict=True):
+            value, std = one @ found, np.sqrt(one @ inverse @ one * variance)
+            rows.append(row(seed, joint, POINTS, key, truth[key][j], value, std, (value - 1.96 * std, value + 1.96 * std)))
+    return rows
+
+
+def report_of(rows, claims):
+    """By method and kind of parameter: coverage with its p, rms error over deviation; warming found and claimed."""
+    report = {}
+    for method in dict.fromkeys(one["method"] for one in rows):
+        own = [one for one in rows if one["method"] == method]
+        said = [one for one in claims if one["method"] == method]
+        here = report[method] = {"joints": len(said), "not ok": sum(not one["ok"] for one in said),
+                                 "warm": sum(one["warms"] for one in said), "warming found": sum(one["warms"] and one["claimed"] for one in said),
+                                 "warming claimed falsely": sum(one["claimed"] and not one["warms"] for one in said)} if said else {}
+        for key in dict.fromkeys(one["parameter"] for one in own):
+            these = [one for one in own if one["parameter"] == key]
+            held = [one["holds"] for one in these]
+            here[key] = {"of": len(held), "coverage": float(np.mean(held)),
+                         "rms over deviation": float(np.sqrt(np.mean([one["deviations"] ** 2 for one in these]))), "p": _binomial(sum(held), len(held), .95)}
+    return report
 
 
 def simulate(robot, kind, seed, motions):
@@ -127,7 +160,7 @@ def simulate(robot, kind, seed, motions):
 
 def main():
     program, robot, kind, count, out, *options = sys.argv[1:]
-    motions, counts = {}, {name: Count() for name in METHODS}
+    motions, rows, claims = {}, [], []
     for seed in range(1, int(count) + 1):
         t, q, torque, wrong, truth = simulate(robot, kind, seed, motions)
         n = q.shape[1]
@@ -139,11 +172,15 @@ def main():
             for method, own in METHODS.items():
                 subprocess.run([program, "identify-robot", folder / "robot.mjb", folder / "log.csv", "-o", folder / "robot.json", *own, *options],
                                capture_output=True, check=False)
-                counts[method].add(json.loads((folder / "robot.json").read_text()), truth)
-        report = {"robot": robot, "motion": kind, "realizations": seed, **{name: one.report() for name, one in counts.items()}}
-        pathlib.Path(out).write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+                answer = json.loads((folder / "robot.json").read_text())
+                found, said = rows_of(answer, truth, seed, method)
+                rows += found
+                claims += said
+        rows += least_squares(t, q, torque, wrong, truth, seed, list(answer["joints"]))
+        kept = {"robot": pathlib.Path(robot).stem, "motion": kind, "realizations": seed, "report": report_of(rows, claims), "claims": claims, "rows": rows}
+        pathlib.Path(out).write_text(json.dumps(kept) + "\n", encoding="utf-8")
         print(f"{seed} of {count}", flush=True)
-    print(json.dumps(report, indent=2))
+    print(json.dumps(kept["report"], indent=2))
 
 
 def _binomial(k, n, p):
@@ -153,4 +190,5 @@ def _binomial(k, n, p):
     return float(np.sum(np.exp(log[n] - log[i] - log[n - i] + i * np.log(p) + (n - i) * np.log(1 - p))))
 
 
-main()
+if __name__ == "__main__":
+    main()
