@@ -1,6 +1,8 @@
 """The friction of a whole robot, from a description that is wrong by a tenth and a log made of a known truth."""
 
 import json
+import pathlib
+import sys
 
 import numpy as np
 import pytest
@@ -79,6 +81,30 @@ def test_a_file_gives_the_same_as_arrays_and_its_friction_is_attached(wrong, log
     said = program("attach", "arm.xml", "--friction", "robot.json", "-o", "warm.xml")
     assert "3 of its joints" in said
     assert wj.attach(ARM, robot.frictions).spec is not None
+
+
+def test_the_robot_that_is_written_simulates_to_what_was_identified(wrong, log, program):
+    sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "studies"))
+    import robot_round_trip as trip
+    from warmjoint import mujoco_plugin
+
+    mujoco.mj_loadPluginLibrary(str(mujoco_plugin.library_path(mujoco.__version__)))
+    spec = mujoco.MjSpec.from_string(ARM)
+    spec.compile()
+    for i in range(1, wrong.nbody):
+        body = spec.body(wrong.body(i).name)
+        body.mass, body.inertia = wrong.body_mass[i], wrong.body_inertia[i]
+    spec.compile()
+    (program.folder / "wrong.xml").write_text(spec.to_xml())
+    first = trip.identify(program.path, program.folder / "wrong.xml", log["time"], log["position"], log["torque"], program.folder, "--mjcf", program.folder / "warm.xml")
+    moved, force = trip.follow(trip.servoed(program.folder / "warm.xml"), log["time"], log["position"])
+    force = force + .1 * np.random.default_rng(5).standard_normal(force.shape)
+    second = trip.identify(program.path, program.folder / "wrong.xml", log["time"][: len(moved)], moved, force, program.folder)
+    rows = trip.compared(first, second, 1)
+    assert len(rows) >= 3 * 6  # viscous, both Coulomb, their mean, rotor, gain of each joint
+    off = {(one["joint"], one["parameter"]): one["deviations"] for one in rows if abs(one["deviations"]) > 4}
+    assert not off  # standard errors
+    assert np.mean([one["holds"] for one in rows]) >= .8  # of some 20 at 95 %, by chance below in fewer than one of 300 logs
 
 
 def test_swapped_columns_and_a_turned_position_are_named(wrong, log):
