@@ -1,4 +1,4 @@
-// warmjoint report SOURCE: a run, or a log with its estimate, on one web page.
+// warmjoint report SOURCE: a run, a log with its estimate, or a robot's answer on one web page.
 #include <fmt/format.h>
 
 #include <memory>
@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "identification/estimate.h"
+#include "identification/model/robot_estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"
+#include "models/foundation/serialize.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/backend.h"
 #include "tools/cli/command.h"
@@ -112,6 +114,20 @@ shown::ShownData EstimateReport(const ReportArguments& arguments) {
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
+/// Whether a file holds the joints of identify-robot rather than one estimate.
+bool IsRobot(const fs::path& source) {
+  return IsEstimate(source) &&
+         ReadJsonNode(source).With(UnknownKeys::ignored).Find("joints").has_value();
+}
+
+/// Of robot.json alone, without the logs.
+shown::ShownData RobotReport(const fs::path& source) {
+  shown::ShownData data;
+  data.facts = {{"source", source.string()},
+                {"answer", RobotEstimateToTree(ReadRobotEstimate(source))}};
+  return data;
+}
+
 /// Refuses options of a recording beside a run or an estimate, which have their own.
 void RefuseOptionsOfRecordings(const CLI::App& parser, const std::string& source) {
   for (const CLI::Option* option : parser.get_options()) {
@@ -140,10 +156,14 @@ ExitStatus Report(const ReportArguments& arguments) {
       Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
     }
     ClaimOutput(arguments.output, {arguments.source});
-    page = {arguments.output, "log",
-            IsEstimate(arguments.source) ? EstimateReport(arguments)
-                                         : RecordingReport(arguments, activity),
-            nullptr};
+    if (IsRobot(arguments.source)) {
+      page = {arguments.output, "robot", RobotReport(arguments.source), nullptr};
+    } else {
+      page = {arguments.output, "log",
+              IsEstimate(arguments.source) ? EstimateReport(arguments)
+                                           : RecordingReport(arguments, activity),
+              nullptr};
+    }
   }
 
   // the page as a whole, and where it lies
@@ -158,9 +178,11 @@ ExitStatus Report(const ReportArguments& arguments) {
 Command AddReportCommand(CLI::App& program) {
   auto arguments = std::make_shared<ReportArguments>();
   CLI::App* parser = program.add_subcommand(
-      "report", "One web page that explains a run, or a log and what was identified from it");
+      "report",
+      "One web page that explains a run, a log and what was identified from it, or robot.json");
   AddValue(*parser, "SOURCE", "SOURCE", arguments->source,
-           "directory of `run`, recording, or estimate file (.json) whose recording is there")
+           "directory of `run`, recording, estimate file (.json) whose recording is there, or "
+           "robot.json")
       ->required();
   AddValue(*parser, "-o,--output", "FILE", arguments->output,
            "the page; RUN/report.html where it is not given for a run");

@@ -13,7 +13,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from . import log_page, run_page
+from . import log_page, robot_page, run_page
 from .sheet import Sheet, encode
 from .style import use
 
@@ -84,8 +84,8 @@ def pictures(makers: list[Callable[[], Sheet | None]]) -> list[Picture]:
 
 
 def fill(name: str, content: dict[str, Any]) -> str:
-    """HTML that needs nothing but itself. name: log or run; content: of PageFacts or RunPageFacts (tools/shown)."""
-    data = log_page.data_of(content) if name == "log" else run_page.data_of(content)
+    """HTML that needs nothing but itself. name: log, run or robot; content: of PageFacts or RunPageFacts (tools/shown), or {source, answer} of a robot."""
+    data = {"log": log_page, "run": run_page, "robot": robot_page}[name].data_of(content)
     data = {**data, "figures": pictures(data["figures"])}
     if data.get("extremes"):
         data["extremes"] = Picture(data["extremes"])
@@ -95,9 +95,10 @@ def fill(name: str, content: dict[str, Any]) -> str:
 def render(name: str, data: dict[str, Any]) -> str:
     """A template with its style and scripts."""
     style = (HERE / "page.css").read_text(encoding="utf-8")
-    script = (HERE / f"{name}.js").read_text(encoding="utf-8")
+    own = HERE / f"{name}.js"
+    script = [own.read_text(encoding="utf-8")] if own.is_file() else []
     library = charts() if name == "log" else None
-    scripts = [script] if name == "run" else [library[0], script] if library else []
+    scripts = script if name != "log" else [library[0], *script] if library else []
     # the library of charts sets styles of single elements
     styles = "'unsafe-inline'" if library else hashes([style])
 
