@@ -35,15 +35,28 @@ double ValueOf(const JointFit& fit, Index row) {
   return (row == fit.at.given.log_gain ? fit.at.given.sign : 1) * std::exp(x);
 }
 
+/// Half width of an interval that noise gives a combination of rows.
+double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
+  const double deviation = std::sqrt(std::max(0.0, weights.dot(fit.known.covariance * weights)));
+  return StudentQuantile(fit.known.degrees_of_freedom, kIntervalLevel) * deviation;
+}
+
+/// Whether the log tells the gain. Where it does not, its value is that of the other joints, and the curvature of the fit says little of how far off that may be.
+bool KnowsGain(const JointFit& fit) {
+  return HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), fit.at.given.log_gain)) <
+         std::log(kKnownGain);
+}
+
 FitParameter ParameterOf(const JointFit& fit, Index row) {
   const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
-  FitParameter parameter{.name = unknown.name,
-                         .role = unknown.role,
-                         .value = ValueOf(fit, row),
-                         .unit = unknown.unit,
-                         .coordinate = unknown.coordinate,
-                         .lower = unknown.role == Role::law ? unknown.lower : -kInfinity,
-                         .has_interval = !unknown.name.empty()};
+  FitParameter parameter{
+      .name = unknown.name,
+      .role = unknown.role,
+      .value = ValueOf(fit, row),
+      .unit = unknown.unit,
+      .coordinate = unknown.coordinate,
+      .lower = unknown.role == Role::law ? unknown.lower : -kInfinity,
+      .has_interval = !unknown.name.empty() && (row != fit.at.given.log_gain || KnowsGain(fit))};
   parameter.part = unknown.part;
   return parameter;
 }
@@ -122,12 +135,6 @@ Fit FitOf(const JointFit& fit, const JointColumns& c) {
   made.errors.known = std::move(known);
   if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
   return made;
-}
-
-/// Half width of an interval that noise gives a combination of rows.
-double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
-  const double deviation = std::sqrt(std::max(0.0, weights.dot(fit.known.covariance * weights)));
-  return StudentQuantile(fit.known.degrees_of_freedom, kIntervalLevel) * deviation;
 }
 
 VectorXd MeanCoulomb(const JointFit& fit) {
@@ -257,10 +264,8 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
                                RobotJointSummary summary,
                                const std::optional<JointHoldOut>& holdout) {
   const double gain = ValueOf(fit, fit.at.given.log_gain);
-  VectorXd by_gain = VectorXd::Zero(fit.model.size());
-  by_gain[fit.at.given.log_gain] = 1;
   summary.gain = gain;
-  summary.gain_is_known = HalfWidthOf(fit, by_gain) < std::log(kKnownGain);
+  summary.gain_is_known = KnowsGain(fit);
 
   LogSamples m;
   m.joint = c.kind;
