@@ -53,14 +53,25 @@ MatrixXd Meat(const MatrixXd& rows, const VectorXd& time, double block) {
   return meat * blocks / std::max(blocks - 1, 1.0);
 }
 
-Eliminated Eliminate(const JointFit& fit, const JointColumns& c, const VectorXd& x) {
+/// Mean of the joints' log gains.
+double CommonGain(const std::vector<JointFit>& fits, const std::vector<VectorXd>& x) {
+  double sum = 0;
+  for (std::size_t j = 0; j < fits.size(); ++j) sum += x[j][fits[j].at.given.log_gain];
+  return sum / static_cast<double>(fits.size());
+}
+
+/// common_gain: about which the joint's log gain has its prior.
+Eliminated Eliminate(const JointFit& fit, const JointColumns& c, const VectorXd& x,
+                     double common_gain) {
   Eliminated e;
   const Selection used{c.samples.keep, {}};
   const ModelRows rows = fit.model.Evaluate(x);
   const VectorXd left = Kept(VectorXd(c.samples.torque - rows.force), used);
   const MatrixXd j = Kept(rows.derivatives, used);
   const double scale = fit.solved.noise.scale();
-  const VectorXd precision = fit.model.PriorPrecision(), mean = fit.model.PriorMean();
+  const VectorXd precision = fit.model.PriorPrecision();
+  VectorXd mean = fit.model.PriorMean();
+  mean[fit.at.given.log_gain] = common_gain;
   e.own = OwnOf(fit);
   const Slice& z = fit.at.given.z;
   const MatrixXd of_own = j(Eigen::all, e.own), of_z = j.middleCols(z.begin, z.size);
@@ -100,8 +111,9 @@ SharedDirections FitShared(const std::vector<JointFit>& fits,
     MatrixXd h = MatrixXd::Identity(r, r), meat = h;
     VectorXd b = -shared.z;
     double drop = 0;
+    const double gain = CommonGain(fits, x);
     for (std::size_t j = 0; j < fits.size(); ++j) {
-      const Eliminated& e = joints.emplace_back(Eliminate(fits[j], columns[j], x[j]));
+      const Eliminated& e = joints.emplace_back(Eliminate(fits[j], columns[j], x[j], gain));
       h += e.h;
       b += e.b;
       meat += e.meat;

@@ -107,6 +107,13 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   }
   JointQuestion question;
   question.middle_gain = MiddleGain(guesses);
+  if (is_asked) {
+    std::vector<JointColumns> columns;
+    for (const Joint& joint : joints) columns.push_back(joint.columns);
+    const LoadedGains loaded = GainsUnderLoad(guesses, columns);
+    question.middle_gain = loaded.middle;
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j].guess = loaded.guesses[j];
+  }
   question.joints = static_cast<int>(
       std::ranges::count_if(joints, [](const Joint& joint) { return joint.nothing.empty(); }));
 

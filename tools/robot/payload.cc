@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "identification/model/report_joint.h"
@@ -78,6 +79,21 @@ InertialParameters LoadSpread(const RobotDescription& robot) {
 
 }  // namespace
 
+LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<JointColumns>& free) {
+  LoadedGains loaded{std::move(guesses), 1};
+  double least = std::numeric_limits<double>::infinity();
+  for (const JointColumns& c : free) {
+    const auto j = static_cast<std::size_t>(&c - free.data());
+    const GainGuess& guess = loaded.guesses[j];
+    const double open = c.rigid.directions.norm() / c.rigid.force.norm();
+    if (!guess.IsSure() || !(open < least)) continue;
+    least = open;
+    loaded.middle = std::abs(guess.value);
+  }
+  for (GainGuess& one : loaded.guesses) one.value = std::copysign(loaded.middle, one.value);
+  return loaded;
+}
+
 MatrixXd FreeLastLink(const RobotData& data, const MatrixXd& deviations) {
   const Index at = 10 * LastLink(data.robot);
   const LinkMatrix own = deviations.block<10, 10>(at, at);
@@ -114,19 +130,12 @@ EstimatedParameter MassOf(const RobotData& data, const MatrixXd& described, cons
   return mass;
 }
 
-/// By what a free last link lets the held-out residual of joint j fall; nothing where too little is left to hold out.
-std::optional<double> FallOf(const RobotData& data, const RobotRows& as_given,
-                             const RobotRows& free, Index j, const GainGuess& guess,
-                             const JointQuestion& question) {
-  const auto held_out = [&](const RobotRows& rows) {
-    const JointColumns columns = ColumnsOf(data, rows, j);
-    return HoldOutJoint(FitJoint(columns, guess, question), columns, kHeldOut);
-  };
-  const auto before = held_out(as_given);
-  if (!before) return std::nullopt;
-  const auto after = held_out(free);
-  if (!after) return std::nullopt;
-  return after->metrics.rmse / before->metrics.rmse;
+/// Rms that a fit of the log's begin leaves at its end; nothing where too little is left to hold out.
+std::optional<double> HeldOut(const JointColumns& columns, const GainGuess& guess,
+                              const JointQuestion& question) {
+  const auto found = HoldOutJoint(FitJoint(columns, guess, question), columns, kHeldOut);
+  if (!found) return std::nullopt;
+  return found->metrics.rmse;
 }
 
 /// What all joints say together of the description with a free last link.
@@ -138,7 +147,7 @@ SharedDirections SharedOf(const RobotData& data, const RobotRows& free,
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
     columns[at] = ColumnsOf(data, free, joints[at], Directions::all);
-    fits[at] = FitJoint(columns[at], guesses[static_cast<std::size_t>(joints[at])], question);
+    fits[at] = FitJoint(columns[at], guesses[at], question);
   });
   return FitShared(fits, columns);
 }
@@ -152,11 +161,22 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   const RobotRows as_given = Thinned(data, rows);
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
+  std::vector<JointColumns> columns(joints.size());
+  std::vector<GainGuess> own;
+  for (const Index j : joints) own.push_back(guesses[static_cast<std::size_t>(j)]);
+  ForEachAtOnce(std::ssize(joints), [&](Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    columns[at] = ColumnsOf(data, free, joints[at]);
+  });
+  const LoadedGains gains = GainsUnderLoad(own, columns);
+  JointQuestion under_load = question;
+  under_load.middle_gain = gains.middle;
   std::vector<std::optional<double>> falls(joints.size());
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
-    const GainGuess& guess = guesses[static_cast<std::size_t>(joints[at])];
-    falls[at] = FallOf(data, as_given, free, joints[at], guess, question);
+    const auto before = HeldOut(ColumnsOf(data, as_given, joints[at]), own[at], question);
+    const auto after = HeldOut(columns[at], gains.guesses[at], under_load);
+    if (before && after) falls[at] = *after / *before;
   });
 
   Payload payload;
@@ -169,7 +189,7 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   payload.is_shown = payload.falls < kHelps && falls_of_all < std::log(kHelps);
   // the mass needs all directions of all joints at once, which takes as long as everything else
   if (payload.is_shown || tool == ToolKnown::unknown) {
-    const SharedDirections shared = SharedOf(data, free, guesses, joints, question);
+    const SharedDirections shared = SharedOf(data, free, gains.guesses, joints, under_load);
     payload.mass = MassOf(data, rows.deviations, free.deviations, shared);
   }
   return payload;

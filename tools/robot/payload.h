@@ -19,6 +19,16 @@ struct Payload {
       mass;  // kg, with its interval, of all joints together; where shown or asked for
 };
 
+/// Gains at which fits with a free last link begin.
+struct LoadedGains {
+  std::vector<GainGuess> guesses;  // [n] with the signs of those without a load
+  double middle = 1;
+};
+
+/// A load that the description lacks spoils the gains of joints that carry little else, those of wrists. All begin at the gain of the joint, of those that are
+/// sure, whose torque the free last link leaves least open. guesses, free: [n] of the same joints; free: with the last link free.
+LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<JointColumns>& free);
+
 /// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L x 10 L]
 Eigen::MatrixXd FreeLastLink(const RobotData& data, const Eigen::MatrixXd& deviations);
 
