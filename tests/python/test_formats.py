@@ -70,3 +70,14 @@ def test_a_number_in_text_follows_the_rule_of_tables(tmp_path):
     (tmp_path / "log.jsonl").write_text("\n".join(rows))
     with pytest.raises(wj.BadInput, match="16,25"):
         wj.read(tmp_path / "log.jsonl")
+
+
+@pytest.mark.parametrize("end", ["npz", "mat"])
+def test_names_of_columns_are_text(tmp_path, end):
+    itself = {}
+    itself["torque"] = itself
+    path = tmp_path / f"log.{end}"
+    path.write_bytes(b"")
+    for given in (itself, {"torque": 3}):
+        with pytest.raises(wj.BadInput, match="torque"):
+            wj.read(path, map=given)

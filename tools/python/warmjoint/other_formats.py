@@ -30,6 +30,9 @@ def may_hold_objects(path: str) -> bool:
 
 def read(path: str, *, topic: str | None = None, joint: str | None = None, map: Mapping[str, str] | None = None) -> list[Column] | str:
     """The columns that `map` names, by our names, or all; or a table of text. Warns of what is left out. Raises BadInput."""
+    for name, column in (map or {}).items():
+        if not isinstance(column, str):
+            raise _core.BadInput(f"map.{name}: is a {type(column).__name__}; give the name of a column")
     request = {"file": path, "topic": topic or "", "joint": joint or "", "map": dict(map or {})}
     script = pathlib.Path(__file__).parent / "formats/__main__.py"
     done = subprocess.run([sys.executable, "-B", str(script), json.dumps(request)], capture_output=True, check=False)
