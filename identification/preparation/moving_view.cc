@@ -27,6 +27,10 @@ constexpr double kGain =
 
 constexpr double kContradicts = 2;  // path by positions over that by velocities, or the inverse
 
+constexpr double kSomeHeld =
+    0.1;  // of what moves; why: of a sine less than a hundredth looks like a hold
+constexpr double kUnresolvedTurns =
+    5e-3;  // of the path; why: by as much may a warming be off before its log says so
 constexpr double kHeld =
     0.5;  // of what moves; why: what fewer hold, peaks among them, shows less than the rest
 constexpr double kFollowed = 0.5;  // why: of half the samples deviations are 1.4 times as large
@@ -103,13 +107,19 @@ std::optional<LocalMotion> ByDifferences(const Measurements& m,
   return motion;
 }
 
+/// Mean of |v| along a straight line between two velocities, which may pass 0.
+double MeanSpeed(double from, double to) {
+  const double a = std::abs(from), b = std::abs(to);
+  return from * to < 0 ? (a * a + b * b) / (2 * (a + b)) : (a + b) / 2;
+}
+
 /// Of a velocity that is a straight line from sample i to the next: the means of |v| and of v^2 over
 /// that of |v|. Where it turns, both sides of the turn count.
 void TakeLine(const VectorXd& velocity, Index i, BetweenSamples& between) {
   const double from = velocity[i], to = velocity[i + 1];
   const double a = std::abs(from), b = std::abs(to);
   const bool turns = from * to < 0;
-  const double speed = turns ? (a * a + b * b) / (2 * (a + b)) : (a + b) / 2;
+  const double speed = MeanSpeed(from, to);
   const double square = turns ? (a * a - a * b + b * b) / 3 : (a * a + a * b + b * b) / 3;
   between.mean_speed[i] = speed;
   between.loss_velocity[i] = speed > 0 ? Sign(from) * square / speed : from;
@@ -201,17 +211,61 @@ double ClearSpeed(const Measurements& m) {
       {kClear * RootMeanSquare(Chosen(m.velocity, moving)), kDeviations * noise, 1.5 * resolution});
 }
 
+namespace {
+
+/// By differences where noise allows them, else by polynomials over as many samples as it takes.
+LocalMotion MotionOf(const Measurements& m, const std::vector<SampleRange>& pieces,
+                     MotionSource source) {
+  std::optional<LocalMotion> motion;
+  if (source == MotionSource::velocity) motion = ByDifferences(m, pieces);
+  return motion ? *std::move(motion) : FollowLocally(m, pieces, source);
+}
+
+/// What a joint moves from sample i to sample j, where it turns, if it keeps its speeds up to the turn, beyond what straight lines
+/// between the velocities have it move, rad or m.
+double HiddenPath(const Measurements& m, const VectorXd& velocity, Index i, Index j) {
+  double lines = 0, moved = 0;
+  for (Index k = i; k < j; ++k) {
+    const double step = m.time[k + 1] - m.time[k];
+    lines += step * MeanSpeed(velocity[k], velocity[k + 1]);
+    moved += step * (velocity[k] + velocity[k + 1]) / 2;
+  }
+  // the turn lies where both speeds together give the way between the samples
+  const double span = m.time[j] - m.time[i], from = velocity[i], to = velocity[j];
+  const double turn = std::clamp((moved - to * span) / (from - to), 0.0, span);
+  return std::max(std::abs(from) * turn + std::abs(to) * (span - turn) - lines, 0.0);
+}
+
+/// Share of a log's path that is hidden so where it turns and no polynomial follows it.
+double UnresolvedTurns(const Measurements& m, MotionSource source) {
+  const std::vector<SampleRange> pieces = PiecesOf(m.time);
+  const LocalMotion motion = MotionOf(m, pieces, source);
+  double path = 0, hidden = 0;
+  for (const SampleRange& piece : pieces) {
+    Index before = -1;  // the last sample whose motion is known
+    for (Index i = piece.first; i < piece.end(); ++i) {
+      if (i + 1 < piece.end()) {
+        path += (m.time[i + 1] - m.time[i]) * MeanSpeed(motion.velocity[i], motion.velocity[i + 1]);
+      }
+      if (!motion.known[i]) continue;
+      const bool turns = before >= 0 && motion.velocity[before] * motion.velocity[i] < 0;
+      if (turns && before + 1 < i) hidden += HiddenPath(m, motion.velocity, before, i);
+      before = i;
+    }
+  }
+  return path > 0 ? hidden / path : 0;
+}
+
+}  // namespace
+
 LogView ViewMotion(const Measurements& measurements, MotionSource source) {
   LogView view{LogSamples(measurements), {}};
   LogSamples& m = view.measurements;
   const std::vector<SampleRange> pieces = PiecesOf(m.time);
   const double clear = ClearSpeed(m);
-  // by differences where noise allows them, else by polynomials over as many samples as it takes
-  std::optional<LocalMotion> motion;
-  if (source == MotionSource::velocity) motion = ByDifferences(m, pieces);
-  if (!motion) motion = FollowLocally(m, pieces, source);
-  m.velocity = std::move(motion->velocity);
-  m.acceleration = std::move(motion->acceleration);
+  LocalMotion motion = MotionOf(m, pieces, source);
+  m.velocity = std::move(motion.velocity);
+  m.acceleration = std::move(motion.acceleration);
   // mean speeds and losses between the samples
   const BetweenSamples between = MeansBetween(m, pieces, clear);
   m.mean_speed = between.mean_speed;
@@ -219,7 +273,7 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
 
   // samples that move clearly, between neighbours that move alike
   auto& keep = view.selection.keep;
-  keep = motion->known && m.velocity.array().abs() > clear;
+  keep = motion.known && m.velocity.array().abs() > clear;
   for (const auto& [first, count] : pieces) {
     for (Index i = first; i < first + count; ++i) {
       const Index before = std::max(first, i - 1), behind = std::min(first + count - 1, i + 1);
@@ -230,13 +284,16 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
   return view;
 }
 
-bool HoldsSpeeds(const Measurements& m, const Selection& selection) {
+bool HoldsSpeeds(const Measurements& m, const Selection& selection, MotionSource source) {
   const SampleMask moving = m.velocity.array().abs() > ClearSpeed(m);
   SampleMask held = selection.keep && moving;
   for (const Segment& one : ContradictedSegments(m, selection)) {
     held.segment(one.begin, one.end - one.begin) = false;
   }
-  return static_cast<double>(held.count()) >= kHeld * static_cast<double>(moving.count());
+  const auto all = static_cast<double>(moving.count()), count = static_cast<double>(held.count());
+  if (count >= kHeld * all) return true;
+  // holds lost in noise, with jumps from one speed to the next that motion of any kind cannot follow
+  return count >= kSomeHeld * all && UnresolvedTurns(m, source) >= kUnresolvedTurns;
 }
 
 FollowedMotion FollowMotion(const Measurements& m, MotionSource source) {

@@ -37,8 +37,10 @@ BetweenSamples MeansBetween(const Measurements& measurements,
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 
 /// Whether constant speeds are what a log shows of friction: half or more of what moves clearly is kept in segments whose
-/// positions, where they are known, move at their speed, to a factor of two.
-bool HoldsSpeeds(const Measurements& measurements, const Selection& selection);
+/// positions, where they are known, move at their speed, to a factor of two. Or a tenth of it, where the joint turns between
+/// samples so suddenly that half a per cent of its path or more cannot be followed: holds that noise hides in part.
+bool HoldsSpeeds(const Measurements& measurements, const Selection& selection,
+                 MotionSource source = MotionSource::velocity);
 
 /// Motion of any kind, and what was done to the velocity column for it: a clause, or nothing.
 struct FollowedMotion {

@@ -114,7 +114,7 @@ struct PreparedLog::Maker {
     selection = std::move(found.selection);
     log.constant_speed = std::move(motion.view);
     log.unresolved_path = motion.unresolved_path;
-    log.holds_speeds = HoldsSpeeds(measured, selection);
+    log.holds_speeds = HoldsSpeeds(measured, selection, MotionSource::positions);
     TakeOptions(holds, log.constant_speed->measurements.time, log.constant_speed->selection);
     TakeOptions(holds, measured.time, selection);
     log.faults = FindFaults(measured, selection, MotionSource::positions);

@@ -174,7 +174,8 @@ std::vector<Index> LogSamples::Logged() const {
 
 PreparedLog::PreparedLog(Log log) {
   // speeds are held whatever --trim leaves of them
-  log.holds_speeds = log.holds_speeds || HoldsSpeeds(log.raw.measurements, log.raw.selection);
+  log.holds_speeds =
+      log.holds_speeds || HoldsSpeeds(log.raw.measurements, log.raw.selection, log.source);
   log.without_absurd = LeaveOutAbsurd(log);
   log_ = std::make_shared<const Log>(std::move(log));
 }
