@@ -18,8 +18,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kFewestFree = 8;  // segments beyond the parameters; why: ../README.md, few segments
-constexpr double kNone = 1e-9;    // of a residual that the fit leaves free: as good as 0
+constexpr Index kFewestFree =
+    8;  // segments beyond the parameters; why: tests/studies/identification.md, Few segments
+constexpr double kNone = 1e-9;  // of a residual that the fit leaves free: as good as 0
 constexpr double kMostFreedom = 1e4;
 constexpr int kHalvings = 30;      // of the range of its logarithm
 constexpr double kPrecise = 1e-7;  // of the integral for the coverage

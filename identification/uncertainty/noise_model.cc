@@ -9,6 +9,8 @@
 namespace warmjoint {
 namespace {
 
+constexpr Eigen::Index kLongestMemory =
+    100'000;  // samples; why: an autocorrelation of 1 - 1e-4 has died away to 1e-4 by then
 constexpr Eigen::Index kHighestOrder = 60;
 // why: with 4 or 9 the intervals of 64 clean logs hold the truth as often
 constexpr Eigen::Index kPatience = 6;  // orders without a better BIC
@@ -85,7 +87,7 @@ double VarianceInflation(const NoiseModel& noise, const Eigen::VectorXd& covaria
   const Eigen::VectorXd backwards = noise.coefficients.reverse();
   std::vector<double> r(covariances.begin(), covariances.begin() + p + 1);
   double sum = 1;
-  for (Eigen::Index lag = 1; lag < 100000; ++lag) {
+  for (Eigen::Index lag = 1; lag < kLongestMemory; ++lag) {
     // beyond its order the model continues its autocovariances
     if (lag > p) {
       const Eigen::Map<const Eigen::VectorXd> before(r.data() + lag - p, p);
@@ -229,7 +231,7 @@ Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const RowsBetween& rows,
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(d, d);
   Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(d);
   Eigen::Index row = selection.count();
-  for (Eigen::Index end = selection.keep.size(); end > -100000; end -= kBlock) {
+  for (Eigen::Index end = selection.keep.size(); end > -kLongestMemory; end -= kBlock) {
     // rows of a block of samples; those between kept ones are 0
     const Eigen::Index begin = std::max<Eigen::Index>(end - kBlock, 0);
     const Eigen::Index kept = end > 0 ? selection.keep.segment(begin, end - begin).count() : 0;
