@@ -93,18 +93,42 @@ VectorXd TorqueAlong(const Fit& fit, const LogSamples& m) {
   return torque;
 }
 
-/// d tau / d delay of a fit, over kDifference where the joint does not turn within that, else over a step of the log. [N] N.m/s or N/s
-VectorXd ByDelay(const Fit& fit, const LogSamples& m, double delay, double step) {
-  const auto over = [&](double width, SampleMask* turns) -> VectorXd {
-    const LogSamples late = Delayed(m, delay + width / 2), early = Delayed(m, delay - width / 2);
-    if (turns) *turns = late.velocity.array() * early.velocity.array() <= 0;
-    return (TorqueAlong(fit, late) - TorqueAlong(fit, early)) / width;
+/// Whether all samples of a span of time around each sample take part: none of them is a turn, a rest or a corner of the velocity,
+/// where the torque jumps. from, to: samples before and behind it
+SampleMask WithoutJumps(const SampleMask& keep, Index from, Index to) {
+  const Index n = keep.size();
+  std::vector<Index> left_out(static_cast<size_t>(n) + 1, 0);
+  for (Index i = 0; i < n; ++i) left_out[i + 1] = left_out[i] + (keep[i] ? 0 : 1);
+  SampleMask without = SampleMask::Constant(n, false);
+  for (Index i = from; i + to < n; ++i) without[i] = left_out[i + to + 1] == left_out[i - from];
+  return without;
+}
+
+/// d tau / d delay of a fit, over kDifference around each sample where no jump lies within, else to one of its sides, else over a
+/// step of the log. given: as it was logged. [N] N.m/s or N/s
+VectorXd ByDelay(const Fit& fit, const IdentifierInput& given, double delay, double step) {
+  const auto at = [&](double more) {
+    return TorqueAlong(fit, Delayed(given.measurements, delay + more));
   };
-  const VectorXd by_step = over(step, nullptr);
-  if (step >= kDifference) return by_step;
-  SampleMask turns;
-  const VectorXd smooth = over(kDifference, &turns);
-  return turns.select(by_step, smooth);
+  VectorXd by_delay = (at(step / 2) - at(-step / 2)) / step;
+  if (step >= kDifference) return by_delay;
+
+  // a later delay shows motion of before; what counts is sample i - delay / step
+  const auto width = static_cast<Index>(std::ceil(kDifference / step));
+  const auto shift = static_cast<Index>(std::floor(delay / step));
+  const auto use = [&](double later, double earlier) {
+    const Index before =
+        std::lround(static_cast<double>(width) * later) + std::max<Index>(shift + 1, 0);
+    const Index behind =
+        std::lround(static_cast<double>(width) * earlier) + std::max<Index>(-shift, 0);
+    const SampleMask fits = WithoutJumps(given.selection.keep, before, behind);
+    by_delay =
+        fits.select((at(later * kDifference) - at(-earlier * kDifference)) / kDifference, by_delay);
+  };
+  use(1, 0);
+  use(0, 1);
+  use(0.5, 0.5);
+  return by_delay;
 }
 
 /// The rows of a fit and of the delay behind them, as the fit solved them. [n x p + 1]
@@ -162,7 +186,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
     if (fit.refusal) break;
 
     // what all unknowns and the delay would still have to change
-    const VectorXd by_delay = ByDelay(fit, m, *delay, step);
+    const VectorXd by_delay = ByDelay(fit, given, *delay, step);
     const MatrixXd rows = RowsOf(fit, by_delay);
     VectorXd left = fit.residual();
     if (fit.errors.whitening) left = fit.errors.whitening->Of(left);
