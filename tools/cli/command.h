@@ -38,6 +38,7 @@ Command AddPredictCommand(CLI::App& program);
 Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);
+Command AddExportCommand(CLI::App& program);
 Command AddRunCommand(CLI::App& program);
 Command AddStatusCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);

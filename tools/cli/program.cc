@@ -28,6 +28,7 @@ std::vector<Command> AddCommands(CLI::App& program) {
       AddPredictCommand(program), AddAttachCommand(program), AddRunCommand(program),
       AddStatusCommand(program),  AddMergeCommand(program),  AddCompareCommand(program),
       AddPlotCommand(program),    AddReportCommand(program), AddIdentifyRobotCommand(program),
+      AddExportCommand(program),
   };
 }
 

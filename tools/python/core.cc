@@ -28,6 +28,7 @@
 #include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/friction/friction_json.h"
+#include "tools/export/engine_text.h"
 #include "tools/identify/catalogue.h"
 #include "tools/identify/identify_recording.h"
 #include "tools/identify/predict_recording.h"
@@ -257,6 +258,15 @@ void AddIdentification(nb::module_& module) {
 }
 
 void AddFriction(nb::module_& module) {
+  module.def(
+      "export_frictions",
+      [](nb::handle given, nb::handle request) {
+        const Node file(ToTree(given, "estimate"), "estimate");
+        const auto asked = FieldsFromPython<ExportRequest>(request, "export");
+        return ToPython(EngineJson(ExportFrictions(file, asked), asked.to));
+      },
+      nb::sig("def export_frictions(given: dict[str, typing.Any], request: dict[str, typing.Any]) "
+              "-> dict[str, typing.Any]"));
   module.def(
       "complete_friction", [](nb::handle given) { return FieldsToPython(FrictionOf(given)); },
       nb::sig("def complete_friction(given: dict[str, typing.Any]) -> dict[str, typing.Any]"));

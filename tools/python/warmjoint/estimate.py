@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
+from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
 from warmjoint.values import Array, kind_of, number, numbers, path_of, shown
@@ -296,6 +297,12 @@ class Estimate:
         log = self._need_log("report")
         facts, arrays = _core.shown_on_page(self.data, log._core)
         _core.write_text(path_of(path), pages.fill("log", view.unpacked(facts, arrays)))
+
+    def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None, joint: str = "JOINT") -> Export:
+        """The friction as the numbers that another engine takes: what `warmjoint export` does. to: mjcf, urdf, physx, isaaclab or mjlab.
+        warm: 0 cold, 1 as warm as sliding at `speed` makes it (rad/s or m/s; the log's median where not given). joint: its name in what
+        the engine reads. Raises BadInput for an estimate without friction, or with one in amperes."""
+        return export_frictions(self.data, to, warm=warm, speed=speed, joint=joint)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes estimate.json, which `warmjoint attach`, scenarios and the plugin read."""

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from warmjoint import _core
 from warmjoint.engine import _engine
 from warmjoint.estimate import Estimate, Parameter
+from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 
@@ -74,6 +75,10 @@ class RobotEstimate(Mapping[str, Estimate]):
             raise _core.BadInput(f"plot: there is no picture of '{joint}'; there are {', '.join(self._drawn) or 'none in a file'}")
         with use(style):
             return robots.joint(self._drawn[joint])
+
+    def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None) -> Export:
+        """The frictions of all joints that are known in N.m or N as the numbers that another engine takes (Estimate.export)."""
+        return export_frictions(self.data, to, warm=warm, speed=speed, joint="")
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes robot.json, which `warmjoint attach MODEL --friction robot.json` reads."""

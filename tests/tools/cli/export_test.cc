@@ -1,0 +1,122 @@
+// warmjoint export: the numbers of other engines, against the friction that they are of.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <warmjoint/friction_model.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/bad_input.h"
+#include "tests/support/refusal.h"
+#include "tools/export/engine_text.h"
+
+namespace warmjoint {
+namespace {
+
+const Thermal kHeat{-3, 600};
+
+Friction WarmLine() {
+  return {
+      .law = "viscous_coulomb", .parameters = {{"viscous", 5}, {"coulomb", 15}}, .thermal = kHeat};
+}
+
+double PercentOf(const EngineFriction& found, std::string_view what) {
+  for (const Omission& one : found.left_out) {
+    if (one.what == what && one.percent) return *one.percent;
+  }
+  return 0;
+}
+
+class EachEngine : public testing::TestWithParam<EngineFormat> {};
+
+TEST_P(EachEngine, SaysAStraightLineExactlyAtEveryWarmth) {
+  const SeenFriction seen{.joint = "elbow", .friction = WarmLine()};
+  const FrictionModel model(seen.friction);
+  for (const double warm : {0.0, 0.4, 1.0}) {
+    const EngineFriction found = InEngine(seen, {warm, 0.5}, GetParam());
+    EXPECT_NEAR(found.energy, warm * SettledEnergy(seen.friction, 0.5)->at(0), 1e-12);
+    for (const double v : {0.06, 0.5, 0.97}) {
+      const double told = found.viscous * v + found.level;
+      EXPECT_NEAR(told, model.Force(v, {.energy = found.energy}), 1e-9) << warm << " at " << v;
+      EXPECT_NEAR(-told, model.Force(-v, {.energy = found.energy}), 1e-9);
+    }
+    EXPECT_NEAR(found.static_level, found.level, 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Export, EachEngine,
+                         testing::Values(EngineFormat::mjcf, EngineFormat::urdf,
+                                         EngineFormat::physx, EngineFormat::isaaclab,
+                                         EngineFormat::mjlab),
+                         [](const auto& tested) { return std::string(NameOf(tested.param)); });
+
+TEST(Export, SaysByHowMuchDirectionsDiffer) {
+  const SeenFriction seen{
+      .joint = "elbow",
+      .friction = {
+          .law = "asymmetric",
+          .parameters = {{"viscous", 0}, {"coulomb_positive", 6}, {"coulomb_negative", 4}}}};
+  const EngineFriction found = InEngine(seen, {}, EngineFormat::mjcf);
+  EXPECT_NEAR(found.level, 5, 1e-12);
+  // 1 N.m of 5
+  EXPECT_NEAR(PercentOf(found, "asymmetry"), 20, 1e-9);
+  EXPECT_EQ(PercentOf(found, "speed"), 0);
+}
+
+TEST(Export, SaysByHowMuchHeatChangesIt) {
+  // settled at 0.1 rad/s: E = k |v| F / (1 - k |v|) = -0.3 * 15.5 / 1.3
+  const SeenFriction seen{.joint = "elbow", .friction = WarmLine(), .speeds = {0.1, 0.1}};
+  const EngineFriction found = InEngine(seen, {}, EngineFormat::urdf);
+  EXPECT_NEAR(PercentOf(found, "heat"), 100 * -0.3 / 1.3, 1e-9);
+  // of one speed alone the slope is the law's
+  EXPECT_NEAR(found.viscous, 5, 1e-12);
+}
+
+TEST(Export, KeepsALevelAtRestWhereTheEngineHasOne) {
+  const SeenFriction seen{
+      .joint = "elbow",
+      .friction = {.law = "stiction",
+                   .parameters = {{"viscous", 1}, {"coulomb", 4}, {"static", 6}}}};
+  EXPECT_NEAR(InEngine(seen, {}, EngineFormat::physx).static_level, 6, 1e-12);
+  EXPECT_EQ(PercentOf(InEngine(seen, {}, EngineFormat::physx), "rest"), 0);
+  EXPECT_GT(PercentOf(InEngine(seen, {}, EngineFormat::mjcf), "rest"), 30);
+}
+
+TEST(Export, CountsWhatAPlaceAdds) {
+  SeenFriction seen{.joint = "elbow", .friction = WarmLine()};
+  seen.friction.maps = {{.axes = {{MapQuantity::motor_position, CircleAxis(6.283185307179586, 4)}},
+                         .weights = {2, 0, -2, 0},
+                         .factor = MapFactor::direction}};
+  seen.friction.gear = 100;
+  const EngineFriction found = InEngine(seen, {}, EngineFormat::mjcf);
+  // at most the weights, less what neighbouring kernels take away
+  EXPECT_GT(PercentOf(found, "position"), 100 * 0.5 / 21);
+  EXPECT_LT(PercentOf(found, "position"), 100 * 2.0 / 15);
+  EXPECT_NEAR(found.level, 15, 0.01);
+}
+
+TEST(Export, RefusesWhatHasNoAnswer) {
+  const SeenFriction seen{.joint = "elbow", .friction = WarmLine()};
+  EXPECT_THAT(test::RefusalOf([&] {
+                InEngine(seen, {-1, 0.5}, EngineFormat::mjcf);
+              }),
+              testing::HasSubstr("--warm"));
+  EXPECT_THAT(test::RefusalOf([&] {
+                InEngine(seen, {1, 0.0}, EngineFormat::mjcf);
+              }),
+              testing::HasSubstr("--speed"));
+  SeenFriction heats = seen;
+  heats.friction.thermal->gain = 3;
+  EXPECT_THAT(test::RefusalOf([&] {
+                InEngine(heats, {1, 0.5}, EngineFormat::mjcf);
+              }),
+              testing::HasSubstr("never settles"));
+  const Node nothing(
+      nlohmann::json{{"joints", nlohmann::json::object()}, {"summary", nlohmann::json::object()}},
+      "robot.json");
+  EXPECT_THAT(test::RefusalOf([&] { ExportFrictions(nothing, {}); }),
+              testing::HasSubstr("holds no friction"));
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,72 @@
+// warmjoint export FILE --to ENGINE: friction as the numbers that other engines take.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/node.h"
+#include "tools/actions/outputs.h"
+#include "tools/cli/command.h"
+#include "tools/cli/typed_options.h"
+#include "tools/export/engine_text.h"
+#include "tools/terminal/say.h"
+
+namespace warmjoint {
+namespace {
+
+struct ExportArguments {
+  std::string file;
+  ExportRequest request;
+  double speed = std::numeric_limits<double>::quiet_NaN();  // none given
+  std::string output;
+  std::string format = "text";
+};
+
+ExitStatus Export(const ExportArguments& arguments) {
+  // what is read stays, and all that can be refused is first
+  KeepApart({arguments.output}, {arguments.file});
+  ExportRequest request = arguments.request;
+  if (!std::isnan(arguments.speed)) request.warmth.speed = arguments.speed;
+  const Exported exported = ExportFrictions(ReadJsonNode(arguments.file), request);
+  for (const std::string& notice : exported.notices) SayNotice("notice: {}\n", notice);
+
+  const std::string text = arguments.format == "json"
+                               ? EngineJson(exported, request.to).dump(2) + "\n"
+                               : EngineText(exported.frictions, request.to);
+  if (arguments.output.empty()) {
+    fmt::print("{}", text);
+  } else {
+    WriteWholeFile(arguments.output, text);
+  }
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command AddExportCommand(CLI::App& program) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* parser =
+      program.add_subcommand("export", "Friction as the numbers that other engines take");
+  AddValue(*parser, "FILE", "FILE", arguments->file,
+           "estimate.json of identify, robot.json of identify-robot, or a friction file")
+      ->required();
+  AddChoice(*parser, "--to", arguments->request.to, "whose numbers")->required();
+
+  // how warm the joint is, and what it is called
+  constexpr double most = std::numeric_limits<double>::infinity();
+  AddNumber(*parser, "--warm", arguments->request.warmth.share, {0, most, "of 0 or more"},
+            "0 cold, 1 as warm as sliding at --speed makes it");
+  AddNumber(*parser, "--speed", arguments->speed, {1e-9, most, "above 0, rad/s or m/s"},
+            "rad/s or m/s; where not given the median of the log, else 1 rad/s or 0.1 m/s");
+  AddValue(*parser, "--joint", "NAME", arguments->request.joint,
+           "the joint's name; robot.json has its own")
+      ->capture_default_str();
+  AddValue(*parser, "-o,--output", "FILE", arguments->output, "instead of standard output");
+  AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is written");
+  return {parser, [arguments] { return Export(*arguments); }};
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,167 @@
+#include "tools/export/engine_text.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "identification/estimate.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/serialize.h"
+#include "models/friction/friction_json.h"
+
+namespace warmjoint {
+namespace {
+
+/// A name between quotes of an XML attribute.
+std::string InXml(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text;
+}
+
+/// A name as a string of C++ and Python.
+std::string InQuotes(const std::string& name) { return nlohmann::json(name).dump(); }
+
+/// A comment that ends with its line, or in XML before its end.
+std::string Comment(const std::string& words, EngineFormat format) {
+  if (format == EngineFormat::physx) return fmt::format("// {}\n", words);
+  if (format == EngineFormat::isaaclab || format == EngineFormat::mjlab)
+    return fmt::format("# {}\n", words);
+  std::string text = words;
+  // two hyphens would end the comment
+  for (size_t at; (at = text.find("--")) != std::string::npos;) text.replace(at, 2, "- ");
+  return fmt::format("<!-- {} -->\n", text);
+}
+
+std::string Head(const EngineFriction& one, EngineFormat format) {
+  const std::string_view speed = kVelocityUnit.For(one.kind), torque = kTorqueUnit.For(one.kind);
+  std::string text = Comment(fmt::format("{}: warm {:.3g} (E = {:.4g} {}; 1 has settled at {:.4g} "
+                                         "{}), right over {:.3g} to {:.3g} {}",
+                                         one.joint, one.warm, one.energy, torque, one.speed, speed,
+                                         one.slowest, one.fastest, speed),
+                             format);
+  for (const Omission& left : one.left_out) {
+    const std::string size = left.percent ? fmt::format("{:+.3g} %", *left.percent) : "";
+    text += Comment(fmt::format("  left out: {} {}{}{}", left.what, size, size.empty() ? "" : ", ",
+                                left.meaning),
+                    format);
+  }
+  return text;
+}
+
+/// One joint where each has an element or a statement of its own.
+std::string Body(const EngineFriction& one, EngineFormat format) {
+  if (format == EngineFormat::mjcf) {
+    return fmt::format("<joint name=\"{}\" damping=\"{}\" frictionloss=\"{}\"/>\n",
+                       InXml(one.joint), one.viscous, one.level);
+  }
+  if (format == EngineFormat::urdf) {
+    return fmt::format(
+        "<joint name=\"{}\">\n  <dynamics damping=\"{}\" friction=\"{}\"/>\n</joint>\n",
+        InXml(one.joint), one.viscous, one.level);
+  }
+  const char* axis = one.kind == JointKind::rotary ? "eTWIST" : "eX";
+  return fmt::format(
+      "joints.at({})->setFrictionParams(PxArticulationAxis::{}, PxJointFrictionParams({}, {}, "
+      "{}));\n",
+      InQuotes(one.joint), axis, one.static_level, one.level, one.viscous);
+}
+
+/// A dict of Python: one number of each joint.
+std::string Dict(const char* key, const std::vector<EngineFriction>& frictions,
+                 double EngineFriction::*number) {
+  std::string text;
+  for (const EngineFriction& one : frictions) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", InQuotes(one.joint), one.*number);
+  }
+  return fmt::format("{}={{{}}},\n", key, text);
+}
+
+std::string IsaacLabText(const std::vector<EngineFriction>& frictions) {
+  return "# of ImplicitActuatorCfg (Isaac Lab 2.3, Isaac Sim 5)\n" +
+         Dict("friction", frictions, &EngineFriction::static_level) +
+         Dict("dynamic_friction", frictions, &EngineFriction::level) +
+         Dict("viscous_friction", frictions, &EngineFriction::viscous);
+}
+
+/// mjlab has numbers of a group of joints, not of each: a configuration for each joint.
+std::string MjlabText(const std::vector<EngineFriction>& frictions) {
+  std::string text = "# keywords of a joint's ActuatorCfg (mjlab 1.6)\n";
+  for (const EngineFriction& one : frictions) {
+    text += fmt::format("{}: dict(frictionloss={}, viscous_damping={}),\n", InQuotes(one.joint),
+                        one.level, one.viscous);
+  }
+  return text;
+}
+
+/// The frictions of a file as they were seen. notices: which joints have none.
+std::vector<SeenFriction> SeenIn(const Node& file, const std::string& joint,
+                                 std::vector<std::string>& notices) {
+  const auto member = [&](const char* key) { return file.IsMap() ? file.Find(key) : std::nullopt; };
+  // an estimate, all of a robot, or a friction by itself
+  if (member("identifier")) return {SeenOf(joint, EstimateFrom(file), file.file())};
+  const auto joints = member("joints");
+  if (!joints || !member("summary")) {
+    SeenFriction seen{joint, FrictionFrom(member("friction").value_or(file))};
+    RefuseAmperes(seen.friction, {file.file()});
+    return {seen};
+  }
+  std::vector<SeenFriction> all;
+  for (const std::string& name : joints->Keys()) {
+    const Estimate estimate = EstimateFrom(*joints->Find(name));
+    const bool in_amperes = estimate.friction && !estimate.friction->torque_unit.empty();
+    if (estimate.friction && !in_amperes) {
+      all.push_back(SeenOf(name, estimate, file.file()));
+    } else {
+      notices.push_back(
+          fmt::format("{} is left out: {}", name,
+                      in_amperes ? "its friction is known in A alone" : "it has no friction"));
+    }
+  }
+  if (all.empty()) Refuse({file.file()}, "holds no friction in N.m or N of any joint");
+  return all;
+}
+
+}  // namespace
+
+Exported ExportFrictions(const Node& file, const ExportRequest& request) {
+  Exported exported;
+  for (const SeenFriction& seen : SeenIn(file, request.joint, exported.notices)) {
+    exported.frictions.push_back(InEngine(seen, request.warmth, request.to));
+  }
+  return exported;
+}
+
+std::string EngineText(const std::vector<EngineFriction>& frictions, EngineFormat format) {
+  std::string text;
+  for (const EngineFriction& one : frictions) text += Head(one, format);
+  if (format == EngineFormat::isaaclab) return text + IsaacLabText(frictions);
+  if (format == EngineFormat::mjlab) return text + MjlabText(frictions);
+  for (const EngineFriction& one : frictions) text += Body(one, format);
+  return text;
+}
+
+nlohmann::json EngineJson(const Exported& exported, EngineFormat format) {
+  nlohmann::json joints = nlohmann::json::object();
+  for (const EngineFriction& one : exported.frictions) joints[one.joint] = WriteFields(one);
+  return {{"to", NameOf(format)},
+          {"joints", joints},
+          {"notices", exported.notices},
+          {"text", EngineText(exported.frictions, format)}};
+}
+
+}  // namespace warmjoint
