@@ -36,7 +36,7 @@ struct ReportArguments {
 };
 
 /// What a template shows, and where the page goes.
-struct Page {
+struct ReportPage {
   fs::path target;
   std::string kind;  // of template
   shown::ShownData data;
@@ -49,13 +49,13 @@ void ClaimOutput(const fs::path& target, const std::vector<fs::path>& inputs) {
   AtomicFile{target};
 }
 
-Page RunReport(const ReportArguments& arguments, Activity& activity) {
+ReportPage RunReport(const ReportArguments& arguments, Activity& activity) {
   const auto store = std::make_shared<RunStore>(RunStore::OpenToRead(arguments.source));
   const fs::path beside = fs::path(arguments.source) / "report.html";
   const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
   ClaimOutput(target, {store->results_file(), store->suite_file()});
   NoticeEditedSuite(*store);
-  Page page{target, "run", {}};
+  ReportPage page{target, "run", {}};
   page.data.facts =
       shown::RunPageFacts(*store, page.data, [&](const std::string& words) { activity.Is(words); });
   page.store = store;
@@ -147,7 +147,7 @@ ExitStatus Report(const ReportArguments& arguments) {
            "is not there; give a directory of `run`, a recording or an estimate file");
   }
   const Backend backend;
-  Page page;
+  ReportPage page;
   if (fs::is_directory(arguments.source)) {
     page = RunReport(arguments, activity);
   } else {

@@ -47,6 +47,9 @@ std::string Comment(const std::string& words, EngineFormat format) {
   return fmt::format("<!-- {} -->\n", text);
 }
 
+/// What a text says of a number: 12 digits, so that 5 is not written as 4.999999999999999.
+std::string Written(double value) { return fmt::format("{:.12g}", value); }
+
 std::string Head(const EngineFriction& one, EngineFormat format) {
   const std::string_view speed = kVelocityUnit.For(one.kind), torque = kTorqueUnit.For(one.kind);
   std::string text = Comment(fmt::format("{}: warm {:.3g} (E = {:.4g} {}; 1 has settled at {:.4g} "
@@ -67,18 +70,19 @@ std::string Head(const EngineFriction& one, EngineFormat format) {
 std::string Body(const EngineFriction& one, EngineFormat format) {
   if (format == EngineFormat::mjcf) {
     return fmt::format("<joint name=\"{}\" damping=\"{}\" frictionloss=\"{}\"/>\n",
-                       InXml(one.joint), one.viscous, one.level);
+                       InXml(one.joint), Written(one.viscous), Written(one.level));
   }
   if (format == EngineFormat::urdf) {
     return fmt::format(
         "<joint name=\"{}\">\n  <dynamics damping=\"{}\" friction=\"{}\"/>\n</joint>\n",
-        InXml(one.joint), one.viscous, one.level);
+        InXml(one.joint), Written(one.viscous), Written(one.level));
   }
   const char* axis = one.kind == JointKind::rotary ? "eTWIST" : "eX";
   return fmt::format(
       "joints.at({})->setFrictionParams(PxArticulationAxis::{}, PxJointFrictionParams({}, {}, "
       "{}));\n",
-      InQuotes(one.joint), axis, one.static_level, one.level, one.viscous);
+      InQuotes(one.joint), axis, Written(one.static_level), Written(one.level),
+      Written(one.viscous));
 }
 
 /// A dict of Python: one number of each joint.
@@ -86,7 +90,8 @@ std::string Dict(const char* key, const std::vector<EngineFriction>& frictions,
                  double EngineFriction::*number) {
   std::string text;
   for (const EngineFriction& one : frictions) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", InQuotes(one.joint), one.*number);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", InQuotes(one.joint),
+                        Written(one.*number));
   }
   return fmt::format("{}={{{}}},\n", key, text);
 }
@@ -103,7 +108,7 @@ std::string MjlabText(const std::vector<EngineFriction>& frictions) {
   std::string text = "# keywords of a joint's ActuatorCfg (mjlab 1.6)\n";
   for (const EngineFriction& one : frictions) {
     text += fmt::format("{}: dict(frictionloss={}, viscous_damping={}),\n", InQuotes(one.joint),
-                        one.level, one.viscous);
+                        Written(one.level), Written(one.viscous));
   }
   return text;
 }
@@ -155,8 +160,8 @@ std::string EngineText(const std::vector<EngineFriction>& frictions, EngineForma
   return text;
 }
 
-nlohmann::json EngineJson(const Exported& exported, EngineFormat format) {
-  nlohmann::json joints = nlohmann::json::object();
+Tree EngineJson(const Exported& exported, EngineFormat format) {
+  Tree joints = Tree::object();
   for (const EngineFriction& one : exported.frictions) joints[one.joint] = WriteFields(one);
   return {{"to", NameOf(format)},
           {"joints", joints},

@@ -1,7 +1,6 @@
 // Friction in the words of an engine, ready to be pasted.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -38,6 +37,6 @@ Exported ExportFrictions(const Node& file, const ExportRequest& request);
 std::string EngineText(const std::vector<EngineFriction>& frictions, EngineFormat format);
 
 /// {to, joints{NAME: {kind, warm, speed, energy, slowest, fastest, viscous, level, static_level, left_out[]}}, notices[], text}
-nlohmann::json EngineJson(const Exported& exported, EngineFormat format);
+Tree EngineJson(const Exported& exported, EngineFormat format);
 
 }  // namespace warmjoint

@@ -1,6 +1,7 @@
 // warmjoint export: the numbers of other engines, against the friction that they are of.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <urdf_parser/urdf_parser.h>
 #include <warmjoint/friction_model.h>
 
 #include <cmath>
@@ -49,6 +50,26 @@ INSTANTIATE_TEST_SUITE_P(Export, EachEngine,
                                          EngineFormat::physx, EngineFormat::isaaclab,
                                          EngineFormat::mjlab),
                          [](const auto& tested) { return std::string(NameOf(tested.param)); });
+
+TEST(Export, UrdfdomReadsWhatUrdfSays) {
+  const SeenFriction seen{.joint = "el<bow", .friction = WarmLine()};
+  const FrictionModel model(seen.friction);
+  for (const double warm : {0.0, 1.0}) {
+    const EngineFriction told = InEngine(seen, {warm, 0.5}, EngineFormat::urdf);
+    std::string text = EngineText({told}, EngineFormat::urdf);
+    text.insert(text.find("<dynamics"), "<parent link=\"base\"/><child link=\"lower\"/>");
+    text.insert(text.find("name=\"el"), "type=\"continuous\" ");
+    const auto robot = urdf::parseURDF(
+        "<robot name=\"arm\"><link name=\"base\"/><link name=\"lower\"/>" + text + "</robot>");
+    ASSERT_TRUE(robot) << text;
+    const auto dynamics = robot->getJoint("el<bow")->dynamics;
+    ASSERT_TRUE(dynamics);
+    for (const double v : {0.15, 0.4, 0.9}) {
+      EXPECT_NEAR(dynamics->damping * v + dynamics->friction,
+                  model.Force(v, {.energy = told.energy}), 1e-6);
+    }
+  }
+}
 
 TEST(Export, SaysByHowMuchDirectionsDiffer) {
   const SeenFriction seen{
