@@ -62,17 +62,18 @@ def test_the_program_writes_the_same(estimate, program, engine):
     assert (program.folder / "elbow.txt").read_text() == as_json["text"]
 
 
-def test_mujoco_reads_both_kinds_of_model(estimate):
+@pytest.mark.parametrize("warm", [0.0, 1.0])
+def test_mujoco_reads_both_kinds_of_model(estimate, warm):
     mujoco = pytest.importorskip("mujoco")
-    mjcf = estimate.export("mjcf", warm=1, speed=0.5, joint="elbow")
+    mjcf = estimate.export("mjcf", warm=warm, speed=0.5, joint="elbow")
     model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody><body>{mjcf}<geom size='.1'/></body></worldbody></mujoco>")
-    urdf = str(estimate.export("urdf", warm=1, speed=0.5, joint="elbow"))
+    urdf = str(estimate.export("urdf", warm=warm, speed=0.5, joint="elbow"))
     dynamics = re.search("<dynamics.*/>", urdf)[0]
     inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
     robot = mujoco.MjModel.from_xml_string(
         f"<robot name='arm'><link name='base'/><link name='lower'>{inertial}</link><joint name='elbow' type='continuous'>{dynamics}"
         "<parent link='base'/><child link='lower'/></joint></robot>")
-    heat = estimate.fitted.settled_heat(0.5)
+    heat = warm * estimate.fitted.settled_heat(0.5)
     for read in (model, robot):
         np.testing.assert_allclose(read.dof_damping[0] * SPEEDS + read.dof_frictionloss[0], estimate.friction(SPEEDS, heat=heat), rtol=0, atol=1e-6)
 

@@ -21,6 +21,13 @@ Friction WarmLine() {
       .law = "viscous_coulomb", .parameters = {{"viscous", 5}, {"coulomb", 15}}, .thermal = kHeat};
 }
 
+Friction Cold(const char* law, const std::map<std::string, double>& parameters) {
+  Friction friction;
+  friction.law = law;
+  friction.parameters = parameters;
+  return friction;
+}
+
 double PercentOf(const EngineFriction& found, std::string_view what) {
   for (const Omission& one : found.left_out) {
     if (one.what == what && one.percent) return *one.percent;
@@ -74,9 +81,8 @@ TEST(Export, UrdfdomReadsWhatUrdfSays) {
 TEST(Export, SaysByHowMuchDirectionsDiffer) {
   const SeenFriction seen{
       .joint = "elbow",
-      .friction = {
-          .law = "asymmetric",
-          .parameters = {{"viscous", 0}, {"coulomb_positive", 6}, {"coulomb_negative", 4}}}};
+      .friction =
+          Cold("asymmetric", {{"viscous", 0}, {"coulomb_positive", 6}, {"coulomb_negative", 4}})};
   const EngineFriction found = InEngine(seen, {}, EngineFormat::mjcf);
   EXPECT_NEAR(found.level, 5, 1e-12);
   // 1 N.m of 5
@@ -96,8 +102,7 @@ TEST(Export, SaysByHowMuchHeatChangesIt) {
 TEST(Export, KeepsALevelAtRestWhereTheEngineHasOne) {
   const SeenFriction seen{
       .joint = "elbow",
-      .friction = {.law = "stiction",
-                   .parameters = {{"viscous", 1}, {"coulomb", 4}, {"static", 6}}}};
+      .friction = Cold("stiction", {{"viscous", 1}, {"coulomb", 4}, {"static", 6}})};
   EXPECT_NEAR(InEngine(seen, {}, EngineFormat::physx).static_level, 6, 1e-12);
   EXPECT_EQ(PercentOf(InEngine(seen, {}, EngineFormat::physx), "rest"), 0);
   EXPECT_GT(PercentOf(InEngine(seen, {}, EngineFormat::mjcf), "rest"), 30);
