@@ -53,7 +53,7 @@ std::string Written(double value) { return fmt::format("{:.12g}", value); }
 std::string Head(const EngineFriction& one, EngineFormat format) {
   const std::string_view speed = kVelocityUnit.For(one.kind), torque = kTorqueUnit.For(one.kind);
   std::string text = Comment(fmt::format("{}: warm {:.3g} (E = {:.4g} {}; 1 has settled at {:.4g} "
-                                         "{}), right over {:.3g} to {:.3g} {}",
+                                         "{}), over {:.3g} to {:.3g} {}",
                                          one.joint, one.warm, one.energy, torque, one.speed, speed,
                                          one.slowest, one.fastest, speed),
                              format);

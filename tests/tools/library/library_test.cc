@@ -30,7 +30,7 @@ double OneSpeed(int i) { return i / 20 % 2 ? -0.5 : 0.5; }
 Simulation TableOneRun(int seconds) {
   const ScratchDirectory scratch;
   WriteWholeFile(scratch.path() / "scenario.yaml", TableOneYaml(seconds));
-  return Simulate(scratch.path() / "scenario.yaml", {.seed = 3});
+  return warmjoint::Simulate(scratch.path() / "scenario.yaml", {.seed = 3});
 }
 
 /// One thing asked of both: the arguments behind RECORDING, and the settings that mean the same.
