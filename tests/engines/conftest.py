@@ -90,3 +90,22 @@ def settled_by_steps(speeds, h):
     for v in speeds.tolist():
         energy = pole * energy + gain * (0.5 * v + 4.0 + energy) * v
     return energy
+
+
+def jumps(worlds_count, joints):
+    """Shares of the level, [50 x worlds x joints], below 1: constant in the first world, anew every 20 ms in the others."""
+    shares = np.random.default_rng(2).uniform(-0.9, 0.9, (50, worlds_count, joints))
+    shares[:, 0] = 0.6
+    return shares
+
+
+def rests_of_plugin(model, torques):
+    """Speeds of the plugin after each 20 ms. torques: [T x worlds x nv]; returns the like."""
+    speeds = np.zeros(torques.shape)
+    for world in range(torques.shape[1]):
+        data = mujoco.MjData(model)
+        for i, torque in enumerate(torques[:, world]):
+            data.qfrc_applied[:] = torque
+            mujoco.mj_step(model, data, 10)
+            speeds[i, world] = data.qvel
+    return speeds
