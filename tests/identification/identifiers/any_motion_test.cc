@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/holdout/hold_out.h"
@@ -113,6 +114,45 @@ TEST(AnyMotion, ATorqueThatIsLateIsToldWithItsDelay) {
   EXPECT_FALSE(
       AnswerTo("nominal-ls", Late(in_time, 2), {{"gravity", "sincos"}, {"torque_delay", "none"}})
           .Find("torque_delay"));
+}
+
+/// Moves of 3 rad back and forth at 1.5 rad/s and 6 rad/s^2, a pause of 0.3 s behind each; inertia and gravity as of Excited.
+Measurements PickAndPlace(const Friction& friction, Eigen::Index n, std::uint64_t seed) {
+  constexpr double step = 0.01, ramp = 0.25, cruise = 1.75, moves = cruise + 2 * ramp,
+                   every = moves + 0.3;
+  Eigen::VectorXd position(n), velocity(n), acceleration(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double t = step * static_cast<double>(i), move = std::floor(t / every);
+    const double direction = std::fmod(move, 2) == 0 ? 1 : -1;
+    // time since the move began, and until it ends
+    const double since = t - every * move, left = std::max(moves - since, 0.0);
+    const bool starts = since < ramp, ends = left < ramp;
+    velocity[i] = direction * 6 * std::min({since, ramp, left});
+    acceleration[i] = left == 0 ? 0 : direction * 6 * (starts ? 1 : ends ? -1 : 0);
+    const double way = starts ? 3 * since * since
+                       : ends ? 3 - 3 * left * left
+                              : 1.5 * (since - ramp / 2);
+    position[i] = direction * (way - 1.5);
+  }
+  Measurements m = test::RecordFriction(friction, step, velocity, test::kExcitedNoise, seed);
+  m.position = position;
+  m.torque += kInertia * acceleration;
+  m.torque.array() += kSine * position.array().sin() + kCosine * position.array().cos();
+  return m;
+}
+
+TEST(AnyMotion, CornersOfTheVelocityMakeNoDelay) {
+  // losses of some 20 W, of which less than the friction may go
+  Friction warm = test::TableOne();
+  warm.thermal->gain = -0.3;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Estimate estimate = AnswerTo("energy-ml", PickAndPlace(warm, 60000, seed),
+                                       {{"gravity", "sincos"}, {"motion", "any"}});
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    ExpectTold(estimate, "viscous", 5, 0.05);
+    ExpectTold(estimate, "inertia", kInertia, 0.02);
+    ExpectTold(estimate, "torque_delay", 0, 0.01);
+  }
 }
 
 TEST(AnyMotion, MethodsThatKnowNoDelayNameIt) {
