@@ -9,7 +9,7 @@
 namespace warmjoint {
 
 /// The parameters, without those of the law of which only friction at speeds is known, without the discrete pair, which
-/// repeats gain and time constant, and without a delay that the log does not tell from 0.
+/// repeats gain and time constant, and without a delay of less than two half widths of its interval.
 std::vector<EstimatedParameter> OwnParameters(const Estimate& estimate);
 
 /// The rows of every table of one estimate: friction at speeds first, "friction forwards at 0.3 rad/s", then its parameters.

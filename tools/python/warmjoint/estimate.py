@@ -344,10 +344,10 @@ class Estimate:
         raise _core.BadInput(f"{what} needs the log, and {why}; give it: load(path, log=wj.read(...))")
 
     def _shown(self) -> list[Parameter]:
-        """The parameters without the discrete pair, which repeats gain and time constant, and a delay that the log does not tell from 0."""
+        """The parameters without the discrete pair, which repeats gain and time constant, and a delay below two half widths of its interval."""
         def is_hidden(one: Parameter) -> bool:
             if one.name == "torque_delay" and one.ci95:
-                return one.ci95[0] <= 0 <= one.ci95[1]
+                return abs(one.value) <= one.ci95[1] - one.ci95[0]
             return one.name in ("thermal_gain_discrete", "thermal_pole")
 
         return [one for one in self._rows().values() if not is_hidden(one)]
