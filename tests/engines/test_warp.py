@@ -60,17 +60,26 @@ def test_held_joints_rest_also_under_torques_of_20_ms():
         d.qfrc_applied.assign(torque)
         for _ in range(10):
             mjw.step(m, d)
-        speeds.append(d.qvel.numpy())
-        places.append(d.qpos.numpy()[0])
+        # numpy() shows the engine's own memory
+        speeds.append(d.qvel.numpy().copy())
+        places.append(d.qpos.numpy()[0].copy())
+    for _ in range(10):
+        mjw.step(m, d)
+    later = np.abs(d.qvel.numpy()).max()
     assert f.held.numpy().all()
-    assert (np.array(places[5:]) == places[5]).all()
+    drift = np.abs(np.array(places[5:], dtype=np.float64) - places[5]).max()
     speeds, plugin = np.array(speeds)[5:], rests_of_plugin(model, torques)[5:]
     differ = np.abs(speeds - plugin).max()
-    print(f"\nheld: constant torque {np.abs(speeds[:, 0]).max():.1e}, 20 ms after a jump {np.abs(speeds[:, 1:]).max():.1e}, "
-          f"the plugin {np.abs(plugin[:, 1:]).max():.1e}, apart {differ:.1e} rad/s")
-    assert np.abs(speeds[:, 0]).max() <= 1e-8
-    # one rounding of the torque in single precision during a step; coupled joints feel up to 3.3 times as light
-    assert differ <= 3.3 * (np.spacing(level.astype(np.float32)) * bare.opt.timestep / friction.inertia).max()
+    print(f"\nheld: constant torque {np.abs(speeds[:, 0]).max():.1e}, moved by {drift:.1e} rad, 20 ms after a jump {np.abs(speeds[:, 1:]).max():.1e}, "
+          f"the plugin {np.abs(plugin[:, 1:]).max():.1e}, apart {differ:.1e}; after 20 ms more {later:.1e} rad/s")
+    # what one rounding of the torque in single precision does in a step; coupled joints feel up to 3.3 times as light
+    rounding = 3.3 * (np.spacing(level.astype(np.float32)) * bare.opt.timestep / friction.inertia).max()
+    assert np.abs(speeds[:, 0]).max() <= rounding
+    # such speeds do not add up: none goes on for more than a step
+    assert drift <= 2 * rounding * bare.opt.timestep
+    # the plugin's bristles are not yet at rest after ten steps; single precision adds less than a tenth to that
+    assert differ <= 0.1 * np.abs(plugin).max()
+    assert later <= rounding
 
 
 def test_heat_over_900000_steps():

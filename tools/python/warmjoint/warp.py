@@ -193,7 +193,7 @@ def _states(friction: FrictionArrays, nworld: int, m: Any) -> Any:
     found.time = wp.zeros((nworld, m.ntree), dtype=float)
     found.turns = wp.zeros((nworld, m.ntree), dtype=int)
     for name in ("stretch", "next_stretch"):
-        setattr(found, name, wp.zeros((nworld, m.nv), dtype=wp.float64))
+        setattr(found, name, wp.zeros((nworld, m.nv), dtype=float))
     for name in ("first", "second"):
         setattr(found, name, wp.zeros((nworld, m.nv), dtype=int))
     for name in ("slip", "next_slip", "force", "loss"):

@@ -38,9 +38,8 @@ class States:
     """What a step begins with (twice: at its begin and, of the last computation, at its end), and what it tells."""
 
     time: wp.array2d(dtype=float)  # [worlds x trees] of the last computation, s; -1 none
-    # z [worlds x nv], rad or m; in double precision, since a held joint would go on at the speed that no longer changes z in single
-    stretch: wp.array2d(dtype=wp.float64)
-    next_stretch: wp.array2d(dtype=wp.float64)
+    stretch: wp.array2d(dtype=float)  # z [worlds x nv], rad or m
+    next_stretch: wp.array2d(dtype=float)
     energy: wp.array3d(dtype=wp.float64)  # [worlds x J x 2]
     next_energy: wp.array3d(dtype=wp.float64)
     slip: wp.array2d(dtype=float)  # [worlds x J]
@@ -278,7 +277,7 @@ def begin(w: int, tree: int, i0: int, n: int, time: float, j: Joints, st: States
                 st.energy[w, k, 0] = st.next_energy[w, k, 0]
                 st.energy[w, k, 1] = st.next_energy[w, k, 1]
             elif time < last:
-                st.stretch[w, i] = wp.float64(0.0)
+                st.stretch[w, i] = 0.0
                 st.slip[w, k] = 0.0
                 st.energy[w, k, 0] = st.start_energy[k, 0]
                 st.energy[w, k, 1] = st.start_energy[k, 1]
@@ -360,23 +359,23 @@ def step_friction(
             s.inertia[w, c, i] = mass[w, row_begin[i] + e]
     # what joints without friction would add is undone by their slip
     for a in range(n):
-        elastic = wp.float64(0.0)
+        elastic = float(0.0)
         damped = float(0.0)
         for c in range(n):
             i = i0 + c
             k = j.of_dof[i]
             if k >= 0:
                 m = s.inertia[w, i0 + a, i]
-                elastic += wp.float64(m * j.shape[k, STIFFNESS]) * (st.stretch[w, i] + wp.float64(h * qvel[w, i]))
+                elastic += m * j.shape[k, STIFFNESS] * (st.stretch[w, i] + h * qvel[w, i])
                 damped += m * j.shape[k, DAMPING] * qvel[w, i]
-        s.aim[w, i0 + a] = float(elastic / wp.float64(h * h))
+        s.aim[w, i0 + a] = elastic / (h * h)
         s.damped[w, i0 + a] = damped / h
     turns = nearest(w, i0, n, most, st.first, s)
     for a in range(n):
         i = i0 + a
         k = j.of_dof[i]
         if k >= 0:
-            st.next_stretch[w, i] = st.stretch[w, i] + wp.float64(h * qvel[w, i]) - wp.float64(h * h / j.shape[k, STIFFNESS] * s.slip[w, i])
+            st.next_stretch[w, i] = st.stretch[w, i] + h * qvel[w, i] - h * h / j.shape[k, STIFFNESS] * s.slip[w, i]
         s.aim[w, i] = s.force[w, i] + s.damped[w, i]
         if st.first[w, i] == 0:
             s.upper[w, i] = 2.0 * s.upper[w, i]
