@@ -92,6 +92,23 @@ def settled_by_steps(speeds, h):
     return energy
 
 
+def without_friction(motion, forces):
+    """MuJoCo without friction from motion's starts, with the torques less these forces [steps x S x J]: the torques [steps x S x nv] in single
+    precision, positions of the joints and speeds. What an engine alone differs by from that is no error of the friction's."""
+    applied = motion.torque.astype(np.float32)
+    applied[:, :, motion.friction.dofs] -= forces
+    starts = [mujoco.MjData(motion.bare) for _ in motion.start["qpos"]]
+    for world, data in enumerate(starts):
+        data.qpos[:], data.qvel[:] = motion.start["qpos"][world], motion.start["qvel"][world]
+    rows = []
+    for torque in applied:
+        for world, data in enumerate(starts):
+            data.qfrc_applied[:] = torque[world]
+            mujoco.mj_step(motion.bare, data)
+        rows.append(([data.qpos[motion.friction.positions] for data in starts], [data.qvel.copy() for data in starts]))
+    return applied, *(np.array(column) for column in zip(*rows))
+
+
 def jumps(worlds_count, joints):
     """Shares of the level, [50 x worlds x joints], below 1: constant in the first world, anew every 20 ms in the others."""
     shares = np.random.default_rng(2).uniform(-0.9, 0.9, (50, worlds_count, joints))

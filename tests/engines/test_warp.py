@@ -9,7 +9,7 @@ mjw = pytest.importorskip("mujoco_warp")
 import friction_worlds as worlds  # noqa: E402
 import warmjoint as wj  # noqa: E402
 import warp as wp  # noqa: E402
-from conftest import HINGE, WARM, jumps, rests_of_plugin, settled_by_steps  # noqa: E402
+from conftest import HINGE, WARM, jumps, rests_of_plugin, settled_by_steps, without_friction  # noqa: E402
 from warmjoint import warp_kernel  # noqa: E402
 
 wp.config.quiet = True
@@ -21,28 +21,54 @@ def engine(bare, friction, nworld):
     return m, d, wj.warp.put_friction(friction, m, nworld)
 
 
+def started(motion):
+    """An engine with all starts as worlds beside each other."""
+    starts = len(motion.start["qpos"])
+    m = mjw.put_model(motion.bare)
+    d = mjw.put_data(motion.bare, mujoco.MjData(motion.bare), nworld=starts)
+    d.qpos.assign(motion.start["qpos"].astype(np.float32))
+    d.qvel.assign(motion.start["qvel"].astype(np.float32))
+    return m, d
+
+
+def engine_alone(motion, forces):
+    """By how much the engine without friction leaves MuJoCo, where both have the torques less these forces [steps x S x J]: rad and rad/s."""
+    m, d = started(motion)
+    worst = np.zeros(2)
+    for torque, angles, speeds in zip(*without_friction(motion, forces)):
+        d.qfrc_applied.assign(torque)
+        mjw.step(m, d)
+        pairs = ((d.qpos.numpy()[:, motion.friction.positions], angles), (d.qvel.numpy(), speeds))
+        worst = np.maximum(worst, [np.abs(mine - theirs).max() for mine, theirs in pairs])
+    return worst
+
+
 @pytest.mark.parametrize("robot", worlds.ROBOTS)
 @pytest.mark.parametrize("law", [*worlds.LAWS, "everything"])
 def test_moves_as_the_plugin(motion_of, robot, law):
-    """From the plugin's state each .1 s, over 3 s; all starts are worlds beside each other."""
+    """From the plugin's state each .1 s, over 3 s."""
     motion = motion_of(robot, law)
-    starts = len(motion.start["qpos"])
-    m, d, f = engine(motion.bare, motion.friction, starts)
-    d.qpos.assign(motion.start["qpos"].astype(np.float32))
-    d.qvel.assign(motion.start["qvel"].astype(np.float32))
+    m, d = started(motion)
+    f = wj.warp.put_friction(motion.friction, m, len(motion.start["qpos"]))
     f.put_state(motion.start["bristle load"], np.array([motion.start["energy"], motion.start["second energy"]]), motion.start["slip"])
     f.ambient_rise.fill_(motion.rise)
-    worst, differ = np.zeros(3), 0
-    for step in range(len(motion.torque)):
-        d.qfrc_applied.assign(motion.torque[step].astype(np.float32))
+    worst, differ, forces, positions = np.zeros(3), 0, [], motion.friction.positions
+    for step, torque in enumerate(motion.torque):
+        d.qfrc_applied.assign(torque.astype(np.float32))
         mjw.step(m, d)
-        pairs = ((d.qpos, motion.qpos), (d.qvel, motion.qvel), (f.energy, motion.energy))
-        worst = np.maximum(worst, [np.abs(mine.numpy() - theirs[step]).max() for mine, theirs in pairs])
+        # of the joints: a base that has fallen for 3 s is 40 m away, where single precision has steps of 4e-6 m
+        pairs = ((d.qpos.numpy()[:, positions], motion.qpos[step][:, positions]), (d.qvel.numpy(), motion.qvel[step]),
+                 (f.energy.numpy(), motion.energy[step]))
+        worst = np.maximum(worst, [np.abs(mine - theirs).max() for mine, theirs in pairs])
         differ += (f.held.numpy() != (motion.held[step] != 0)).sum()
+        forces.append(f.force.numpy().copy())
         assert f.turns.numpy().max() <= 8
-    print(f"\n{robot} {law}: dq {worst[0]:.1e} rad, dv {worst[1]:.1e} rad/s, E {worst[2]:.1e}, held differs in {differ}")
-    assert worst[0] <= 1e-5
-    assert worst[1] <= 1e-4
+    alone = engine_alone(motion, forces)
+    print(f"\n{robot} {law}: dq {worst[0]:.1e} rad, dv {worst[1]:.1e} rad/s, E {worst[2]:.1e}, held differs in {differ}; "
+          f"the engine alone {alone[0]:.1e} rad, {alone[1]:.1e} rad/s")
+    # what the engine itself loses in single precision is none of the friction's
+    assert worst[0] <= max(1e-5, alone[0])
+    assert worst[1] <= max(1e-4, alone[1])
 
 
 def test_held_joints_rest_also_under_torques_of_20_ms():
