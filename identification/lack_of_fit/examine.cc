@@ -255,26 +255,25 @@ BoundedMoves Bounded(const Finding& finding, const FrictionChange& change,
 void SumMoves(const OverBins& over, Examination& examination) {
   if (examination.Found().empty()) return;
   const FrictionChange change(over, examination.friction);
-  const Index p = std::ssize(examination.rows);
-  Eigen::VectorXd bias = Eigen::VectorXd::Zero(p), of_friction = bias;
-  // findings count as independent of each other: their covariances add up
-  Eigen::MatrixXd spread(p, 0), spread_of_friction(p, 0);
   for (Finding& finding : examination.findings) {
-    if (!finding.rejected) continue;
-    finding.harm = HarmOf(finding, change, examination);
-    if (finding.moves.size() == 0) continue;
-    const double share = Bounded(finding, change, examination).share;
-    bias += finding.moves.head(p);
-    of_friction += share * finding.moves.head(p);
-    spread = ConcatColumns(spread, finding.move_spread.topRows(p));
-    spread_of_friction = ConcatColumns(spread_of_friction, share * finding.move_spread.topRows(p));
+    if (finding.rejected) finding.harm = HarmOf(finding, change, examination);
   }
-  examination.Add(Source::findings, Action::widen, std::move(bias));
-  examination.causes.back().about = About::parameters;
-  examination.causes.back().spread = std::move(spread);
-  examination.Add(Source::findings, Action::widen, std::move(of_friction));
-  examination.causes.back().about = About::friction;
-  examination.causes.back().spread = std::move(spread_of_friction);
+  const Index p = std::ssize(examination.rows);
+  for (const About about : {About::parameters, About::friction}) {
+    VectorXd bias = VectorXd::Zero(p);
+    // findings count as independent of each other: their covariances add up
+    Eigen::MatrixXd spread(p, 0);
+    for (const Finding& finding : examination.findings) {
+      if (!finding.rejected || finding.moves.size() == 0) continue;
+      const double share =
+          about == About::friction ? Bounded(finding, change, examination).share : 1;
+      bias += share * finding.moves.head(p);
+      spread = ConcatColumns(spread, share * finding.move_spread.topRows(p));
+    }
+    examination.Add(Source::findings, Action::widen, std::move(bias));
+    examination.causes.back().about = about;
+    examination.causes.back().spread = std::move(spread);
+  }
 }
 
 /// What findings before adjustment move parameters by, as far as that changes the friction. They may be one and the same thing
