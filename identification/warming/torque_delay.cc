@@ -114,20 +114,18 @@ VectorXd ByDelay(const Fit& fit, const IdentifierInput& given, double delay, dou
   if (step >= kDifference) return by_delay;
 
   // a later delay shows motion of before; what counts is sample i - delay / step
-  const auto width = static_cast<Index>(std::ceil(kDifference / step));
+  const double width = std::ceil(kDifference / step);
   const auto shift = static_cast<Index>(std::floor(delay / step));
-  const auto use = [&](double later, double earlier) {
-    const Index before =
-        std::lround(static_cast<double>(width) * later) + std::max<Index>(shift + 1, 0);
-    const Index behind =
-        std::lround(static_cast<double>(width) * earlier) + std::max<Index>(-shift, 0);
+  const auto take = [&](double later, double earlier, const VectorXd& difference) {
+    const Index before = std::lround(width * later) + std::max<Index>(shift + 1, 0);
+    const Index behind = std::lround(width * earlier) + std::max<Index>(-shift, 0);
     const SampleMask fits = WithoutJumps(given.selection.keep, before, behind);
-    by_delay =
-        fits.select((at(later * kDifference) - at(-earlier * kDifference)) / kDifference, by_delay);
+    by_delay = fits.select(difference / kDifference, by_delay);
   };
-  use(1, 0);
-  use(0, 1);
-  use(0.5, 0.5);
+  const VectorXd now = at(0);
+  take(1, 0, at(kDifference) - now);
+  take(0, 1, now - at(-kDifference));
+  take(0.5, 0.5, at(kDifference / 2) - at(-kDifference / 2));
   return by_delay;
 }
 
