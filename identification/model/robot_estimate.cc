@@ -34,6 +34,10 @@ std::string RobotEstimateToJson(const RobotEstimate& robot, const std::filesyste
   return RobotEstimateToTree(robot, target).dump(2) + "\n";
 }
 
+bool IsRobotEstimate(const Node& file) {
+  return file.IsMap() && file.Find("joints") && file.Find("summary");
+}
+
 RobotEstimate ReadRobotEstimate(const std::filesystem::path& file) {
   const Node node = ReadJsonNode(file).With(UnknownKeys::ignored);
   RobotEstimate robot;

@@ -9,6 +9,9 @@
 
 namespace warmjoint {
 
+/// Whether a file is a robot.json, and no estimate of one joint, friction or whatever else.
+bool IsRobotEstimate(const Node& file);
+
 /// target: the file that it is for (EstimateToTree).
 Tree RobotEstimateToTree(const RobotEstimate& robot, const std::filesystem::path& target = {});
 

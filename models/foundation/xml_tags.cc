@@ -1,6 +1,8 @@
 #include "models/foundation/xml_tags.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace warmjoint {
 namespace {
@@ -95,6 +97,17 @@ std::string_view XmlTagReader::Take(std::size_t size) {
   rest_.remove_prefix(size);
   line_ += static_cast<int>(std::count(taken.begin(), taken.end(), '\n'));
   return taken;
+}
+
+std::string EscapeXml(std::string_view text) {
+  constexpr std::pair<char, std::string_view> entities[]{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string result;
+  for (const char c : text) {
+    const auto found = std::ranges::find(entities, c, &std::pair<char, std::string_view>::first);
+    result += found == std::end(entities) ? std::string(1, c) : std::string(found->second);
+  }
+  return result;
 }
 
 }  // namespace warmjoint

@@ -1,7 +1,8 @@
-// The tags of an XML text one after another, without a tree of them: to look at what may be too large for one.
+// Text as XML has it: its tags one after another, without a tree of them, to look at what may be too large for one; and words as values.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace warmjoint {
@@ -33,5 +34,8 @@ class XmlTagReader {
   std::string_view rest_;
   int line_ = 1;
 };
+
+/// The text with &, <, > and " written as entities.
+std::string EscapeXml(std::string_view text);
 
 }  // namespace warmjoint

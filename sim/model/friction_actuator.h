@@ -6,7 +6,6 @@
 #include <warmjoint/friction.h>
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
@@ -65,8 +64,5 @@ std::string InstanceSection(const std::string& instance,
 
 /// Name of the actuator that carries the friction of a joint.
 std::string FrictionActuatorOf(const std::string& joint);
-
-/// The text with &, <, > and " written as entities.
-std::string EscapeXml(std::string_view text);
 
 }  // namespace warmjoint

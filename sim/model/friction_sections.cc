@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <utility>
+#include <string_view>
 
 #include "models/foundation/serialize.h"
+#include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "models/friction/parameter_rows.h"
@@ -72,17 +71,6 @@ std::string OptionConfigs(const AttachOptions& options, Viscous viscous) {
 }
 
 }  // namespace
-
-std::string EscapeXml(std::string_view text) {
-  constexpr std::pair<char, std::string_view> entities[]{
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
-  std::string result;
-  for (const char c : text) {
-    const auto found = std::ranges::find(entities, c, &std::pair<char, std::string_view>::first);
-    result += found == std::end(entities) ? std::string(1, c) : std::string(found->second);
-  }
-  return result;
-}
 
 std::string FrictionActuatorOf(const std::string& joint) { return joint + "_friction"; }
 

@@ -114,12 +114,6 @@ shown::ShownData EstimateReport(const ReportArguments& arguments) {
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
-/// Whether a file holds the joints of identify-robot rather than one estimate.
-bool IsRobot(const fs::path& source) {
-  return IsEstimate(source) &&
-         ReadJsonNode(source).With(UnknownKeys::ignored).Find("joints").has_value();
-}
-
 /// Of robot.json alone, without the logs.
 shown::ShownData RobotReport(const fs::path& source) {
   shown::ShownData data;
@@ -156,12 +150,12 @@ ExitStatus Report(const ReportArguments& arguments) {
       Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
     }
     ClaimOutput(arguments.output, {arguments.source});
-    if (IsRobot(arguments.source)) {
+    const bool is_estimate = IsEstimate(arguments.source);
+    if (is_estimate && IsRobotEstimate(ReadJsonNode(arguments.source))) {
       page = {arguments.output, "robot", RobotReport(arguments.source), nullptr};
     } else {
       page = {arguments.output, "log",
-              IsEstimate(arguments.source) ? EstimateReport(arguments)
-                                           : RecordingReport(arguments, activity),
+              is_estimate ? EstimateReport(arguments) : RecordingReport(arguments, activity),
               nullptr};
     }
   }

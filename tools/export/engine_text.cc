@@ -5,33 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
+#include "identification/model/robot_estimate.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/serialize.h"
+#include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
 
 namespace warmjoint {
 namespace {
-
-/// A name between quotes of an XML attribute.
-std::string InXml(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      default:
-        text += c;
-    }
-  }
-  return text;
-}
 
 /// A name as a string of C++ and Python.
 std::string InQuotes(const std::string& name) { return nlohmann::json(name).dump(); }
@@ -70,12 +51,12 @@ std::string Head(const EngineFriction& one, EngineFormat format) {
 std::string Body(const EngineFriction& one, EngineFormat format) {
   if (format == EngineFormat::mjcf) {
     return fmt::format("<joint name=\"{}\" damping=\"{}\" frictionloss=\"{}\"/>\n",
-                       InXml(one.joint), Written(one.viscous), Written(one.level));
+                       EscapeXml(one.joint), Written(one.viscous), Written(one.level));
   }
   if (format == EngineFormat::urdf) {
     return fmt::format(
         "<joint name=\"{}\">\n  <dynamics damping=\"{}\" friction=\"{}\"/>\n</joint>\n",
-        InXml(one.joint), Written(one.viscous), Written(one.level));
+        EscapeXml(one.joint), Written(one.viscous), Written(one.level));
   }
   const char* axis = one.kind == JointKind::rotary ? "eTWIST" : "eX";
   return fmt::format(
@@ -119,15 +100,15 @@ std::vector<SeenFriction> SeenIn(const Node& file, const std::string& joint,
   const auto member = [&](const char* key) { return file.IsMap() ? file.Find(key) : std::nullopt; };
   // an estimate, all of a robot, or a friction by itself
   if (member("identifier")) return {SeenOf(joint, EstimateFrom(file), file.file())};
-  const auto joints = member("joints");
-  if (!joints || !member("summary")) {
+  if (!IsRobotEstimate(file)) {
     SeenFriction seen{joint, FrictionFrom(member("friction").value_or(file))};
     RefuseAmperes(seen.friction, {file.file()});
     return {seen};
   }
+  const Node joints = *file.Find("joints");
   std::vector<SeenFriction> all;
-  for (const std::string& name : joints->Keys()) {
-    const Estimate estimate = EstimateFrom(*joints->Find(name));
+  for (const std::string& name : joints.Keys()) {
+    const Estimate estimate = EstimateFrom(*joints.Find(name));
     const bool in_amperes = estimate.friction && !estimate.friction->torque_unit.empty();
     if (estimate.friction && !in_amperes) {
       all.push_back(SeenOf(name, estimate, file.file()));

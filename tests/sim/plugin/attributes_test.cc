@@ -11,6 +11,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/random_stream.h"
+#include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
 #include "tests/sim/plugin/two_forms.h"
 #include "tests/support/folders.h"

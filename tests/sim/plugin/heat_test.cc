@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/friction_instance.h"

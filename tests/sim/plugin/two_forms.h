@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/friction_actuator.h"
