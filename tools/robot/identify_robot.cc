@@ -108,9 +108,9 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   JointQuestion question;
   question.middle_gain = MiddleGain(guesses);
   if (is_asked) {
-    std::vector<JointColumns> columns;
-    for (const Joint& joint : joints) columns.push_back(joint.columns);
-    const LoadedGains loaded = GainsUnderLoad(guesses, columns);
+    std::vector<double> open;
+    for (const Joint& joint : joints) open.push_back(OpenShare(joint.columns));
+    const LoadedGains loaded = GainsUnderLoad(guesses, open);
     question.middle_gain = loaded.middle;
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j].guess = loaded.guesses[j];
   }

@@ -79,15 +79,17 @@ InertialParameters LoadSpread(const RobotDescription& robot) {
 
 }  // namespace
 
-LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<JointColumns>& free) {
+double OpenShare(const JointColumns& columns) {
+  return columns.rigid.directions.norm() / columns.rigid.force.norm();
+}
+
+LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<double>& open) {
   LoadedGains loaded{std::move(guesses), 1};
   double least = std::numeric_limits<double>::infinity();
-  for (const JointColumns& c : free) {
-    const auto j = static_cast<std::size_t>(&c - free.data());
+  for (std::size_t j = 0; j < open.size(); ++j) {
     const GainGuess& guess = loaded.guesses[j];
-    const double open = c.rigid.directions.norm() / c.rigid.force.norm();
-    if (!guess.IsSure() || !(open < least)) continue;
-    least = open;
+    if (!guess.IsSure() || !(open[j] < least)) continue;
+    least = open[j];
     loaded.middle = std::abs(guess.value);
   }
   for (GainGuess& one : loaded.guesses) one.value = std::copysign(loaded.middle, one.value);
@@ -162,13 +164,15 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
   std::vector<JointColumns> columns(joints.size());
+  std::vector<double> open(joints.size());
   std::vector<GainGuess> own;
   for (const Index j : joints) own.push_back(guesses[static_cast<std::size_t>(j)]);
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
     columns[at] = ColumnsOf(data, free, joints[at]);
+    open[at] = OpenShare(columns[at]);
   });
-  const LoadedGains gains = GainsUnderLoad(own, columns);
+  const LoadedGains gains = GainsUnderLoad(own, open);
   JointQuestion under_load = question;
   under_load.middle_gain = gains.middle;
   std::vector<std::optional<double>> falls(joints.size());

@@ -25,9 +25,12 @@ struct LoadedGains {
   double middle = 1;
 };
 
+/// How much of a joint's rigid torque its directions leave open, as a share.
+double OpenShare(const JointColumns& columns);
+
 /// A load that the description lacks spoils the gains of joints that carry little else, those of wrists. All begin at the gain of the joint, of those that are
-/// sure, whose torque the free last link leaves least open. guesses, free: [n] of the same joints; free: with the last link free.
-LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<JointColumns>& free);
+/// sure, whose torque the free last link leaves least open. guesses: [n]; open: [n] OpenShare of the same joints with the last link free.
+LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<double>& open);
 
 /// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L x 10 L]
 Eigen::MatrixXd FreeLastLink(const RobotData& data, const Eigen::MatrixXd& deviations);
