@@ -1,5 +1,10 @@
 #include "identification/fit.h"
 
+#include <utility>
+
+#include "identification/fit_data.h"
+#include "identification/linear/least_squares.h"
+
 namespace warmjoint {
 
 std::vector<double> Fit::Values(Role role) const {
@@ -26,6 +31,15 @@ std::optional<size_t> Fit::RowOf(Role role, int which) const {
     if (parameters[i].role == role && which-- == 0) return i;
   }
   return std::nullopt;
+}
+
+Eigen::MatrixXd CofactorOf(const Fit& fit) {
+  const ErrorModel& errors = fit.errors;
+  Eigen::MatrixXd rows = Kept(fit.jacobian(), fit.used);
+  if (errors.whitening) rows = errors.whitening->Of(rows);
+  Eigen::MatrixXd normal = rows.transpose() * rows;
+  if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
+  return Cofactor(normal);
 }
 
 Fit Refused(std::string identifier, Refusal refusal) {

@@ -23,7 +23,10 @@ namespace warmjoint {
 class IdentifierInput;
 
 /// What a parameter is part of.
-enum class Role { law, heat, start, jump, gravity, inertia, lag, delay };
+enum class Role { law, load, heat, start, jump, gravity, inertia, lag, delay };
+
+/// Whether it is part of Fn, the friction of a cold joint: law and load, whose values have physical bounds.
+inline bool IsNominal(Role role) { return role == Role::law || role == Role::load; }
 
 /// The coordinate x in which a fit works, and the one whose errors are about normal: the value for
 /// both, the logarithm of a positive value for both, or x the value and its logarithm normal.
@@ -151,6 +154,9 @@ struct Fit {
   /// Values of the parameters with a role, in the order of the table.
   std::vector<double> Values(Role role) const;
 };
+
+/// (J^T J + P)^-1 of a fit's Jacobian J at the samples that it used, whitened where the fit was, and its prior P. [p x p]
+Eigen::MatrixXd CofactorOf(const Fit& fit);
 
 /// No fit: its status and one sentence.
 Fit Refused(std::string identifier, Refusal refusal);

@@ -52,6 +52,11 @@ std::string UnitFor(const ParameterInfo& info, const Measurements& measurements)
   return measurements.torque_unit + std::string(table.substr(torque.size()));
 }
 
+/// The row of load_gain, as friction files have it.
+const ParameterInfo& LoadGainInfo() {
+  return std::ranges::find(FrictionOptions(), &Friction::load_gain, &FrictionOption::value)->info;
+}
+
 /// A parameter of any table with its value.
 FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
                             const Measurements& measurements) {
@@ -82,6 +87,8 @@ std::string NameOf(Role role, int which) {
       return std::string(kTorqueLagName);
     case Role::delay:
       return std::string(kTorqueDelayName);
+    case Role::load:
+      return std::string(LoadGainInfo().name);
     case Role::law:
     case Role::gravity:
       break;
@@ -97,7 +104,13 @@ std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& v
     const double value = values[static_cast<Eigen::Index>(i)];
     rows.push_back(TableParameter(law.parameters[i], Role::law, value, measurements));
   }
+  const auto d = std::ssize(rows);
+  if (values.size() > d) rows.push_back(LoadParameter(values[d], measurements));
   return rows;
+}
+
+FitParameter LoadParameter(double value, const Measurements& measurements) {
+  return TableParameter(LoadGainInfo(), Role::load, value, measurements);
 }
 
 std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements) {
@@ -158,7 +171,23 @@ Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
   for (size_t i = 0; i < law.parameters.size(); ++i) {
     friction.parameters[std::string(law.parameters[i].name)] = values[static_cast<Eigen::Index>(i)];
   }
+  const auto d = std::ssize(law.parameters);
+  if (values.size() > d) friction.load_gain = values[d];
   return friction;
+}
+
+void SetFriction(const FitParameter& row, double value, Friction& friction) {
+  if (row.role == Role::law) friction.parameters[row.name] = value;
+  if (row.role == Role::load) friction.load_gain = value;
+  if (row.role != Role::heat) return;
+  const bool gain = row.coordinate != Coordinate::logarithm;
+  (gain ? friction.thermal->gain : friction.thermal->time_constant) = value;
+}
+
+std::vector<double> NominalValues(const Fit& fit) {
+  std::vector<double> values = LawValues(fit.friction);
+  if (fit.RowOf(Role::load)) values.push_back(fit.friction.load_gain);
+  return values;
 }
 
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which) {

@@ -17,9 +17,12 @@ namespace warmjoint {
 /// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia, lag and delay.
 std::string NameOf(Role role, int which = 0);
 
-/// The law's parameters. values: [d] in the order of its table.
+/// The law's parameters and, where there is one value more, load_gain. values: [d] or [d + 1] in the order of its table.
 std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,
                                         const Measurements& measurements);
+
+/// load_gain of a friction.
+FitParameter LoadParameter(double value, const Measurements& measurements);
 
 /// thermal_gain and thermal_time_constant, the latter by its logarithm.
 std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
@@ -47,9 +50,16 @@ FitParameter TorqueDelayParameter(double delay, const Measurements& measurements
 /// Puts rows behind those of the fit's table.
 void Append(const std::vector<FitParameter>& rows, Fit& fit);
 
-/// The law with its values, and nothing else. values: [d]
+/// The law with its values and load_gain, where there is one value more, and nothing else. values: [d] or [d + 1]
 Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
                     const Measurements& measurements);
+
+/// Gives a friction the value of a row of law, load or heat; of the two rows of heat, the time constant is told by its
+/// logarithm. Other rows are none of its own.
+void SetFriction(const FitParameter& row, double value, Friction& friction);
+
+/// Fn's parameters of a fit's friction, as LawParameters takes them: load_gain behind the law's where the fit holds it.
+std::vector<double> NominalValues(const Fit& fit);
 
 /// The which-th parameter with such a role, or nullptr.
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which = 0);

@@ -6,6 +6,7 @@
 #include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/lack_of_fit/fitted_model.h"
@@ -28,6 +29,9 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   const std::vector<double> values = LawValues(fit.friction);
   const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
+  if (estimate.Find(NameOf(Role::load))) {
+    Append({LoadParameter(fit.friction.load_gain, m)}, fit);
+  }
 
   // heat and start, where the estimate tells them
   if (fit.friction.thermal && Find(Role::heat, estimate)) {
@@ -133,17 +137,20 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
 void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Estimate& estimate) {
   // an identifier without options stands for whoever made the estimate
   const Identifier identifier{estimate.identifier, "", {}, nullptr};
-  const IdentifierInput input{log, {}, {}};
+  const IdentifierInput given{log, {}, {}};
   if (!estimate.friction) {
     // nothing to follow along the log
     Fit none;
     none.refusal = Refusal{estimate.status, "the estimate holds no friction"};
     Inference told;
     told.status = estimate.status;
-    estimate.diagnostics = FindLackOfFit(identifier, input, none, told, judging).diagnostics;
+    estimate.diagnostics = FindLackOfFit(identifier, given, none, told, judging).diagnostics;
     return;
   }
-  const Fit fit = FitOf(estimate, input.measurements);
+  const Fit fit = FitOf(estimate, given.measurements);
+  const auto followed =
+      Followed(given.measurements, given.selection, {fit.friction, fit.gravity, {}});
+  const IdentifierInput input = followed ? given.On(*followed) : given;
   const Inference claimed = InferenceOf(estimate, fit);
   // what the law lacks, and whether it could follow the log better by itself
   auto [diagnostics, causes, model] = FindLackOfFit(identifier, input, fit, claimed, judging);

@@ -11,10 +11,10 @@
 #include "identification/answer/settling.h"
 #include "identification/answer/speed_figures.h"
 #include "identification/explain.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/apply.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
-#include "identification/preparation/delayed_motion.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
 #include "models/foundation/robust_noise.h"
@@ -193,6 +193,12 @@ std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierIn
                                                late->harm, identifier.name)};
 }
 
+/// The motion that a fit's torque follows, where that is not the input's.
+std::optional<LogView> FollowedOf(const Fit& fit, const IdentifierInput& input) {
+  return Followed(input.measurements, input.selection,
+                  {fit.friction, fit.gravity, fit.torque_delay});
+}
+
 /// What was found in log and fit, and the tests as data. Enters what the fit says of friction at speeds.
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                      const LackOfFitSettings& judging, Answer& answer) {
@@ -205,10 +211,8 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                             .sentence = ExplainFaults(faults)});
   } else {
     // the motion that the model follows
-    const LogView late = answer.fit.torque_delay ? Delayed({input.measurements, input.selection},
-                                                           *answer.fit.torque_delay)
-                                                 : LogView{};
-    const IdentifierInput seen = answer.fit.torque_delay ? input.On(late) : input;
+    const auto followed = FollowedOf(answer.fit, input);
+    const IdentifierInput seen = followed ? input.On(*followed) : input;
     found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, judging);
     answer.inferred.at_speeds =
         SpeedFiguresOf(answer.fit, answer.inferred, found.model, seen.measurements, seen.selection);
@@ -283,9 +287,11 @@ Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& 
   Fit fit = AtBounds(identifier.fit(input), input.measurements);
   NameOneSpeed(input.measurements, input.selection, fit);
   Inference inferred = Infer(fit);
-  const LogSamples& m = input.measurements;
-  inferred.at_speeds = SpeedFiguresOf(
-      fit, inferred, EvaluateModel(fit, inferred, m, input.selection), m, input.selection);
+  const auto followed = FollowedOf(fit, input);
+  const LogSamples& m = followed ? followed->measurements : input.measurements;
+  const Selection& selection = followed ? followed->selection : input.selection;
+  inferred.at_speeds =
+      SpeedFiguresOf(fit, inferred, EvaluateModel(fit, inferred, m, selection), m, selection);
   return ReportFit(fit, inferred, input.log, m);
 }
 

@@ -89,17 +89,24 @@ std::optional<SpeedFigure> FigureOf(const Fit& fit, const Inference& inferred, c
                      NoiseParts(known, slopes, half)};
 }
 
-/// Derivatives of the resistance at a speed by the law's rows of the table. [P]
-VectorXd ColdDerivatives(const Fit& fit, double speed) {
-  const Eigen::MatrixXd by_law = NominalDerivatives(
-      *FindLaw(fit.friction.law), LawValues(fit.friction), Eigen::VectorXd::Constant(1, speed));
+/// Derivatives of the resistance at a speed and under a load by the rows of law and load in the table. [P]
+VectorXd ColdDerivatives(const Fit& fit, double speed, double load = 0) {
+  const Eigen::MatrixXd by_row =
+      NominalDerivatives(fit, VectorXd::Constant(1, speed), VectorXd::Constant(1, load));
   VectorXd derivatives = VectorXd::Zero(std::ssize(fit.parameters));
   Index j = 0;
-  for (size_t i = 0; i < fit.parameters.size() && j < by_law.cols(); ++i) {
-    if (fit.parameters[i].role != Role::law) continue;
-    derivatives[static_cast<Index>(i)] = Sign(speed) * by_law(0, j++);
+  for (size_t i = 0; i < fit.parameters.size() && j < by_row.cols(); ++i) {
+    if (!IsNominal(fit.parameters[i].role)) continue;
+    derivatives[static_cast<Index>(i)] = Sign(speed) * by_row(0, j++);
   }
   return derivatives;
+}
+
+/// Mean |load| of the samples of a group, of those that are kept; 0 of a friction that does not grow with it.
+double LoadOf(const Fit& fit, const SpeedGroup& group, const LogSamples& m,
+              const Selection& selection) {
+  if (!fit.RowOf(Role::load)) return 0;
+  return Kept(*m.load, selection)(group.samples).cwiseAbs().mean();
 }
 
 /// Those of a fit with maps, of which the table holds the law alone.
@@ -135,16 +142,18 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
     if (figure) all.push_back(*std::move(figure));
   };
   const std::vector<SpeedGroup> groups = TypicalSpeeds(Kept(m.velocity, selection));
-  const auto resistance = [&](double v) { return Sign(v) * law.force(v, values.data()); };
+  const auto resistance = [&](double v, double load) {
+    return Sign(v) * law.force(v, values.data()) + fit.friction.load_gain * load;
+  };
   for (const SpeedGroup& group : groups) {
-    const double v = group.velocity;
-    add(FigureOf(fit, inferred, m, v, resistance(v), ColdDerivatives(fit, v), cold));
+    const double v = group.velocity, load = LoadOf(fit, group, m, selection);
+    add(FigureOf(fit, inferred, m, v, resistance(v, load), ColdDerivatives(fit, v, load), cold));
   }
   for (const SpeedGroup& group : groups) {
     if (!warmest) break;
-    const double v = group.velocity;
-    add(FigureOf(fit, inferred, m, v, resistance(v) + warmest->energy,
-                 ColdDerivatives(fit, v) + warmest->derivatives, warmest->energy));
+    const double v = group.velocity, load = LoadOf(fit, group, m, selection);
+    add(FigureOf(fit, inferred, m, v, resistance(v, load) + warmest->energy,
+                 ColdDerivatives(fit, v, load) + warmest->derivatives, warmest->energy));
   }
   return all;
 }

@@ -1,5 +1,6 @@
 #include "identification/forward/log_trajectory.h"
 
+#include "identification/preparation/delayed_motion.h"
 #include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 
@@ -20,9 +21,27 @@ JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle) {
   return trajectory;
 }
 
+std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked,
+                                const FollowedBy& model) {
+  const bool is_late = model.delay && logged.acceleration;
+  const bool is_loaded = model.friction.load_gain != 0 && model.gravity && !logged.load;
+  if (!is_late && !is_loaded) return std::nullopt;
+  LogView view = is_late ? Delayed({logged, asked}, *model.delay) : LogView{logged, asked};
+  LogSamples& m = view.measurements;
+  if (is_loaded) m.load = model.gravity->Torque(m.position);
+  return view;
+}
+
 Prediction PredictFriction(const Friction& friction, const LogSamples& log,
                            const ThermalStart& start, BristleStart bristle) {
   return AlongMotion(friction).Predict(TrajectoryOf(log, bristle), start);
+}
+
+Eigen::VectorXd TorqueAlong(const Fit& fit, const LogSamples& m) {
+  Eigen::VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
+  if (fit.gravity) torque += fit.gravity->Torque(m.position);
+  if (fit.inertia && m.acceleration) torque += *fit.inertia * *m.acceleration;
+  return torque;
 }
 
 MapPoints PointsOf(const LogSamples& measurements, const Eigen::VectorXd& energy) {

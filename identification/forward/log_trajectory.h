@@ -1,11 +1,15 @@
 // The motion of a log as the forward model and maps read it.
 #pragma once
 
+#include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
 #include <warmjoint/friction_model.h>
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
+#include <optional>
+
+#include "identification/fit.h"
 
 namespace warmjoint {
 
@@ -17,10 +21,26 @@ enum class BristleStart { sliding, torque };
 /// the logged one, else the log's gear times the joint's.
 JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle = BristleStart::sliding);
 
+/// Of a model, what decides which motion its torque follows.
+struct FollowedBy {
+  const Friction& friction;
+  const std::optional<GravityModel>& gravity;
+  std::optional<double> delay{};  // s, by which the torque is late
+};
+
+/// The motion that a model's torque follows, where that is not the log's own: that of before, where the torque is late beside
+/// motion of any kind (Delayed), and under the load that its gravity tells, where friction grows with the load and
+/// the log holds none. asked: samples that are to be compared.
+std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked,
+                                const FollowedBy& model);
+
 /// The friction that a log's motion gives: AlongMotion over TrajectoryOf.
 Prediction PredictFriction(const Friction& friction, const LogSamples& log,
                            const ThermalStart& start = {},
                            BristleStart bristle = BristleStart::sliding);
+
+/// F + G + M a of a fit along a motion that its torque follows. [N] N.m or N
+Eigen::VectorXd TorqueAlong(const Fit& fit, const LogSamples& followed);
 
 /// One row for each sample, one column for each MapQuantity in its order: [N x 5]; rad or m, rad,
 /// rad/s or m/s, N.m or N, N.m or N.

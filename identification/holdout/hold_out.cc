@@ -11,7 +11,6 @@
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
-#include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
 #include "models/foundation/low_pass.h"
 
@@ -148,12 +147,11 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
 
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logged, Selection asked,
                                const ThermalStart& start) {
-  // a torque that is late follows the motion of before
-  if (model.delay && logged.acceleration) {
-    const LogView late = Delayed({logged, std::move(asked)}, *model.delay);
+  // a torque that is late, or under a load that the log lacks
+  if (auto other = Followed(logged, asked, {model.friction, model.gravity, model.delay})) {
     TorqueModel in_time = model;
     in_time.delay.reset();
-    return PredictTorque(in_time, late.measurements, late.selection, start);
+    return PredictTorque(in_time, other->measurements, std::move(other->selection), start);
   }
   const LogSamples& m = logged;
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
@@ -197,6 +195,7 @@ std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, 
   if (fit.inertia) ++parameters;
   if (fit.torque_lag) ++parameters;
   if (fit.RowOf(Role::delay)) ++parameters;
+  if (fit.RowOf(Role::load)) ++parameters;
   return ComputeMetrics(Kept(measurements.torque, predicted.known),
                         Kept(predicted.torque, predicted.known), static_cast<int>(parameters),
                         fit.effective_parameters);

@@ -76,6 +76,13 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
   }
 }
 
+/// The best structure so far with friction that grows with what the joint carries, where gravity acts or the log tells the load.
+void TryLoad(const IdentifierInput& input, ModelComparison& comparison) {
+  const Structure* best = comparison.Best();
+  if (!best || (best->gravity() == FittedGravity::none && !input.measurements.load)) return;
+  comparison.Add({best->With(LoadOption{LoadFit::estimated})});
+}
+
 /// Gravity to try beside maps: that of the best linear structure, but a sine where that is paired, over
 /// a joint that turns: what is no sine is the map's.
 FittedGravity GravityForMaps(const IdentifierInput& input, const Structure* best) {
@@ -150,6 +157,7 @@ Trials TryAll(const IdentifierInput& input) {
         input, Settled(input.measurements, input.selection, *trials.lag));
     TryLinear(input, *trials.comparison);
   }
+  TryLoad(input, *trials.comparison);
   TryCurved(input, *trials.comparison);
   return trials;
 }

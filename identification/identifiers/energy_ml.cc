@@ -10,6 +10,7 @@
 #include "identification/seen_samples.h"
 #include "identification/warming/fit_law.h"
 #include "identification/warming/initial_energy.h"
+#include "identification/warming/load.h"
 #include "identification/warming/torque_delay.h"
 
 namespace warmjoint {
@@ -23,6 +24,10 @@ Fit FitAsAsked(const IdentifierInput& input) {
   }
   // what cannot be had together
   if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);
+  if (AsksForLoad(input)) {
+    return Refused(kEnergyMl, Status::bad_data,
+                   "load is estimated beside a law without maps; use position none, or load none");
+  }
   if (AsksForLag(input.options)) {
     return Refused(kEnergyMl, Status::bad_data,
                    "torque_lag is estimated beside a law without maps; use position none, or "
@@ -36,8 +41,8 @@ Fit FitAsAsked(const IdentifierInput& input) {
 Identifier EnergyMl() {
   return {kEnergyMl,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
-          OptionGroups<LawOption, InitialEnergyOptions, GravityOption, MotionOption, LossOption,
-                       LagOption, DelayOption, WarmMapOptions>{},
+          OptionGroups<LawOption, InitialEnergyOptions, GravityOption, LoadOption, MotionOption,
+                       LossOption, LagOption, DelayOption, WarmMapOptions>{},
           &FitAsAsked};
 }
 

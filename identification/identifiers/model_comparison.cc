@@ -208,7 +208,8 @@ ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
   Eigen::VectorXd energy;
   if (best) {
     const Fit& fit = best->fit;
-    energy = PredictFriction(fit.friction, log_.view.measurements, fit.Start()).energy;
+    energy = PredictTorque(ModelOf(fit), log_.view.measurements, log_.view.selection, fit.Start())
+                 .friction.energy;
   }
 
   // energy-ml has both maps, over position and over the motor's angle

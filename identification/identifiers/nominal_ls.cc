@@ -14,10 +14,10 @@ namespace warmjoint {
 
 Identifier NominalLs() {
   static constexpr const char* name = "nominal-ls";
-  return {
-      name, "a nominal law by linear least squares, without warming",
-      OptionGroups<LawOption, GravityOption, MotionOption, LossOption, LagOption, DelayOption>{},
-      [](const IdentifierInput& input) { return FitLaw(name, input, HeatFit::none); }};
+  return {name, "a nominal law by linear least squares, without warming",
+          OptionGroups<LawOption, GravityOption, LoadOption, MotionOption, LossOption, LagOption,
+                       DelayOption>{},
+          [](const IdentifierInput& input) { return FitLaw(name, input, HeatFit::none); }};
 }
 
 }  // namespace warmjoint

@@ -157,7 +157,8 @@ Fit FitOnline(const IdentifierInput& given) {
   const LogSamples& m = given.measurements;
   LinearTask task = BeginLinear(given, 0);
   if (task.refusal) return Refused(kName, *task.refusal);
-  const auto& [law, gravity, columns, refusal] = task;
+  const Law& law = task.law;
+  const RigidPart& gravity = task.gravity;
   const IdentifierInput input = gravity.Of(given);
 
   // the heat of a given warming is taken off the torque, and off gravity, which makes no heat
@@ -165,7 +166,7 @@ Fit FitOnline(const IdentifierInput& given) {
   std::optional<MeasuredHeat> heat;
   if (thermal) heat.emplace(m, *thermal);
   Eigen::VectorXd torque = m.torque;
-  Eigen::MatrixXd rows = columns;
+  Eigen::MatrixXd rows = task.columns;
   if (heat) {
     torque = heat->TakenOff(m.torque);
     rows.rightCols(gravity.count()) = heat->TakenOff(rows.rightCols(gravity.count()));

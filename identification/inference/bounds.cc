@@ -6,8 +6,8 @@
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/preparation/delayed_motion.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {
@@ -35,13 +35,10 @@ bool RisesFromRest(const Friction& friction) {
   return at_rest != none && coulomb != none && at_rest->second < coulomb->second;
 }
 
-/// F + G + M a by the friction and what stands beside it. [N] N.m or N
+/// F + G + M a of a fit along the motion of a log. [N] N.m or N
 Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
-  const LogSamples m = Delayed(logged, fit.torque_delay);
-  Eigen::VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
-  if (fit.gravity) torque += fit.gravity->Torque(m.position);
-  if (fit.inertia && m.acceleration) torque += *fit.inertia * *m.acceleration;
-  return torque;
+  const auto followed = Followed(logged, fit.used, {fit.friction, fit.gravity, fit.torque_delay});
+  return TorqueAlong(fit, followed ? followed->measurements : logged);
 }
 
 /// Moves the table by changes of x, [p], and the model by it.
@@ -50,13 +47,11 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
   for (FitParameter& row : fit.parameters) {
     if (!row.estimated) continue;
     const double move = moves[column++], before = row.value;
-    const bool heat = row.role == Role::heat, tau = row.coordinate == Coordinate::logarithm;
-    row.value = tau ? before * std::exp(move) : before + move;
+    row.value = row.coordinate == Coordinate::logarithm ? before * std::exp(move) : before + move;
     // exactly at the bound
-    if (row.role == Role::law) row.value = std::clamp(row.value, row.lower, row.upper);
+    if (IsNominal(row.role)) row.value = std::clamp(row.value, row.lower, row.upper);
     row.moved = row.value - before;
-    if (row.role == Role::law) fit.friction.parameters[row.name] = row.value;
-    if (heat) (tau ? fit.friction.thermal->time_constant : fit.friction.thermal->gain) = row.value;
+    SetFriction(row, row.value, fit.friction);
     if (row.role == Role::start) fit.initial_energy = row.value;
     if (row.role == Role::gravity) fit.gravity->values[gravity++] = row.value;
     if (row.role == Role::inertia) fit.inertia = row.value;
@@ -68,7 +63,7 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
 
 bool LeavesBounds(const std::vector<FitParameter>& parameters) {
   return std::ranges::any_of(parameters, [](const FitParameter& one) {
-    return one.role == Role::law && !(one.value >= one.lower && one.value <= one.upper);
+    return IsNominal(one.role) && !(one.value >= one.lower && one.value <= one.upper);
   });
 }
 
@@ -84,7 +79,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
   // what could not be held at its bound; that friction rises from rest has words of its own
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
-    if (row.role != Role::law || row.part == LawPart::rest_rise) continue;
+    if (!IsNominal(row.role) || row.part == LawPart::rest_rise) continue;
     const auto excess = FindExcess(row, by_noise.parameters[i]);
     if (!excess) continue;
     cause.sentence = ExplainExcess(*excess, fit);
@@ -106,7 +101,7 @@ void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit
     const FitParameter& row = fit.parameters[i];
     column += row.estimated;
     const auto excess =
-        row.role == Role::law ? FindExcess(row, by_noise.parameters[i]) : std::nullopt;
+        IsNominal(row.role) ? FindExcess(row, by_noise.parameters[i]) : std::nullopt;
     if (!excess) continue;
     if (excess->beyond || !excess->interval95) return;
     held.push_back(column);

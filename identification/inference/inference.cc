@@ -36,7 +36,7 @@ ParameterInterval KnownWithin(FitParameter row, double deviation, double quantil
   row.value -= row.moved;
   ParameterInterval known = Known(row, deviation, quantile);
   known.value = value;
-  if (row.role != Role::law || (value != row.lower && value != row.upper)) return known;
+  if (!IsNominal(row.role) || (value != row.lower && value != row.upper)) return known;
   for (double& end : *known.interval95) end = std::clamp(end, row.lower, row.upper);
   return known;
 }

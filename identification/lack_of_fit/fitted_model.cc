@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "identification/fit_parameters.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/gravity.h"
@@ -135,14 +136,14 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
 /// derivatives by the jumps that are no assumption, [N x J].
 Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const LogSamples& m,
                            FittedModel& model) {
-  const std::vector<double> values = LawValues(fit.friction);
+  const std::vector<double> values = NominalValues(fit);
   const Thermal& thermal = *fit.friction.thermal;
   model.thermal = thermal;
 
   // where the log tells mean speeds, these make the losses
   Eigen::MatrixXd of_loss;
   if (m.loss_velocity) {
-    of_loss = NominalDerivatives(*FindLaw(fit.friction.law), values, *m.loss_velocity);
+    of_loss = NominalDerivatives(fit, *m.loss_velocity, m.load);
   }
   const Jumps jumps = JumpsOf(fit, m);
   ClosedLoop& loop = model.loop.emplace(ClosedLoop::Along(m, model.derivatives, of_loss));
@@ -199,11 +200,18 @@ Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& va
   return derivatives;
 }
 
+Eigen::MatrixXd NominalDerivatives(const Fit& fit, const Eigen::VectorXd& velocity,
+                                   const std::optional<Eigen::VectorXd>& load) {
+  Eigen::MatrixXd derivatives =
+      NominalDerivatives(*FindLaw(fit.friction.law), LawValues(fit.friction), velocity);
+  if (!fit.RowOf(Role::load)) return derivatives;
+  return ConcatColumns(derivatives, load->cwiseAbs().cwiseProduct(velocity.cwiseSign()));
+}
+
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
                                          const LogSamples& m, const Selection& selection) {
   if (fit.refusal) return std::nullopt;
   const Law& law = *FindLaw(fit.friction.law);
-  const std::vector<double> values = LawValues(fit.friction);
 
   // what the fit leaves of the torque
   FittedModel model;
@@ -219,15 +227,16 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
       AlongMotion(fit.friction).Predict(TrajectoryFor(fit, m), fit.Start());
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
-  if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);
+  if (!fit.friction.maps.empty())
+    model.maps = MapForce(law, LawValues(fit.friction), m, prediction);
   for (const FrictionMap& map : fit.friction.maps) {
     for (const MapAxis& axis : map.axes) model.mapped.push_back(axis.quantity);
   }
 
   // and how its parameters could change that
-  model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
+  model.rows = RowsOf(fit, {Role::law, Role::load, Role::heat, Role::start, Role::gravity});
   if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
-  model.cold = NominalDerivatives(law, values, m.velocity);
+  model.cold = NominalDerivatives(fit, m.velocity, m.load);
   model.derivatives = model.cold;
   const bool knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
   Eigen::MatrixXd by_jumps(m.size(), 0);
@@ -236,8 +245,12 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   // gravity's few values join the parameters; the many of `paired` do not: what depends on position
   // alike in both directions is theirs, and the other features average out over it
   if (fit.gravity && fit.gravity->kind != GravityKind::paired) {
-    model.derivatives = ConcatColumns(
-        model.derivatives, GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position));
+    Eigen::MatrixXd gravity = GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position);
+    // under a load gravity may act through the friction, too, as the fit itself knows
+    for (Eigen::Index i = 0; fit.RowOf(Role::load) && fit.jacobian && i < gravity.cols(); ++i) {
+      gravity.col(i) = ByRow(fit, *fit.RowOf(Role::gravity, static_cast<int>(i)));
+    }
+    model.derivatives = ConcatColumns(model.derivatives, gravity);
   }
   if (fit.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
   if (const auto row = fit.RowOf(Role::delay)) by_jumps = ConcatColumns(by_jumps, ByRow(fit, *row));

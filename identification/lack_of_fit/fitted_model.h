@@ -13,16 +13,16 @@
 namespace warmjoint {
 
 struct FittedModel {
-  Selection selection;           // samples that took part
-  double step = 0;               // of the log, median, s
-  Eigen::VectorXd torque;        // [N] tau less gravity, inertia and what a lag adds, N.m or N
-  Eigen::VectorXd residual;      // [N] that less F, N.m or N
-  Eigen::MatrixXd derivatives;   // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that
-                                 // E makes at gaps, and at further starts if fitted (gaps.h)
-  Eigen::MatrixXd cold;          // [N x d] dFn/dp, by the law's parameters without their heat
+  Selection selection;          // samples that took part
+  double step = 0;              // of the log, median, s
+  Eigen::VectorXd torque;       // [N] tau less gravity, inertia and what a lag adds, N.m or N
+  Eigen::VectorXd residual;     // [N] that less F, N.m or N
+  Eigen::MatrixXd derivatives;  // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that
+                                // E makes at gaps, and at further starts if fitted (gaps.h)
+  Eigen::MatrixXd cold;  // [N x d] dFn/dp, by the parameters of law and load without their heat
   Eigen::Index of_friction = 0;  // the first so many of x are law, heat and start
-  std::vector<size_t> rows;      // [p] of x, in the fit's table: the law's parameters, then those
-                                 // estimated of heat, start, gravity, inertia
+  std::vector<size_t> rows;      // [p] of x, in the fit's table: parameters of law and load, then
+                                 // those estimated of heat, start, gravity, inertia
   Eigen::MatrixXd
       by_initial_energy;        // [N x s] dF/dE(0) of the recordings where it is taken to be known
   Eigen::VectorXd energy;       // [N] E, N.m or N
@@ -41,6 +41,11 @@ struct FittedModel {
 /// returns [N x d]
 Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,
                                    const Eigen::VectorXd& velocity);
+
+/// The same of a fit whose friction may grow with the load, by load_gain, too. load: [N] |load|, N.m or N, which is read where it does;
+/// returns [N x d] or [N x d + 1]
+Eigen::MatrixXd NominalDerivatives(const Fit& fit, const Eigen::VectorXd& velocity,
+                                   const std::optional<Eigen::VectorXd>& load);
 
 /// Nothing where the fit was refused. inference: of the fit; selection: samples at constant speed.
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,

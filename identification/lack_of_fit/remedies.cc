@@ -262,7 +262,11 @@ Remedy RemedyForLoad(const Advice& advice) {
   if (HasMap(advice, MapQuantity::load)) {
     return {"the map over load does not follow it: friction depends on more than the load"};
   }
-  return Try(advice, {"load-map"});
+  const bool may_grow = advice.fit.friction.maps.empty() && !advice.fit.RowOf(Role::load) &&
+                        IsLinear(*FindLaw(advice.fit.friction.law));
+  if (!may_grow) return Try(advice, {"load-map"});
+  const std::string_view like = advice.fit.RowOf(Role::heat) ? "energy-ml" : "nominal-ls";
+  return Try(advice, LinearCommand(like, advice.fit.friction.law).With("load", "estimated"));
 }
 
 Remedy RemedyForTemperature(const Advice&) { return {"record it at a steady temperature"}; }

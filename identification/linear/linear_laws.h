@@ -5,6 +5,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 
 #include "models/foundation/serialize.h"
@@ -40,8 +41,34 @@ struct LawOption {
 /// velocity: [N] rad/s or m/s; returns [N x d]. The law must be linear.
 Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity);
 
+/// Whether friction grows with what the joint carries.
+enum class LoadFit { none, estimated };
+inline std::span<const Word<LoadFit>> WordsOf(LoadFit) {
+  static constexpr std::array words{Word{"none", LoadFit::none},
+                                    Word{"estimated", LoadFit::estimated}};
+  return words;
+}
+
+/// The option of an identifier that can estimate it.
+struct LoadOption {
+  LoadFit load = LoadFit::none;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("load", &load,
+             {.meaning = "friction that grows with the load, load_gain times |load|: estimated by "
+                         "the column load, else by the gravity that is fitted beside it; or none"});
+  }
+};
+
+/// Regressor of Fn with load_gain behind the law's parameters where it is estimated: |load| sign(v). velocity: [N]; load: [N] of
+/// the log; returns [N x d] or [N x d + 1]
+Eigen::MatrixXd NominalColumns(const Law& law, LoadFit load, const LogSamples& measurements,
+                               const Eigen::VectorXd& velocity);
+
 /// The same at the loss velocity of a log, which makes the losses of ClosedLoop::Along; empty where it
 /// tells none.
-Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& measurements);
+Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& measurements,
+                            LoadFit load = LoadFit::none);
 
 }  // namespace warmjoint

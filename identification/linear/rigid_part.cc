@@ -153,7 +153,8 @@ Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 }
 
 LinearTask BeginLinear(const IdentifierInput& given, int more) {
-  LinearTask task{*given.options.Get<LawOption>().law, {}, {}, {}};
+  LinearTask task{*given.options.Get<LawOption>().law, LoadFit::none, {}, {}, {}};
+  if (given.measurements.load) task.load = given.options.OrDefault<LoadOption>().load;
   RigidPart& gravity = task.gravity;
 
   // gravity that the motion does not tell from friction ends it here
@@ -161,14 +162,16 @@ LinearTask BeginLinear(const IdentifierInput& given, int more) {
   if (task.refusal) return task;
 
   // finite numbers, more samples than parameters, a torque that changes
-  const auto d = static_cast<int>(task.law.parameters.size() + gravity.count());
+  const Eigen::MatrixXd nominal =
+      NominalColumns(task.law, task.load, given.measurements, given.measurements.velocity);
+  const auto d = static_cast<int>(nominal.cols() + gravity.count());
   if (auto why = Unusable(gravity.Of(given), d + more)) {
     task.refusal = Refusal{Status::bad_data, *why};
     return task;
   }
 
-  // the columns of the law, then gravity and inertia
-  task.columns = ConcatColumns(LawColumns(task.law, given.measurements.velocity), gravity.columns);
+  // the columns of law and load, then gravity and inertia
+  task.columns = ConcatColumns(nominal, gravity.columns);
   return task;
 }
 
@@ -184,12 +187,13 @@ Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTa
                           const IdentifierInput& input) {
   const Law& law = task.law;
   const RigidPart& gravity = task.gravity;
-  const auto d = static_cast<Eigen::Index>(law.parameters.size());
-  // those of the law by their names, then gravity and inertia
+  const Eigen::Index d = task.law_count(), of_law = std::ssize(law.parameters);
+  // those of law and load by their names, then gravity and inertia
   std::vector<std::string> names;
   bool moves_mass = false, lifts = false;
   for (const Eigen::Index i : mixed) {
-    if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+    if (i < of_law) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+    if (i >= of_law && i < d) names.push_back(NameOf(Role::load));
     if (i >= d + gravity.gravity_count()) moves_mass = true;
     if (i >= d && i < d + gravity.gravity_count()) lifts = true;
   }

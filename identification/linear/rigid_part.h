@@ -9,6 +9,7 @@
 
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
+#include "identification/linear/linear_laws.h"
 
 namespace warmjoint {
 
@@ -58,19 +59,21 @@ Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 /// What a summary adds of samples that accelerate.
 inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inertia";
 
-/// Law, gravity and inertia, all linear in their parameters, on usable data.
+/// Law, load, gravity and inertia, all linear in their parameters, on usable data.
 struct LinearTask {
   const Law& law;
+  LoadFit load = LoadFit::none;
   RigidPart gravity;
-  Eigen::MatrixXd columns;         // [N x d] over all samples: law, then gravity
+  Eigen::MatrixXd columns;         // [N x d] over all samples: law and load, then gravity
   std::optional<Refusal> refusal;  // why nothing can be fitted; there may be no columns then
 
   int count() const { return static_cast<int>(columns.cols()); }
+  /// Of law and load.
   Eigen::Index law_count() const { return columns.cols() - gravity.count(); }
 };
 
-/// As the options `law` and `gravity` ask for it, with inertia where the log has an acceleration. more: parameters of the
-/// fit beside those of law, gravity and inertia.
+/// As the options `law` and `gravity` ask for it, with inertia where the log has an acceleration, and load_gain where `load` does and
+/// the log tells the load. more: parameters of the fit beside those of law, load, gravity and inertia.
 LinearTask BeginLinear(const IdentifierInput& given, int more);
 
 /// The columns of a task to the torque of the kept samples, as if nothing warmed. Refuses the task where the motion

@@ -52,8 +52,8 @@ std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
   for (; at.row < fit.parameters.size(); ++at.row) {
     const FitParameter& row = fit.parameters[at.row];
     if (!row.estimated) continue;
-    const bool matters = row.role == Role::law || row.role == Role::heat ||
-                         row.role == Role::start || row.role == Role::jump;
+    const bool matters = IsNominal(row.role) || row.role == Role::heat || row.role == Role::start ||
+                         row.role == Role::jump;
     if (matters && !row.name.empty()) rows.push_back(at);
     if (row.role == Role::jump) ++at.jump;
     ++at.column;
@@ -64,14 +64,9 @@ std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
 /// Friction and start with one row of the table at another value.
 void Set(const FitParameter& row, size_t jump, double value, Friction& friction,
          ThermalStart& start) {
-  if (row.role == Role::law) friction.parameters[row.name] = value;
+  SetFriction(row, value, friction);
   if (row.role == Role::start) start.energy = value;
   if (row.role == Role::jump) start.jumps[jump].change = value;
-  if (row.role != Role::heat) return;
-
-  // of the two rows of heat, the time constant is the one told by its logarithm
-  const bool gain = row.coordinate != Coordinate::logarithm;
-  (gain ? friction.thermal->gain : friction.thermal->time_constant) = value;
 }
 
 /// What a change of the coordinate by 1 changes of the value, to first order.
@@ -92,7 +87,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 
     // a step of one standard deviation of the value; one that could turn a sign gives no slope
     const double step = ValueByCoordinate(row, value) * deviation;
-    const bool keeps_its_sign = row.role == Role::law || row.role == Role::heat;
+    const bool keeps_its_sign = IsNominal(row.role) || row.role == Role::heat;
     if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
 
     // E on both sides
@@ -330,7 +325,7 @@ Friction ReportedFriction(const Fit& fit, const Inference& inference) {
   Friction friction = fit.friction;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
-    if (row.role == Role::law) friction.parameters[row.name] = inference.parameters[i].value;
+    if (IsNominal(row.role)) SetFriction(row, inference.parameters[i].value, friction);
   }
   if (const auto gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1); gain && tau) {
     friction.thermal = Thermal{inference.parameters[*gain].value, inference.parameters[*tau].value};

@@ -22,6 +22,7 @@
 #include "identification/warming/gaps.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/law_problem.h"
+#include "identification/warming/load.h"
 #include "identification/warming/torque_delay.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/foundation/robust_noise.h"
@@ -406,7 +407,9 @@ Fit FitLawInTime(const std::string& name, const IdentifierInput& given, HeatFit 
 
 Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) {
   if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
-  const auto in_time = [&](const IdentifierInput& one) { return FitLawInTime(name, one, heat); };
+  if (auto why = WhyNoLoad(given)) return Refused(name, Status::bad_data, *why);
+  const auto under = [&](const IdentifierInput& one) { return FitLawInTime(name, one, heat); };
+  const auto in_time = [&](const IdentifierInput& one) { return FitUnderLoad(one, under); };
   return MayBeLate(given) ? FitBehindDelay(given, in_time) : in_time(given);
 }
 

@@ -28,7 +28,7 @@ LawProblem::LawProblem(const IdentifierInput& input, const LinearTask& task)
       torque_(Kept(input.measurements.torque, input.selection)),
       kept_(input.selection.keep.cast<double>()),
       loop_(ClosedLoop::Along(input.measurements, task.columns.leftCols(task.law_count()),
-                              LossColumns(task.law, input.measurements))),
+                              LossColumns(task.law, input.measurements, task.load))),
       level_(loop_.direction().cwiseProduct(input.measurements.torque)),
       offsets_(loop_.direction().asDiagonal() * task.gravity.columns) {}
 

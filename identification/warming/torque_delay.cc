@@ -85,14 +85,6 @@ std::optional<double> SearchDelay(const IdentifierInput& given, double longest) 
   return refined.first;
 }
 
-/// F + G + M a of a fit along a motion. [N] N.m or N
-VectorXd TorqueAlong(const Fit& fit, const LogSamples& m) {
-  VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
-  if (fit.gravity) torque += fit.gravity->Torque(m.position);
-  if (fit.inertia) torque += *fit.inertia * *m.acceleration;
-  return torque;
-}
-
 /// Whether all samples of a span of time around each sample take part: none of them is a turn, a rest or a corner of the velocity,
 /// where the torque jumps. from, to: samples before and behind it
 SampleMask WithoutJumps(const SampleMask& keep, Index from, Index to) {
@@ -107,7 +99,7 @@ SampleMask WithoutJumps(const SampleMask& keep, Index from, Index to) {
 /// d tau / d delay of a fit, over kDifference around each sample where no jump lies within, else to one of its sides, else over a
 /// step of the log. given: as it was logged. [N] N.m/s or N/s
 VectorXd ByDelay(const Fit& fit, const IdentifierInput& given, double delay, double step) {
-  const auto at = [&](double more) {
+  const auto at = [&](double more) -> VectorXd {
     return TorqueAlong(fit, Delayed(given.measurements, delay + more));
   };
   VectorXd by_delay = (at(step / 2) - at(-step / 2)) / step;
@@ -135,26 +127,22 @@ MatrixXd RowsOf(const Fit& fit, const VectorXd& by_delay) {
   return fit.errors.whitening ? fit.errors.whitening->Of(rows) : rows;
 }
 
-/// The delay as one more unknown of a fit that was made at it. rows: RowsOf
-void AddDelay(double delay, const VectorXd& by_delay, const MatrixXd& rows, const LogSamples& m,
-              Fit& fit) {
+/// The delay as one more unknown of a fit that was made at it.
+void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& fit) {
   fit.torque_delay = delay;
   Append({TorqueDelayParameter(delay, m)}, fit);
   fit.jacobian = [of_model = std::move(fit.jacobian), by_delay] {
     return ConcatColumns(of_model(), by_delay);
   };
   // it is known by the log alone
-  ErrorModel& errors = fit.errors;
-  const auto extend = [&](VectorXd& values) {
+  const auto extend = [](VectorXd& values) {
     if (values.size() == 0) return;
-    values.conservativeResize(rows.cols());
-    values[rows.cols() - 1] = 0;
+    values.conservativeResize(values.size() + 1);
+    values[values.size() - 1] = 0;
   };
-  extend(errors.prior);
-  extend(errors.structure);
-  MatrixXd normal = rows.transpose() * rows;
-  if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
-  errors.cofactor = Cofactor(normal);
+  extend(fit.errors.prior);
+  extend(fit.errors.structure);
+  fit.errors.cofactor = CofactorOf(fit);
   ++fit.count;
   fit.effective_parameters += 1;
 }
@@ -191,7 +179,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
     const LeastSquares change = SolveLeastSquares(rows, left);
     if (change.solution.size() == 0) break;  // the motion cannot tell it apart
     const double further = change.solution[rows.cols() - 1];
-    AddDelay(*delay, by_delay, rows, m, fit);
+    AddDelay(*delay, by_delay, m, fit);
     const double deviation = CovarianceOf(fit).Deviation(rows.cols() - 1);
     if (!(std::abs(further) <= std::max(kArrived * deviation, 1e-6 * step))) {
       delay = *delay + further;

@@ -10,7 +10,6 @@
 #include "identification/answer/settling.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/low_pass.h"
@@ -132,13 +131,12 @@ FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
 }
 
 FitView MakeFitView(const LogSamples& logged, const Selection& asked, const Estimate& estimate) {
-  // a torque that is late follows the motion of before
-  const std::optional<double> delay = ValueOf(Role::delay, estimate);
-  const bool is_late = delay && logged.acceleration;
-  const LogView late = is_late ? Delayed({logged, asked}, *delay) : LogView{};
-  const LogSamples& measurements = is_late ? late.measurements : logged;
-  const Selection& selection = is_late ? late.selection : asked;
-  if (!estimate.friction) return WithoutFit(measurements, selection, estimate);
+  if (!estimate.friction) return WithoutFit(logged, asked, estimate);
+  // the motion that the torque follows
+  const auto other = Followed(
+      logged, asked, {*estimate.friction, estimate.gravity, ValueOf(Role::delay, estimate)});
+  const LogSamples& measurements = other ? other->measurements : logged;
+  const Selection& selection = other ? other->selection : asked;
   return MakeFitView(measurements, selection, estimate,
                      PredictFriction(*estimate.friction, measurements,
                                      StartOf(estimate, measurements), BristleStart::torque));

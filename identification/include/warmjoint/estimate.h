@@ -174,7 +174,8 @@ struct MapBand {
   }
 };
 
-/// What law and maps brake with at one speed: with maps the mean over the places where kept samples moved so.
+/// What law and maps brake with at one speed: with maps the mean over the places where kept samples moved so, and of a friction that
+/// grows with the load under the mean load of these.
 struct FrictionAtSpeed {
   double speed = 0;
   double value = 0;
