@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -149,17 +148,17 @@ class LogProducts {
   Eigen::VectorXd measured_;  // [N] level less what the offsets explain
 };
 
-/// The sum over logs, as ceres::TinySolver wants it.
+/// The products of a log as ceres::TinySolver wants them.
 class CondensedProblem {
  public:
   using Scalar = double;
   enum { NUM_PARAMETERS = Eigen::Dynamic, NUM_RESIDUALS = Eigen::Dynamic };
 
-  /// logs: must outlive this; unknowns: p
-  CondensedProblem(std::span<const SharedRows> logs, Eigen::Index unknowns) : logs_(logs) {
-    for (const SharedRows& log : logs) products_of_.emplace_back(log.rows);
-    x_ = Eigen::VectorXd::Constant(unknowns, std::numeric_limits<double>::quiet_NaN());
-  }
+  /// What rows refer to must outlive this.
+  explicit CondensedProblem(const ThermalRows& rows)
+      : products_of_(rows),
+        x_(Eigen::VectorXd::Constant(rows.layout().size(),
+                                     std::numeric_limits<double>::quiet_NaN())) {}
 
   int NumParameters() const { return static_cast<int>(x_.size()); }
   int NumResiduals() const { return NumParameters() + 1; }
@@ -184,28 +183,19 @@ class CondensedProblem {
     return true;
   }
 
-  /// [J r]^T [J r] at x, each log over its variance. [p + 1 x p + 1]
+  /// [J r]^T [J r] at x over the log's variance. [p + 1 x p + 1]
   const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const {
     if (x_ == x) return products_;
     x_ = x;
-    // each log's own products, at the places of its unknowns; the residual's come last
-    products_.setZero(NumResiduals(), NumResiduals());
-    for (size_t i = 0; i < logs_.size(); ++i) {
-      std::vector<Eigen::Index> places = logs_[i].places;
-      const Eigen::VectorXd own = x(places);
-      places.push_back(NumParameters());
-      products_(places, places) += products_of_[i].At(own);
-    }
+    products_ = products_of_.At(x);
     return products_;
   }
 
   std::vector<FitPoint>& trace() const { return trace_; }
 
  private:
-  std::span<const SharedRows> logs_;
-
   // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there
-  mutable std::vector<LogProducts> products_of_;
+  mutable LogProducts products_of_;
   mutable Eigen::VectorXd x_;         // [p]
   mutable Eigen::MatrixXd products_;  // [p + 1 x p + 1]
   mutable std::vector<FitPoint> trace_;
@@ -231,20 +221,31 @@ InitialGuess StartFrom(const ThermalFit& fit) {
   return start;
 }
 
-SharedFit FitTogether(std::span<const SharedRows> logs, const Eigen::VectorXd& start) {
+ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start) {
+  ThermalFit fit;
+  fit.layout = rows.layout();
+  fit.initial = rows.initial;
+  fit.prior = Prior(rows);
+  // from the scanned law and heat, without jumps, with the E(0) that is expected
+  const Layout& at = fit.layout;
+  fit.x = Eigen::VectorXd::Zero(at.size());
+  at.law.In(fit.x) = start.parameters.head(at.law.size);
+  fit.x[at.gain()] = start.thermal.gain;
+  fit.x[at.log_time_constant()] = std::log(start.thermal.time_constant);
+  if (at.start.size > 0) fit.x[at.energy()] = rows.initial.mean;
+  at.rigid.In(fit.x) = start.parameters.tail(at.rigid.size);
+
   using Solver = ceres::TinySolver<CondensedProblem>;
-  const CondensedProblem problem(logs, start.size());
+  const CondensedProblem problem(rows);
   Solver solver;
   solver.options.max_num_iterations = kMostIterations;
   solver.options.gradient_tolerance = 1e-10;
   solver.options.parameter_tolerance = 1e-11;
   solver.options.function_tolerance = 1e-10;  // of |r|^2, which is about the number of samples
   solver.options.initial_trust_region_radius = 1e8;
-  SharedFit fit;
-  fit.x = start;
   solver.Solve(problem, &fit.x);
 
-  // the products at the solution tell squares and cofactor
+  // the products at the solution tell squares and cofactor, over the log's variance
   const Eigen::Index p = fit.x.size();
   const Eigen::MatrixXd& products = problem.Evaluate(fit.x);
   fit.squares = products(p, p);
@@ -254,28 +255,8 @@ SharedFit FitTogether(std::span<const SharedRows> logs, const Eigen::VectorXd& s
   fit.trace.push_back({fit.x, fit.squares});
   fit.converged = solver.summary.status != Solver::HIT_MAX_ITERATIONS &&
                   std::isfinite(fit.squares) && fit.x.allFinite();
-  return fit;
-}
 
-ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start) {
-  ThermalFit fit;
-  fit.layout = rows.layout();
-  fit.initial = rows.initial;
-  fit.prior = Prior(rows);
-  // from the scanned law and heat, without jumps, with the E(0) that is expected
-  const Layout& at = fit.layout;
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(at.size());
-  at.law.In(x) = start.parameters.head(at.law.size);
-  x[at.gain()] = start.thermal.gain;
-  x[at.log_time_constant()] = std::log(start.thermal.time_constant);
-  if (at.start.size > 0) x[at.energy()] = rows.initial.mean;
-  at.rigid.In(x) = start.parameters.tail(at.rigid.size);
-
-  // all unknowns are those of the one log; squares are the torque's
-  std::vector<Eigen::Index> places(static_cast<size_t>(x.size()));
-  std::iota(places.begin(), places.end(), 0);
-  const SharedRows one{rows, std::move(places)};
-  static_cast<SharedFit&>(fit) = FitTogether({&one, 1}, x);
+  // squares are the torque's
   const double variance = rows.scale * rows.scale;
   for (FitPoint& iterate : fit.trace) iterate.squares *= variance;
   fit.squares *= variance;

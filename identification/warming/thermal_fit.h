@@ -1,10 +1,9 @@
-// Least squares of law and heat over the closed loop, of one log or of several that share unknowns.
+// Least squares of law and heat over the closed loop.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
@@ -61,18 +60,14 @@ struct ThermalRows {
   }
 };
 
-/// A minimum over all unknowns of several logs.
-struct SharedFit {
-  Eigen::VectorXd x;            // [p]
-  double squares = 0;           // in units of each log's scale
-  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1 of the rows over their scales
-  std::vector<FitPoint> trace;  // the solution last
-  bool converged = false;
-};
-
 /// What a fit of law, heat, gravity and inertia to one log came to, its rows as they were fitted and not over their scale.
 /// Without heat it has no trace, and infinite squares where the columns cannot be told apart.
-struct ThermalFit : SharedFit {
+struct ThermalFit {
+  Eigen::VectorXd x;            // [p]
+  double squares = 0;           // (N.m)^2 or N^2
+  Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1
+  std::vector<FitPoint> trace;  // the solution last
+  bool converged = false;
   Layout layout;
   Eigen::VectorXd prior;            // [p] the diagonal P: what is known of x beside the log
   InitialEnergy initial;            // what was known of E(0)
@@ -101,20 +96,9 @@ InitialGuess StartFrom(const ThermalFit& fit);
 
 /// Minimises the squared residuals of the samples that count by Ceres' Levenberg-Marquardt with exact
 /// derivatives. start: parameters of the law and of the offsets [d + q]. Each jump counts as a sample
-/// that measured 0 with its spread, and an expected E(0) as one that measured its mean.
+/// that measured 0 with its spread, and an expected E(0) as one that measured its mean. Each evaluation is condensed: [J r] is
+/// replaced by a square factor R of the same products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N
+/// and steps exactly as it would on all of them.
 ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start);
-
-/// One log of several that are fitted together.
-struct SharedRows {
-  ThermalRows rows;
-  /// [p of this log] which unknown of the whole each one of its own is; two logs share those that are the same.
-  std::vector<Eigen::Index> places;
-};
-
-/// The same over several logs, each with rows of its own, whose unknowns are partly shared: the gravity of two
-/// joints, say, but not their friction. Each evaluation is condensed: [J r] of a log is replaced by a square factor R
-/// of the same products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps exactly as
-/// it would on all of them. start: [p].
-SharedFit FitTogether(std::span<const SharedRows> logs, const Eigen::VectorXd& start);
 
 }  // namespace warmjoint
