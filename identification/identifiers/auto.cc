@@ -98,23 +98,24 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
   const bool cold = TakesColdStart(input.options), too_short = !WhyTooShort(input).empty();
 
   // a bend over the speed, with and without warming
-  comparison.Add({StribeckStructure(FittedWarming::none)});
+  comparison.Add({StribeckStructure(FittedWarming::none, gravity)});
   if (too_short) {
-    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)}, WhyTooShort(input));
+    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated, gravity)}, WhyTooShort(input));
   } else if (!cold) {
-    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)},
+    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated, gravity)},
                         "it takes the joint for cold as the log begins");
-  } else if (comparison.MayBendAndWarm()) {
-    comparison.Add({StribeckStructure(FittedWarming::estimated)});
+  } else if (comparison.MayBendAndWarm(gravity)) {
+    comparison.Add({StribeckStructure(FittedWarming::estimated, gravity)});
   } else {
-    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated)},
+    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated, gravity)},
                         "neither a bend over the speed nor a warming can be seen by itself");
   }
 
   // a level for each direction, where one may help
   for (const FittedWarming warming : {FittedWarming::none, FittedWarming::estimated}) {
     if ((!cold || too_short) && warming != FittedWarming::none) continue;
-    if (comparison.MayHaveTwoLevels(warming)) comparison.Add({TwoLevelStribeckStructure(warming)});
+    if (!comparison.MayHaveTwoLevels(warming, gravity)) continue;
+    comparison.Add({TwoLevelStribeckStructure(warming, gravity)});
   }
 
   // maps, where something is left over place

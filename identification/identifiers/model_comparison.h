@@ -87,12 +87,12 @@ class ModelComparison {
 
   /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
   /// be told without warming, or a linear law with it.
-  bool MayBendAndWarm() const;
+  bool MayBendAndWarm(FittedGravity gravity) const;
 
   /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
   /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
   /// more, that two levels fit without it.
-  bool MayHaveTwoLevels(FittedWarming warming) const;
+  bool MayHaveTwoLevels(FittedWarming warming, FittedGravity gravity) const;
 
   /// Drops laws without a slope over speed beside the same structure with one: a slope that is not significant is not 0, and its
   /// interval tells how far. They stand where the motion cannot tell a slope.

@@ -4,6 +4,7 @@
 // or the one with a level for each direction (kc+, kc- and kr for kc and ks), with a fixed exponent, closed over its losses by (19)-(22) where `warming` is estimated. Needs
 // no start: vs is scanned, and the three best are refined by Ceres on the law itself. Standard
 // deviations and 95 % intervals as in uncertainty.h, those of vs and tau through their logarithms.
+// Gravity and inertia join it as linear columns, as they do elsewhere (rigid_part.h).
 //
 // not_identifiable where the motion cannot tell the law without its fall; where the level at rest and
 // stribeck_velocity explain no more than chance does; where vs is not known to a factor of e, or
@@ -21,8 +22,10 @@
 #include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
+#include "identification/seen_samples.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/thermal_fit.h"
@@ -39,7 +42,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   // cold, by linear least squares
   const Eigen::MatrixXd columns = LawColumns(problem.law.without, m.velocity);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
-  const Eigen::MatrixXd kept = Kept(columns, problem.selection);
+  const Eigen::MatrixXd kept = Kept(BesideRigid(columns, problem), problem.selection);
   const LeastSquares cold = SolveLeastSquares(kept, torque);
   const double squares = (torque - kept * cold.solution).squaredNorm();
   if (problem.warming == FittedWarming::none) return squares;
@@ -48,18 +51,20 @@ double SquaresWithout(const StribeckProblem& problem) {
   const ClosedLoop loop = ClosedLoop::Along(m, columns);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
-  const InitialGuess start = ScanTimeConstant(loop, level, weight);
+  const Eigen::Index q = problem.rigid.cols();
+  const InitialGuess start = ScanBesideRigid(columns, cold.solution.tail(q), problem);
   const double scale = std::sqrt(squares / static_cast<double>(torque.size()));
-  const Eigen::MatrixXd no_offsets(m.size(), 0);
+  Eigen::MatrixXd offsets(m.size(), 0);
+  if (q > 0) offsets = loop.direction().asDiagonal() * problem.rigid;
   const ThermalFit fit = FitThermalFriction(
-      {.loop = loop, .level = level, .offsets = no_offsets, .weight = weight, .scale = scale},
-      start);
+      {.loop = loop, .level = level, .offsets = offsets, .weight = weight, .scale = scale}, start);
   return std::min(squares, fit.squares);
 }
 
 /// The drop of |e|^2 / s^2 that a point brings to a law that leaves the squares `without`.
 double Explained(const StribeckProblem& problem, double without, const FitPoint& point) {
-  const auto degrees_of_freedom = static_cast<double>(problem.selection.count() - point.x.size());
+  const auto degrees_of_freedom =
+      static_cast<double>(problem.selection.count() - point.x.size() - problem.rigid.cols());
   return ExplainedVariances(without, point.squares, degrees_of_freedom,
                             Kept(problem.measurements.torque, problem.selection));
 }
@@ -108,8 +113,8 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
 }
 
 /// Puts the best fit into `fit`, or why it cannot be trusted. without: squares of the law without the Stribeck effect
-void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& best,
-              double without, Fit& fit) {
+void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const RigidPart& rigid,
+              const StribeckFit& best, double without, Fit& fit) {
   if (!best.converged) {
     fit.refusal = NotConverged();
     return;
@@ -125,13 +130,15 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   // the model, and how well it fits
   const Layout at = problem.layout();
   SetFallingModel(problem.law, problem.exponent, at, best.solution.x, input.measurements, fit);
+  AddRigid(rigid, best.rigid, input.measurements, fit);
   fit.used = input.selection;
   fit.torque = Kept(input.measurements.torque, fit.used);
   fit.fitted = best.fitted;
-  fit.count = static_cast<int>(best.solution.x.size());
+  fit.count = static_cast<int>(best.jacobian.cols());
   fit.effective_parameters = fit.count;
-  fit.summary = fmt::format("least squares on {} samples, exponent {:.3g} given", fit.torque.size(),
-                            problem.exponent);
+  fit.summary =
+      fmt::format("least squares on {} samples{}, exponent {:.3g} given", fit.torque.size(),
+                  input.measurements.acceleration ? kOfAnyMotion : "", problem.exponent);
 
   // how sure it is, and whether that will do
   fit.errors.known = EstimateCovariance([&] { return best.jacobian; },
@@ -148,18 +155,22 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   JudgeWarmth(input.measurements, problem.law.without.name, fit);
 }
 
-Fit FitStribeck(const IdentifierInput& input) {
+Fit FitStribeck(const IdentifierInput& given) {
+  // gravity that the motion does not tell from friction ends it here
+  RigidPart rigid;
+  if (auto why = PrepareRigid(given, rigid)) return Refused(kName, *why);
+  const IdentifierInput input = rigid.Of(given);
   const LogSamples& m = input.measurements;
   const auto& options = input.options.Get<StribeckOptions>();
   const FallingLaw& law = *options.law;
   const auto levels = static_cast<size_t>(law.levels());
-  if (auto why = Unusable(input, static_cast<int>(levels) + 4)) {
+  if (auto why = Unusable(input, static_cast<int>(levels + rigid.count()) + 4)) {
     return Refused(kName, Status::bad_data, *why);
   }
 
   // the law must be told without its fall before the fall is thought of
   const auto unknown = law.law.parameters.first(levels + 1);
-  if (auto why = UnknownSliding(input, law, unknown)) return Refused(kName, *why);
+  if (auto why = UnknownSliding(input, law, unknown, rigid.columns)) return Refused(kName, *why);
 
   // scan vs, then refine the best
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
@@ -169,7 +180,8 @@ Fit FitStribeck(const IdentifierInput& input) {
                           options.exponent,
                           options.warming,
                           torque.norm() / std::sqrt(static_cast<double>(torque.size())),
-                          law};
+                          law,
+                          rigid.columns};
   const double without = SquaresWithout(problem);
   const std::vector<FitPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty() || !std::isfinite(without))
@@ -186,7 +198,7 @@ Fit FitStribeck(const IdentifierInput& input) {
   } else {
     const StribeckFit best =
         BestRefined(scan, [&](const FitPoint& start) { return RefineStribeck(problem, start); });
-    Conclude(input, problem, best, without, fit);
+    Conclude(input, problem, rigid, best, without, fit);
   }
   return fit;
 }
@@ -195,7 +207,7 @@ Fit FitStribeck(const IdentifierInput& input) {
 
 Identifier StribeckIdentifier() {
   return {kName, "the Stribeck law by least squares, with or without warming; needs no start",
-          StribeckOptions{}, &FitStribeck};
+          OptionGroups<StribeckOptions, GravityOption, MotionOption>{}, &FitStribeck};
 }
 
 }  // namespace warmjoint

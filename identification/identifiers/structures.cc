@@ -142,13 +142,15 @@ std::vector<Structure> WarmStructures(FittedGravity gravity) {
                           {Coulomb::name, ViscousCoulomb::name, Asymmetric::name});
 }
 
-Structure StribeckStructure(FittedWarming warming) {
-  return Structure{StribeckIdentifier(), "warming"}.With(StribeckOptions{.warming = warming});
+Structure StribeckStructure(FittedWarming warming, FittedGravity gravity) {
+  return Structure{StribeckIdentifier(), "warming"}
+      .With(StribeckOptions{.warming = warming})
+      .With(GravityOption{gravity});
 }
 
-Structure TwoLevelStribeckStructure(FittedWarming warming) {
-  return StribeckStructure(warming).With(
-      StribeckOptions{{&FindFallingLaw(AsymmetricStribeck::name)}, warming});
+Structure TwoLevelStribeckStructure(FittedWarming warming, FittedGravity gravity) {
+  return StribeckStructure(warming, gravity)
+      .With(StribeckOptions{{&FindFallingLaw(AsymmetricStribeck::name)}, warming});
 }
 
 std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity gravity,

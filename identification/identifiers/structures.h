@@ -92,11 +92,11 @@ std::vector<FittedGravity> GravityKinds(const IdentifierInput& input);
 std::vector<Structure> ColdStructures(FittedGravity gravity);
 std::vector<Structure> WarmStructures(FittedGravity gravity);
 
-/// The Stribeck law, which is fitted without gravity.
-Structure StribeckStructure(FittedWarming warming);
+/// The Stribeck law beside gravity.
+Structure StribeckStructure(FittedWarming warming, FittedGravity gravity);
 
 /// The same with a Coulomb level for each direction of motion.
-Structure TwoLevelStribeckStructure(FittedWarming warming);
+Structure TwoLevelStribeckStructure(FittedWarming warming, FittedGravity gravity);
 
 /// Maps whose kernels are chosen already, or nothing where they are not.
 struct ChosenKernels {

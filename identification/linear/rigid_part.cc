@@ -115,7 +115,8 @@ std::optional<Refusal> PrepareGravity(const IdentifierInput& input, FittedGravit
   return std::nullopt;
 }
 
-/// Sets gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration.
+}  // namespace
+
 std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit) {
   // what takes part so far, and no columns yet
   fit.selection = input.selection;
@@ -131,8 +132,6 @@ std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit
   if (fit.inertia) fit.columns = ConcatColumns(fit.columns, *acceleration);
   return std::nullopt;
 }
-
-}  // namespace
 
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
               Fit& fit) {

@@ -48,6 +48,10 @@ struct RigidPart {
   IdentifierInput Of(const IdentifierInput& given) const { return given.With(selection); }
 };
 
+/// Gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration; or why the log tells
+/// no gravity.
+std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit);
+
 /// Puts both into a fit: their model, and their rows of the table behind those that are there.
 /// values: [q] fitted.
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,

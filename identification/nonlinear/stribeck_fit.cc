@@ -2,26 +2,30 @@
 
 #include <ceres/autodiff_cost_function.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/nonlinear/solve_by_ceres.h"
-#include "identification/warming/scan_time_constant.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr int kVelocities = 16;  // of the grid
 
-/// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them.
+/// Residuals (F - tau) / scale of the kept samples less what columns take of them, as Ceres' automatic derivatives want them.
 template <typename L, FittedWarming W>
 class Residuals {
  public:
-  explicit Residuals(const StribeckProblem& problem) : problem_(problem) {}
+  /// basis: [n x q] orthonormal, of the columns
+  Residuals(const StribeckProblem& problem, Eigen::MatrixXd basis)
+      : problem_(problem), basis_(std::move(basis)) {}
 
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
@@ -30,6 +34,7 @@ class Residuals {
     const auto law = ValuesOf<L>(x, problem_.exponent);
     const std::vector<ThermalHold<T>> holds = HoldsOf(x);
     T energy(0);
+    T* const first = residuals;
     // friction with the heat that all samples before have left
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
@@ -42,12 +47,23 @@ class Residuals {
       if (!isfinite(force)) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
     }
+    TakeOff(first);
     return isfinite(energy) && isfinite(law[kAt.log_vs()]);
   }
 
   static constexpr Layout kAt = LayoutOf<L>(W == FittedWarming::estimated);
 
  private:
+  /// Takes off the part of the residuals that lies along the basis.
+  template <typename T>
+  void TakeOff(T* residuals) const {
+    for (const auto& column : basis_.colwise()) {
+      T along(0);
+      for (Eigen::Index i = 0; i < column.size(); ++i) along += column[i] * residuals[i];
+      for (Eigen::Index i = 0; i < column.size(); ++i) residuals[i] -= column[i] * along;
+    }
+  }
+
   /// Eq. (22) over each distinct interval; none without warming.
   template <typename T>
   std::vector<ThermalHold<T>> HoldsOf(const T* x) const {
@@ -65,23 +81,51 @@ class Residuals {
   }
 
   const StribeckProblem& problem_;
+  Eigen::MatrixXd basis_;  // [n x q]
 };
+
+/// [n x q] columns of gravity and inertia at the kept samples.
+Eigen::MatrixXd RigidRows(const StribeckProblem& problem) {
+  if (problem.rigid.cols() == 0) return Eigen::MatrixXd(problem.selection.count(), 0);
+  return Kept(problem.rigid, problem.selection);
+}
+
+/// [n x q] orthonormal columns that span those given.
+Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+}
 
 template <typename L, FittedWarming W>
 StribeckFit Refine(const StribeckProblem& problem, const FitPoint& start) {
   constexpr int P = static_cast<int>(Residuals<L, W>::kAt.size());
   using Cost = ceres::AutoDiffCostFunction<Residuals<L, W>, ceres::DYNAMIC, P>;
   const auto n = static_cast<int>(problem.selection.count());
+  const auto cost = [&](const Eigen::MatrixXd& basis) {
+    return std::make_unique<Cost>(new Residuals<L, W>(problem, basis), n);
+  };
+  const Eigen::MatrixXd rigid = RigidRows(problem);
   Eigen::VectorXd x = start.x;
-  const auto solution =
-      SolveByCeres<P>(std::make_unique<Cost>(new Residuals<L, W>(problem), n), {}, x.data());
+  auto solution = SolveByCeres<P>(cost(OrthonormalBasis(rigid)), {}, x.data());
   // back from shares of the scale to torque
   StribeckFit fit;
   fit.converged = solution.converged;
-  fit.jacobian = problem.scale * solution.jacobian;
-  fit.fitted =
-      Kept(problem.measurements.torque, problem.selection) + problem.scale * solution.residuals;
+  const Eigen::VectorXd torque = Kept(problem.measurements.torque, problem.selection);
+  fit.fitted = torque + problem.scale * solution.residuals;
   fit.solution = {x, problem.scale * problem.scale * solution.residuals.squaredNorm()};
+  if (rigid.cols() == 0) {
+    fit.jacobian = problem.scale * solution.jacobian;
+    return fit;
+  }
+
+  // the rigid part is what the friction by itself leaves along its columns
+  Eigen::VectorXd alone(n);
+  const double* const at = x.data();
+  double* into = solution.jacobian.data();
+  cost(Eigen::MatrixXd(n, 0))->Evaluate(&at, alone.data(), &into);
+  fit.rigid = SolveLeastSquares(rigid, -problem.scale * alone).solution;
+  fit.jacobian = ConcatColumns(problem.scale * solution.jacobian, rigid);
   return fit;
 }
 
@@ -104,28 +148,29 @@ Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
 std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity) {
   const LogSamples& m = problem.measurements;
   const Eigen::MatrixXd columns = LinearColumns(problem, velocity);
-  const Eigen::MatrixXd kept = Kept(columns, problem.selection);
+  const Eigen::MatrixXd both = BesideRigid(columns, problem);
+  const Eigen::MatrixXd kept = Kept(both, problem.selection);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
   // law at this vs, without warming; its columns must differ
   const LeastSquares cold = SolveLeastSquares(kept, torque, 1e-3);
-  if (cold.rank < columns.cols()) return std::nullopt;
+  if (cold.rank < both.cols()) return std::nullopt;
+  const Eigen::Index q = problem.rigid.cols();
 
   const Layout at = problem.layout();
   FitPoint point{Eigen::VectorXd(at.size())};
   point.x[at.log_vs()] = std::log(velocity);
   if (problem.warming == FittedWarming::none) {
-    at.law.In(point.x) = cold.solution;
+    at.law.In(point.x) = cold.solution.head(columns.cols());
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
-    const ClosedLoop loop = ClosedLoop::Along(m, columns);
     // with warming: the time constant that explains most beside these columns
-    const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-    const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
-    const InitialGuess start = ScanTimeConstant(loop, level, weight);
-    at.law.In(point.x) = start.parameters;
+    const InitialGuess start = ScanBesideRigid(columns, cold.solution.tail(q), problem);
+    const Eigen::VectorXd law = start.parameters.head(columns.cols());
+    at.law.In(point.x) = law;
     point.x[at.gain()] = start.thermal.gain;
     point.x[at.log_time_constant()] = std::log(start.thermal.time_constant);
-    const Eigen::VectorXd force = loop.Simulate(start.parameters, start.thermal).force;
+    Eigen::VectorXd force = ClosedLoop::Along(m, columns).Simulate(law, start.thermal).force;
+    if (q > 0) force += problem.rigid * start.parameters.tail(q);
     point.squares = (torque - Kept(force, problem.selection)).squaredNorm();
   }
   if (!point.x.allFinite() || !std::isfinite(point.squares)) return std::nullopt;
@@ -133,6 +178,22 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
 }
 
 }  // namespace
+
+Eigen::MatrixXd BesideRigid(const Eigen::MatrixXd& columns, const StribeckProblem& problem) {
+  return problem.rigid.cols() > 0 ? ConcatColumns(columns, problem.rigid) : columns;
+}
+
+InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
+                             const StribeckProblem& problem) {
+  const LogSamples& m = problem.measurements;
+  const ClosedLoop together = ClosedLoop::Along(m, BesideRigid(columns, problem));
+  Eigen::VectorXd torque = m.torque;
+  if (rigid.size() > 0) torque -= problem.rigid * rigid;
+  InitialGuess start = ScanTimeConstant(together, together.direction().cwiseProduct(torque),
+                                        problem.selection.keep.cast<double>());
+  start.parameters.tail(rigid.size()) += rigid;
+  return start;
+}
 
 std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem) {
   const Eigen::ArrayXd speed =

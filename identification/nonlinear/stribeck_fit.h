@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/nonlinear/falling_law.h"
+#include "identification/warming/scan_time_constant.h"
 #include "models/friction/intervals.h"
 
 namespace warmjoint {
@@ -44,9 +45,19 @@ struct StribeckProblem {
   FittedWarming warming = FittedWarming::none;
   double scale = 1;                                        // about the torque's rms, N.m or N
   const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
+  Eigen::MatrixXd
+      rigid{};  // [N x q] gravity and inertia, whose unknowns stand behind x; [0 x 0]: none
 
   Layout layout() const { return law.layout(warming == FittedWarming::estimated); }
 };
+
+/// Columns with those of the problem's rigid part behind them. columns: [N x d]; returns [N x d + q]
+Eigen::MatrixXd BesideRigid(const Eigen::MatrixXd& columns, const StribeckProblem& problem);
+
+/// A start for columns of friction, the rigid part behind them and the warming: the scan over tau once the rigid part of a fit without
+/// warming is out of the loss. columns: [N x d]; rigid: [q] of that fit; parameters of what it returns: [d + q]
+InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
+                             const StribeckProblem& problem);
 
 /// The best x on a grid of 16 values of vs, even in ln vs from a third of the slowest kept speed to
 /// the fastest one. Given vs the law is linear in the rest (Golub and Pereyra 1973); with warming,
@@ -56,12 +67,14 @@ std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem);
 
 struct StribeckFit {
   FitPoint solution;         // squares: (N.m)^2 or N^2
-  Eigen::VectorXd fitted;    // [n] N.m or N, over the kept samples
-  Eigen::MatrixXd jacobian;  // [n x p] of `fitted` by x, exact (dual numbers)
+  Eigen::VectorXd rigid;     // [q] values of gravity and inertia
+  Eigen::VectorXd fitted;    // [n] F + G + M a, N.m or N, over the kept samples
+  Eigen::MatrixXd jacobian;  // [n x p + q] of `fitted` by x and rigid, exact (dual numbers)
   bool converged = false;
 };
 
-/// Minimises the sum of squares from a start by Levenberg-Marquardt.
+/// Minimises the sum of squares from a start by Levenberg-Marquardt. Gravity and inertia are linear: the squares are those of what is
+/// left beside their columns (variable projection, Golub and Pereyra 1973).
 StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start);
 
 }  // namespace warmjoint

@@ -7,6 +7,7 @@
 #include "identification/fit_data.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint {
 namespace {
@@ -27,9 +28,11 @@ std::string SlowSpeeds(const LogSamples& measurements, const Selection& selectio
 }
 
 std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
-                                      std::span<const ParameterInfo> unknown) {
+                                      std::span<const ParameterInfo> unknown,
+                                      const Eigen::MatrixXd& rigid) {
   const LogSamples& m = input.measurements;
-  const Eigen::MatrixXd columns = LawColumns(law.without, m.velocity);
+  Eigen::MatrixXd columns = LawColumns(law.without, m.velocity);
+  if (rigid.cols() > 0) columns = ConcatColumns(columns, rigid);
   const LeastSquares sliding =
       SolveLeastSquares(Kept(columns, input.selection), Kept(m.torque, input.selection));
   if (sliding.rank == columns.cols()) return std::nullopt;

@@ -23,9 +23,11 @@ struct StribeckEvidence {
 std::string SlowSpeeds(const LogSamples& measurements, const Selection& selection);
 
 /// Why not even the law without its fall, Eq. (2) or (3), can be told, which comes before any Stribeck
-/// effect; nothing where it can. unknown: rows of the law that then cannot be told.
+/// effect; nothing where it can. unknown: rows of the law that then cannot be told; rigid: [N x q] columns of gravity and inertia
+/// beside it, or none.
 std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
-                                      std::span<const ParameterInfo> unknown);
+                                      std::span<const ParameterInfo> unknown,
+                                      const Eigen::MatrixXd& rigid = {});
 
 /// A fit that does not come to rest.
 Refusal NotConverged();

@@ -111,7 +111,8 @@ TEST_P(TellingGravity, RefusesPassesThatDoNotMeet) {
 std::vector<Identifier> Able() {
   std::vector<Identifier> able;
   for (const Identifier& one : Identifiers()) {
-    if (one.options.Find<GravityOption>()) able.push_back(one);
+    // whose laws can follow this joint
+    if (one.options.Find<GravityOption>() && one.options.Find<LawOption>()) able.push_back(one);
   }
   return able;
 }
