@@ -109,7 +109,11 @@ TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
     return m;
   };
   EXPECT_GE(CountRejected("energy-ml", "load", loaded), kNearlyAll);
-  EXPECT_THAT(Answer("energy-ml", loaded(1)).FullMessage(), HasSubstr("try --identifier load-map"));
+  EXPECT_THAT(Answer("energy-ml", loaded(1)).FullMessage(),
+              HasSubstr("try --identifier energy-ml --set load=estimated"));
+  const Estimate followed = Answer("energy-ml", loaded(1), {{"load", "estimated"}});
+  ASSERT_EQ(followed.status, Status::ok) << followed.message;
+  EXPECT_NEAR(followed.Find("load_gain")->value, 0.1, 0.01);
   Measurements unmoved = RecordHour(test::TableOne(), 1);
   unmoved.load = loaded(1).load;
   EXPECT_THAT(Answer("energy-ml", unmoved).FullMessage(), Not(HasSubstr("depends on")));
