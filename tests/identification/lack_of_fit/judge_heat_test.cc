@@ -105,7 +105,12 @@ TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
     Measurements m = RecordHour(test::TableOne(), seed);
     m.load = Eigen::VectorXd::Zero(m.size());
     for (Eigen::Index i = 0; i < m.size(); ++i) (*m.load)[i] = i / 300 % 2 == 0 ? 0 : 20;
-    m.torque.array() += 0.1 * m.velocity.array().sign() * m.load->array();
+    // the noise stays, the friction is that under the load
+    Friction friction = test::TableOne();
+    const LogSamples samples(m);
+    m.torque -= PredictFriction(friction, samples).force;
+    friction.load_gain = 0.1;
+    m.torque += PredictFriction(friction, samples).force;
     return m;
   };
   EXPECT_GE(CountRejected("energy-ml", "load", loaded), kNearlyAll);
