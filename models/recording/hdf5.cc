@@ -179,17 +179,28 @@ void AddDataSet(const H5::DataSet& data, const std::string& path,
   objects.back().unit = ReadTextAttribute(data, "unit");
 }
 
-/// Adds what a group holds, groups in it included. left: objects that may still be looked at.
-void AddGroup(const H5::Group& group, const std::string& path, int depth, std::size_t& left,
-              std::vector<FileObject>& objects) {
-  for (hsize_t i = 0; i < group.getNumObjs() && left > 0; ++i, --left) {
+/// Where a group lies in its file: that of two names of one group.
+haddr_t AddressOf(const H5::Group& group) {
+  H5O_info_t info{};
+  return H5Oget_info2(group.getId(), &info, H5O_INFO_BASIC) < 0 ? HADDR_UNDEF : info.addr;
+}
+
+/// Adds what a group holds, groups in it included. left: objects that may still be looked at. above: where the groups around it lie; a
+/// group that holds one of them has nothing new.
+void AddGroup(const H5::Group& group, const std::string& path, std::vector<haddr_t> above,
+              std::size_t& left, std::vector<FileObject>& objects) {
+  const haddr_t here = AddressOf(group);
+  if (above.size() > kDeepestGroup || std::ranges::find(above, here) != above.end()) return;
+  above.push_back(here);
+  for (hsize_t i = 0; i < group.getNumObjs() && left > 0; ++i) {
+    --left;
     const std::string name = group.getObjnameByIdx(i);
     // a link to what is not there is no reason to refuse the rest
     try {
       const H5O_type_t type = group.childObjType(name);
       if (type == H5O_TYPE_DATASET) AddDataSet(group.openDataSet(name), path + name, objects);
-      if (type != H5O_TYPE_GROUP || depth == kDeepestGroup) continue;
-      AddGroup(group.openGroup(name), path + name + "/", depth + 1, left, objects);
+      if (type != H5O_TYPE_GROUP) continue;
+      AddGroup(group.openGroup(name), path + name + "/", above, left, objects);
     } catch (const H5::Exception&) {
       continue;
     }
@@ -239,7 +250,7 @@ FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout)
     }
     std::vector<FileObject> objects;
     std::size_t left = kMostObjects;
-    AddGroup(root, "", 0, left, objects);
+    AddGroup(root, "", {}, left, objects);
     return TakeColumns(std::move(content), objects, layout, {path});
   } catch (const H5::Exception& error) {
     Refuse({path}, "cannot be read as HDF5: {}", Excerpt(error.getDetailMsg(), kLongestComplaint));

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "models/foundation/bad_input.h"
@@ -122,6 +123,12 @@ bool IsClock(const std::string& name) {
   return lower == "name" || (is_called_so && (!split.unit || split.unit->base == "s"));
 }
 
+/// The unit of a clock by its row of units or its name; nothing where neither says one.
+std::optional<Unit> UnitOfClock(const FileColumn& clock) {
+  const std::optional<Unit> said = MeantUnit(clock.unit, {"s"});
+  return said ? said : SplitUnit(clock.name, {"s"}).unit;
+}
+
 /// Positions of the clocks.
 std::vector<std::size_t> ClocksOf(const std::vector<std::string>& names) {
   std::vector<std::size_t> clocks;
@@ -160,13 +167,19 @@ FileContent OnOneClock(FileContent content) {
   if (!HasSeveralClocks(names)) return content;
   const Values& first = content.columns.front().values;
   FileContent joined{.joint = content.joint, .gear = content.gear, .notes = content.notes};
-  joined.columns.push_back({"time", content.columns.front().unit, first});
+  // each clock in the unit of the first, where both have one
+  const std::optional<Unit> unit = UnitOfClock(content.columns.front());
+  joined.columns.push_back(
+      {"time", unit ? std::string(unit->name) : content.columns.front().unit, first});
   std::vector<std::string> empty, put;
   std::size_t clock = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (IsClock(names[i])) clock = i;
     if (clock == i) continue;
-    const Series series = SeriesOf(content.columns[clock].values, content.columns[i].values, false);
+    const std::optional<Unit> own = UnitOfClock(content.columns[clock]);
+    const double in_first = unit && own ? own->factor / unit->factor : 1;
+    const Series series =
+        SeriesOf(in_first * content.columns[clock].values, content.columns[i].values, false);
     if (series.time.size() < 2) {
       empty.push_back(names[i]);
       continue;
