@@ -250,8 +250,8 @@ def make_tables(folder):
         "decimal_comma": text(t, q, v, torque, mark=","), "rows_of_joints": text(six[0], np.tile([str(k) for k in range(6)], 1000), six[1], six[2]),
         "month": text(stamps("03/04/2024 10:00:{s:06.3f}"), q, v, torque), "from_boot": text([str(36 * 10**11 + k * 20_000_000) for k in n], q, v, torque),
         "wrong_quantity": text(t, q, v, torque, head="time,position,v_deg,torque"), "millimetres": text(t, q, v, torque, head=head + "\ns,mm,mm/s,N"),
-        **{f"clocks_{unit}_{other}": text([f"{float(x) * k:.4f}" for x in t], q, [f"{(float(x) + .003) * l:.4f}" for x in t], torque,
-                                          head=f"t_{unit},position,t_{other},torque") for unit, k, other, l in (("ms", 1e3, "s", 1), ("s", 1, "ms", 1e3))},
+        **{f"clocks_{unit}_{other}": text([f"{float(x) * k:.4f}" for x in t], q, [f"{(float(x) + .003) * other_k:.4f}" for x in t], torque,
+                                          head=f"t_{unit},position,t_{other},torque") for unit, k, other, other_k in (("ms", 1e3, "s", 1), ("s", 1, "ms", 1e3))},
         "own_clocks": head + "\n" + "".join(f"{a},{b},,\n{float(a) + .001},,{c},\n{float(a) + .002},,,{d}\n" for a, b, c, d in zip(t, q, v, torque)),
     }
     for name, form in forms.items():
