@@ -20,7 +20,7 @@ import zipfile
 
 TAGS = {"cp311-cp311": "*.abi3.so", "cp312-abi3": "*.cpython-*.so"}  # and the modules that each does without
 SYSTEM = pathlib.Path("/usr/lib/x86_64-linux-gnu")
-ABSENT = "error: simulation needs MuJoCo 4.0, which is not installed: pip install 'mujoco==4.0.*'"
+ABSENT = "error: what simulates or reads a robot needs MuJoCo 4.0, which is not installed: pip install 'mujoco==4.0.*'; warmjoint.attach in Python takes 3.11 and later"
 UNUSED = ("libcurl", "libcrypto", "libcholmod", "libcxsparse", "liblapack", "libf77blas", "libcblas", "libblas")
 NEVER = re.compile(r"curl|crypto|ssl|krb5|gssapi|ldap|gnutls|gmp|nettle|cholmod|amd|metis|gfortran|lapack|blas")  # in a wheel
 # what a wheel may hold, and its license; a library that is not here ends the script
