@@ -264,6 +264,9 @@ Remedy RemedyForLoad(const Advice& advice) {
   }
   const bool may_grow = advice.fit.friction.maps.empty() && !advice.fit.RowOf(Role::load) &&
                         IsLinear(*FindLaw(advice.fit.friction.law));
+  // what the fit took from its gravity is no column of the log
+  const bool is_logged = advice.input.log.raw().measurements.load.has_value();
+  if (!may_grow && !is_logged) return Try(advice, WithMap(advice, MapQuantity::position));
   if (!may_grow) return Try(advice, {"load-map"});
   const std::string_view like = advice.fit.RowOf(Role::heat) ? "energy-ml" : "nominal-ls";
   return Try(advice, LinearCommand(like, advice.fit.friction.law).With("load", "estimated"));
