@@ -13,6 +13,8 @@
 
 namespace warmjoint {
 
+inline constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
+
 /// What of a joint's filtered log a fit sees: N samples, even in time within each recording. All columns passed the filter of the torque.
 struct JointColumns {
   std::string joint;

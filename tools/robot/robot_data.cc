@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "identification/model/robot_joint.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -40,9 +42,17 @@ std::vector<std::string> NamesIn(const RobotSource& source, const std::string& f
   return names;
 }
 
-/// Whether a rotary joint stands where it could not, were its positions in rad; by 1 where they were in degrees.
-bool IsInDegrees(const RobotDescription& robot, const RobotLog& log, std::string& joint) {
-  bool beyond = false;
+/// A rotary joint that stands where it could not, were its positions in rad.
+struct BeyondRange {
+  std::string joint;
+  bool in_degrees = false;  // whether the log is taken in degrees therefore
+};
+
+/// Positions are in degrees where a joint is beyond its range in rad and all are within theirs in degrees, unless no joint would move then.
+/// Nothing where the log may be in rad.
+std::optional<BeyondRange> FindBeyondRange(const RobotDescription& robot, const RobotLog& log) {
+  std::optional<BeyondRange> beyond;
+  bool impossible = false, moves = false;
   for (Index j = 0; j < log.position.cols(); ++j) {
     const ModelJoint& one = robot.joints[static_cast<std::size_t>(j)];
     if (one.kind != JointKind::rotary) continue;
@@ -51,12 +61,15 @@ bool IsInDegrees(const RobotDescription& robot, const RobotLog& log, std::string
       const auto& [lower, upper] = *one.range;
       farthest = std::min(farthest, std::max(std::abs(lower), std::abs(upper)) + kBesideLimit);
     }
-    const double reached = log.position.col(j).cwiseAbs().maxCoeff();
+    const auto position = log.position.col(j);
+    const double reached = position.cwiseAbs().maxCoeff(), degree = std::numbers::pi / 180;
     // a count of something else is no degree either
-    if (reached * std::numbers::pi / 180 > farthest) return false;
-    if (reached > farthest && !beyond) joint = one.name;
-    beyond = beyond || reached > farthest;
+    if (reached * degree > farthest) return std::nullopt;
+    if (reached > farthest && !beyond) beyond = BeyondRange{one.name};
+    impossible = impossible || reached > kFarthest;
+    moves = moves || (position.maxCoeff() - position.minCoeff()) * degree >= kLeastTravel;
   }
+  if (beyond) beyond->in_degrees = impossible || moves;
   return beyond;
 }
 
@@ -187,14 +200,19 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
     }
   };
   read_all();
-  std::string joint;
-  if (!read.unit.contains("position") && IsInDegrees(data.robot, data.logs.front(), joint)) {
+  const auto beyond = FindBeyondRange(data.robot, data.logs.front());
+  if (!read.unit.contains("position") && beyond && beyond->in_degrees) {
     read.unit["position"] = "deg";
     read_all();
     data.notices.push_back(
         fmt::format("positions are taken in degrees: in rad {} would stand where it cannot (--unit "
                     "position=rad)",
-                    joint));
+                    beyond->joint));
+  } else if (!read.unit.contains("position") && beyond) {
+    data.notices.push_back(
+        fmt::format("positions are taken in rad, where {} leaves its range, since in degrees no "
+                    "joint would move (--unit position=deg)",
+                    beyond->joint));
   }
   for (const RobotLog& log : data.logs) {
     for (const std::string& note : log.notes) data.notices.push_back(log.source + ": " + note);
