@@ -191,6 +191,15 @@ std::string ExplainDelay(double delay, double step) {
   return DescribeDelay(delay, step) + ", which the fit takes into account";
 }
 
+std::string ExplainUntoldDelay(double delay, double step) {
+  return fmt::format(
+      "the torque may come {:.3g} ms ({:.2g} samples) {} beside the positions, which this log does "
+      "not "
+      "tell: the intervals reach as far as that moves the values; log faster, or swing a known "
+      "weight",
+      1e3 * std::abs(delay), std::abs(delay) / step, delay > 0 ? "late" : "early");
+}
+
 std::string ExplainDelayLeftOut(double delay, double step, double harm,
                                 std::string_view identifier) {
   return fmt::format(

@@ -63,6 +63,8 @@ inline constexpr const char* kForced = "forced: all numbers are void";
 std::string ExplainStopped(std::size_t iterations, double rate, double remaining, double tolerance);
 /// Of a torque that is late, s; below 0: early. step: of the log, s
 std::string ExplainDelay(double delay, double step);
+/// Of one that the log may hold and does not tell, which intervals cover.
+std::string ExplainUntoldDelay(double delay, double step);
 /// Of one that a fit leaves out, with the share by which that changes the friction.
 std::string ExplainDelayLeftOut(double delay, double step, double harm,
                                 std::string_view identifier);

@@ -83,6 +83,7 @@ inline std::span<const Word<Source>> WordsOf(Source) {
                                     Word{"no_offset", offset},
                                     Word{"angles_in_radians", degrees},
                                     Word{"true_clock", clock},
+                                    Word{"late_torque", late_torque},
                                     Word{"held_losses", held_losses},
                                     Word{"gaps", gaps},
                                     Word{"hidden_steps", hidden_steps},

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kFewest = 30;           // why 30: of fewer, colour and structure of noise stay unseen
+constexpr int kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
 /// Share of a friction that the residual may be. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
 constexpr double kKnownGain =

@@ -147,6 +147,45 @@ void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& 
   fit.effective_parameters += 1;
 }
 
+/// What a fit leaves of each sample, 0 of those that it did not use. [N]
+VectorXd LeftOf(const Fit& fit) {
+  VectorXd left = VectorXd::Zero(fit.used.keep.size());
+  const VectorXd residual = fit.residual();
+  for (Index i = 0, n = 0; i < left.size(); ++i) {
+    if (fit.used.keep[i]) left[i] = residual[n++];
+  }
+  return left;
+}
+
+/// Whether a fit with a delay leaves less of the samples that both used than another: by more than so many variances of the noise,
+/// as coloured as it is.
+bool Improves(const Fit& late, const Fit& other, double variances) {
+  if (other.refusal) return true;
+  const VectorXd both = (late.used.keep && other.used.keep).cast<double>();
+  const double with = LeftOf(late).cwiseProduct(both).squaredNorm();
+  const double without = LeftOf(other).cwiseProduct(both).squaredNorm();
+  const double variance = with / std::max(both.sum(), 1.0);
+  const double inflation = CovarianceOf(late).noise.variance_inflation;
+  return without - with > variances * variance * inflation;
+}
+
+/// What a delay that may be there, and is not told, would change of a fit in time.
+Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
+  Cause cause{.source = Source::late_torque,
+              .action = Action::widen,
+              .sentence = ExplainUntoldDelay(*late.torque_delay, step)};
+  std::vector<double> moves;
+  for (size_t i = 0; i < in_time.parameters.size(); ++i) {
+    const FitParameter& row = in_time.parameters[i];
+    const auto other = std::ranges::find(late.parameters, row.name, &FitParameter::name);
+    if (!row.estimated || row.name.empty() || other == late.parameters.end()) continue;
+    cause.rows.push_back(i);
+    moves.push_back(other->value - row.value);
+  }
+  cause.bias = Eigen::Map<const VectorXd>(moves.data(), std::ssize(moves));
+  return cause;
+}
+
 }  // namespace
 
 bool IsLate(const Fit& fit) {
@@ -187,7 +226,20 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
       if (round + 1 < kMostRounds) continue;
     }
     if (!delay || !(deviation < std::max(kToldSteps * step, std::abs(*delay) / kCertain))) break;
-    if (IsLate(fit)) fit.causes.push_back(Remark(ExplainDelay(*fit.torque_delay, step)));
+    if (IsLate(fit)) {
+      // no delay must be worse. So must as much to the other side, whose motion between samples is as smooth: of squares
+      // (d - c)^2/deviation^2 their difference is 4 d c/deviation^2, of which c must be beyond chance
+      Fit in_time = fit_in_time(given);
+      const LogView early = Delayed(ViewOf(given), -*delay);
+      const double other_side = 4 * kCertain * std::abs(*delay) / deviation;
+      const bool is_told = Improves(fit, in_time, kCertain * kCertain) &&
+                           Improves(fit, fit_in_time(given.On(early)), other_side);
+      if (!is_told) {
+        in_time.causes.push_back(UntoldDelay(fit, in_time, step));
+        return in_time;
+      }
+      fit.causes.push_back(Remark(ExplainDelay(*fit.torque_delay, step)));
+    }
     return fit;
   }
   return fit_in_time(given);
