@@ -96,7 +96,7 @@ double TypicalSpeed(const FitView& view) {
 /// How sure the heat is, and what friction at one speed makes of it.
 void AddHeat(FitView& view) {
   const Eigen::Index n = view.time.size();
-  const double speed = view.has_maps() ? 0 : TypicalSpeed(view);
+  const double speed = view.has_maps() ? 0 : TypicalSpeed(view), load = MeanLoad(view);
   // E at each sample, and behind it the friction at the speed
   const auto predict = [&](const Friction& friction) -> Eigen::VectorXd {
     Eigen::VectorXd both(speed > 0 ? 2 * n : n);
@@ -104,7 +104,7 @@ void AddHeat(FitView& view) {
     if (speed > 0) {
       const JointFriction joint(friction);
       both.tail(n) = both.head(n).unaryExpr([&](double energy) {
-        return joint.SlidingForce(speed, {0, energy, 0});
+        return joint.SlidingForce(speed, {0, energy, load});
       });
     }
     return both;
@@ -114,9 +114,9 @@ void AddHeat(FitView& view) {
   if (deviation.size() > 0) view.energy_std = deviation.head(n);
   if (speed == 0) return;
   const JointFriction joint(*view.estimate.friction);
-  AtSpeed at{speed, joint.SlidingForce(speed, {0, 0, 0}), Eigen::VectorXd(n), {}};
+  AtSpeed at{speed, joint.SlidingForce(speed, {0, 0, load}), Eigen::VectorXd(n), {}};
   for (Eigen::Index i = 0; i < n; ++i) {
-    at.force[i] = joint.SlidingForce(speed, {0, view.energy[i], 0});
+    at.force[i] = joint.SlidingForce(speed, {0, view.energy[i], load});
   }
   if (deviation.size() > 0) at.deviation = deviation.tail(n);
   view.at_speed = at;
@@ -163,6 +163,12 @@ FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
 }
 
 bool IsOfAnyMotion(const FitView& view) { return Find(Role::inertia, view.estimate) != nullptr; }
+
+double MeanLoad(const FitView& view) {
+  const bool grows = view.has_fit && view.estimate.friction->load_gain != 0;
+  if (!grows || view.trajectory.load.size() == 0) return 0;
+  return KeptOf(view, view.trajectory.load).cwiseAbs().mean();
+}
 
 Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
   return Chosen(all, view.selection.keep);

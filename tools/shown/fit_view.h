@@ -73,6 +73,9 @@ Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all);
 /// Torque less fit at the kept samples, [n].
 Eigen::VectorXd Residuals(const FitView& view);
 
+/// Mean size of the load at the kept samples, N.m or N, of a friction that grows with it; else 0.
+double MeanLoad(const FitView& view);
+
 /// Where the joint was at sample i of the recording, as SlidingForce reads it.
 JointPlace PlaceAt(const FitView& view, Eigen::Index i);
 

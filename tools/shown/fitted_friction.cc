@@ -37,10 +37,10 @@ VectorXd SpeedsOf(const VectorXd& kept, int direction) {
   return direction * VectorXd::LinSpaced(kPoints, slowest, fastest);
 }
 
-/// Eq. (20) at each speed, of a friction without maps.
-VectorXd ForceOver(const Friction& friction, const VectorXd& speeds, double energy) {
+/// Eq. (20) at each speed, of a friction without maps. load: that the joint carries, N.m or N
+VectorXd ForceOver(const Friction& friction, const VectorXd& speeds, double energy, double load) {
   const JointFriction joint(friction);
-  return speeds.unaryExpr([&](double v) { return joint.SlidingForce(v, {0, energy, 0}); });
+  return speeds.unaryExpr([&](double v) { return joint.SlidingForce(v, {0, energy, load}); });
 }
 
 /// At the kept samples, each at its place with the heat that `energy_at` says.
@@ -69,11 +69,14 @@ std::vector<FrictionCurve> CurvesOf(const FitView& view) {
   const Friction& friction = *view.estimate.friction;
   const FrictionSpread spread = SpreadOf(view.estimate);
   const VectorXd kept = KeptOf(view, view.velocity);
+  const double load = MeanLoad(view);
   for (const double energy : HeatsOf(view)) {
     for (const int direction : {1, -1}) {
       const VectorXd speeds = SpeedsOf(kept, direction);
       if (speeds.size() == 0) continue;
-      const auto predict = [&](const Friction& other) { return ForceOver(other, speeds, energy); };
+      const auto predict = [&](const Friction& other) {
+        return ForceOver(other, speeds, energy, load);
+      };
       curves.push_back(
           {energy, speeds, predict(friction), SpreadOfPrediction(spread, friction, predict)});
     }
