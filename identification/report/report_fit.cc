@@ -12,6 +12,7 @@
 
 #include "identification/explain.h"
 #include "identification/fit.h"
+#include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
