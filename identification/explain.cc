@@ -72,8 +72,8 @@ std::string RemedyForBound(const FitParameter& parameter, const Fit& fit) {
 }
 
 /// "the torque comes 20 ms (2 samples) late beside the positions"
-std::string DescribeDelay(double delay, double step) {
-  return fmt::format("the torque comes {:.3g} ms ({:.2g} samples) {} beside the positions",
+std::string DescribeDelay(double delay, double step, std::string_view comes = "comes") {
+  return fmt::format("the torque {} {:.3g} ms ({:.2g} samples) {} beside the positions", comes,
                      1e3 * std::abs(delay), std::abs(delay) / step, delay < 0 ? "early" : "late");
 }
 
@@ -192,12 +192,9 @@ std::string ExplainDelay(double delay, double step) {
 }
 
 std::string ExplainUntoldDelay(double delay, double step) {
-  return fmt::format(
-      "the torque may come {:.3g} ms ({:.2g} samples) {} beside the positions, which this log does "
-      "not "
-      "tell: the intervals reach as far as that moves the values; log faster, or swing a known "
-      "weight",
-      1e3 * std::abs(delay), std::abs(delay) / step, delay > 0 ? "late" : "early");
+  return DescribeDelay(delay, step, "may come") +
+         ", which this log does not tell: the intervals reach as far as that moves the values; log "
+         "faster, or swing a known weight";
 }
 
 std::string ExplainDelayLeftOut(double delay, double step, double harm,

@@ -26,12 +26,10 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   fit.gravity = estimate.gravity;
 
   // the rows that a fit of that law would have
-  const std::vector<double> values = LawValues(fit.friction);
+  std::vector<double> values = LawValues(fit.friction);
+  if (estimate.Find(NameOf(Role::load))) values.push_back(fit.friction.load_gain);
   const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
-  if (estimate.Find(NameOf(Role::load))) {
-    Append({LoadParameter(fit.friction.load_gain, m)}, fit);
-  }
 
   // heat and start, where the estimate tells them
   if (fit.friction.thermal && Find(Role::heat, estimate)) {

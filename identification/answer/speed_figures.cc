@@ -102,11 +102,14 @@ VectorXd ColdDerivatives(const Fit& fit, double speed, double load = 0) {
   return derivatives;
 }
 
-/// Mean |load| of the samples of a group, of those that are kept; 0 of a friction that does not grow with it.
-double LoadOf(const Fit& fit, const SpeedGroup& group, const LogSamples& m,
-              const Selection& selection) {
-  if (!fit.RowOf(Role::load)) return 0;
-  return Kept(*m.load, selection)(group.samples).cwiseAbs().mean();
+/// Mean |load| of the kept samples of each group; 0 of a friction that does not grow with it.
+std::vector<double> LoadsOf(const Fit& fit, const std::vector<SpeedGroup>& groups,
+                            const LogSamples& m, const Selection& selection) {
+  std::vector<double> loads(groups.size(), 0.0);
+  if (!fit.RowOf(Role::load)) return loads;
+  const VectorXd kept = Kept(*m.load, selection).cwiseAbs();
+  for (size_t i = 0; i < groups.size(); ++i) loads[i] = kept(groups[i].samples).mean();
+  return loads;
 }
 
 /// Those of a fit with maps, of which the table holds the law alone.
@@ -145,13 +148,13 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
   const auto resistance = [&](double v, double load) {
     return Sign(v) * law.force(v, values.data()) + fit.friction.load_gain * load;
   };
-  for (const SpeedGroup& group : groups) {
-    const double v = group.velocity, load = LoadOf(fit, group, m, selection);
+  const std::vector<double> loads = LoadsOf(fit, groups, m, selection);
+  for (size_t i = 0; i < groups.size(); ++i) {
+    const double v = groups[i].velocity, load = loads[i];
     add(FigureOf(fit, inferred, m, v, resistance(v, load), ColdDerivatives(fit, v, load), cold));
   }
-  for (const SpeedGroup& group : groups) {
-    if (!warmest) break;
-    const double v = group.velocity, load = LoadOf(fit, group, m, selection);
+  for (size_t i = 0; warmest && i < groups.size(); ++i) {
+    const double v = groups[i].velocity, load = loads[i];
     add(FigureOf(fit, inferred, m, v, resistance(v, load) + warmest->energy,
                  ColdDerivatives(fit, v, load) + warmest->derivatives, warmest->energy));
   }

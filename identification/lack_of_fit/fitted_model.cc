@@ -173,11 +173,15 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   return all(Eigen::all, by_known);
 }
 
-/// The Jacobian's column of an estimated row of the table. [N]
-Eigen::VectorXd ByRow(const Fit& fit, size_t row) {
+/// The Jacobian's columns of the estimated rows of the table with a role. [N x m]
+Eigen::MatrixXd ByRole(const Fit& fit, Role role) {
+  std::vector<Eigen::Index> columns;
   Eigen::Index column = 0;
-  for (size_t i = 0; i < row; ++i) column += fit.parameters[i].estimated;
-  return fit.jacobian().col(column);
+  for (const FitParameter& row : fit.parameters) {
+    if (row.estimated && row.role == role) columns.push_back(column);
+    column += row.estimated;
+  }
+  return fit.jacobian()(Eigen::all, columns);
 }
 
 }  // namespace
@@ -245,15 +249,15 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   // gravity's few values join the parameters; the many of `paired` do not: what depends on position
   // alike in both directions is theirs, and the other features average out over it
   if (fit.gravity && fit.gravity->kind != GravityKind::paired) {
-    Eigen::MatrixXd gravity = GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position);
     // under a load gravity may act through the friction, too, as the fit itself knows
-    for (Eigen::Index i = 0; fit.RowOf(Role::load) && fit.jacobian && i < gravity.cols(); ++i) {
-      gravity.col(i) = ByRow(fit, *fit.RowOf(Role::gravity, static_cast<int>(i)));
-    }
-    model.derivatives = ConcatColumns(model.derivatives, gravity);
+    const bool by_fit = fit.RowOf(Role::load) && fit.jacobian;
+    model.derivatives =
+        ConcatColumns(model.derivatives,
+                      by_fit ? ByRole(fit, Role::gravity)
+                             : GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position));
   }
   if (fit.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
-  if (const auto row = fit.RowOf(Role::delay)) by_jumps = ConcatColumns(by_jumps, ByRow(fit, *row));
+  if (fit.RowOf(Role::delay)) by_jumps = ConcatColumns(by_jumps, ByRole(fit, Role::delay));
   if (by_jumps.cols() > 0) model.derivatives = ConcatColumns(model.derivatives, by_jumps);
   return model;
 }

@@ -55,8 +55,7 @@ std::optional<std::string> WhyNoLoad(const IdentifierInput& given) {
   if (!AsksForLoad(given) || given.measurements.load) return std::nullopt;
   if (given.options.OrDefault<GravityOption>().gravity != FittedGravity::none) return std::nullopt;
   return "load estimated needs the column load, or gravity sincos or paired, which tells what the "
-         "joint "
-         "carries; the log has no such column and gravity is none";
+         "joint carries; the log has no such column and gravity is none";
 }
 
 Fit FitUnderLoad(const IdentifierInput& given, const FitInTime& fit_under) {
