@@ -293,6 +293,10 @@ class Convert(unittest.TestCase):
         head = b"{'descr': [('time','<f8')], 'fortran_order': False, 'shape': (1000000000000,), }".ljust(117) + b"\n"
         (self.folder / "big.npy").write_bytes(b"\x93NUMPY\x01\x00v\x00" + head)
         self.assertIn("states an array", self.refusal(self.folder / "big.npy"))
+        # a type whose count is no number of Python's
+        head = b"{'descr': '(08,)f8', 'fortran_order': False, 'shape': (8,), }".ljust(117) + b"\n"
+        (self.folder / "header.npy").write_bytes(b"\x93NUMPY\x01\x00v\x00" + head + bytes(64))
+        self.assertIn("cannot be read as NumPy's", self.refusal(self.folder / "header.npy"))
         os.mkfifo(self.folder / "pipe.npz")
         self.assertIn("neither a file nor a folder", self.refusal(self.folder / "pipe.npz"))
         with h5py.File(self.folder / "self.h5", "w") as file:

@@ -38,7 +38,7 @@ def tree(path, notes):
             return {name: data[name] for name in data.dtype.names}
         with data:
             arrays = {name: data[name] for name in data.files}
-    except (ValueError, EOFError, OSError, KeyError, NotImplementedError, tokenize.TokenError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
+    except (ValueError, SyntaxError, EOFError, OSError, KeyError, NotImplementedError, tokenize.TokenError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:
         raise Refusal(f"{path}: cannot be read as NumPy's: {error}") from None
     # an array of records holds columns
     return {name: {one: array[one] for one in array.dtype.names} if array.dtype.names else array for name, array in arrays.items()}
