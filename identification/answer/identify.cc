@@ -123,7 +123,7 @@ constexpr int kMostRounds = 3;  // why: what a fit to unsettled torque hides sho
 struct SettledFit {
   Fit fit;
   std::optional<Selection> samples{};  // that it rests on, where some had not settled
-  double settling = 0;                 // s, of all rounds
+  Settling settling{};                 // of all rounds
   std::optional<Fit> sooner{};  // with the samples of the run in which what is left fades away
 };
 
@@ -133,23 +133,30 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
     return AtBounds(identifier.fit(input.With(samples)), input.measurements);
   };
   SettledFit settled{AtBounds(identifier.fit(input), input.measurements)};
+  Fit plain;  // to all samples
+  const double longest = LongestSettling(input.selection, time);
   Selection before;
-  double more = 0;
+  Settling more;
   for (int round = 0; round < kMostRounds && !settled.fit.refusal; ++round) {
     const Fit& fit = settled.fit;
     // a view that is not the input's has other samples, and rows of means have none of their own
     const bool same = fit.used.keep.size() == time.size() && fit.torque.size() == fit.used.count();
     if (input.view != View::constant_speed || !same) break;
-    const double found = SettlingTime(fit.used, time, fit.residual());
-    if (found == 0) break;
+    const Settling found = SettlingTime(fit.used, time, fit.residual());
+    if (found.both() == 0) break;
+    // what takes longer is something else, which the tests for lack of fit look at
+    if ((settled.settling + found).both() > longest) {
+      return {settled.samples ? std::move(plain) : std::move(settled.fit)};
+    }
+    if (!settled.samples) plain = fit;
     more = found;
     before = settled.samples.value_or(input.selection);
     settled.samples = WithoutSettling(before, time, more);
     settled.fit = fit_to(*settled.samples);
-    settled.settling += more;
+    settled.settling = settled.settling + more;
   }
   if (settled.samples) {
-    settled.sooner = fit_to(WithoutSettling(before, time, kShownToSettle * more));
+    settled.sooner = fit_to(WithoutSettling(before, time, more * kShownToSettle));
   }
   return settled;
 }

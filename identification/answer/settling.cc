@@ -125,39 +125,55 @@ std::size_t UnsettledRuns(const std::vector<Unsettled>& runs, double beyond_chan
   return unsettled;
 }
 
-}  // namespace
-
-double SettlingTime(const Selection& used, const VectorXd& time, const VectorXd& residual) {
-  if (used.segments.size() < 2) return 0;
+/// Median number of samples of the segments.
+Index TypicalLength(const Selection& used) {
   std::vector<double> lengths;
   for (const Segment& segment : used.segments) {
     lengths.push_back(static_cast<double>(Length(segment)));
   }
-  const auto typical = static_cast<Index>(MedianOf(lengths));
-  if (typical < kShortest) return 0;
+  return static_cast<Index>(MedianOf(lengths));
+}
+
+/// How long that is, and the next run, where it fades away; 0 where there is none or no end of it. s
+double TimeOf(const std::vector<Unsettled>& runs, double beyond_chance,
+              const std::vector<Index>& edges, double step) {
+  const std::size_t unsettled = UnsettledRuns(runs, beyond_chance);
+  if (unsettled == 0 || unsettled + 1 >= edges.size()) return 0;
+  return static_cast<double>(edges[unsettled + 1]) * step;
+}
+
+}  // namespace
+
+double LongestSettling(const Selection& used, const VectorXd& time) {
+  if (used.segments.empty()) return 0;
+  return 0.5 * static_cast<double>(TypicalLength(used)) * MedianStep(time);
+}
+
+Settling SettlingTime(const Selection& used, const VectorXd& time, const VectorXd& residual) {
+  if (used.segments.size() < 2) return {};
+  const Index typical = TypicalLength(used);
+  if (typical < kShortest) return {};
   const std::vector<Index> edges = EdgesOfRuns(typical / kMostOfSegment);
   const BesideChanges beside(used, RunMeans(used, residual), edges);
 
   // two kinds of evidence with two signs, in each of the runs on either side
   const double trials = 8 * static_cast<double>(beside.behind.size());
   const double beyond_chance = std::sqrt(2 * std::log(trials / kLevel));
-  const std::size_t unsettled = std::max(UnsettledRuns(beside.behind, beyond_chance),
-                                         UnsettledRuns(beside.before, beyond_chance));
-  // and the next, where it fades away
-  if (unsettled == 0 || unsettled + 1 >= edges.size()) return 0;
-  return static_cast<double>(edges[unsettled + 1]) * MedianStep(time);
+  const double step = MedianStep(time);
+  return {TimeOf(beside.behind, beyond_chance, edges, step),
+          TimeOf(beside.before, beyond_chance, edges, step)};
 }
 
-Selection WithoutSettling(Selection selection, const VectorXd& time, double settling) {
+Selection WithoutSettling(Selection selection, const VectorXd& time, const Settling& settling) {
   constexpr double rounding = 1e-9;  // s, of time stamps
   std::vector<Segment> left;
   for (Segment segment : selection.segments) {
-    const double until = time[segment.begin] + settling - rounding;
+    const double until = time[segment.begin] + settling.behind - rounding;
     for (; segment.begin < segment.end && time[segment.begin] < until; ++segment.begin) {
       selection.keep[segment.begin] = false;
     }
     if (segment.begin == segment.end) continue;
-    const double from = time[segment.end - 1] - settling + rounding;
+    const double from = time[segment.end - 1] - settling.before + rounding;
     for (; segment.begin < segment.end && time[segment.end - 1] > from; --segment.end) {
       selection.keep[segment.end - 1] = false;
     }
@@ -167,11 +183,11 @@ Selection WithoutSettling(Selection selection, const VectorXd& time, double sett
   return selection;
 }
 
-std::string SaySettling(double settling) {
+std::string SaySettling(const Settling& settling) {
   return fmt::format(
       "the torque takes {:.2g} s to settle after a change of speed: the samples until then are "
       "left out",
-      settling);
+      std::max(settling.behind, settling.before));
 }
 
 }  // namespace warmjoint

@@ -8,8 +8,19 @@
 
 namespace warmjoint {
 
-/// How far from the ends of its segments, where the speed changes, the residual of a fit shows that the torque had not settled
-/// or was about to change, s; 0 where it shows nothing of that, or no end of it within a quarter of a typical segment.
+/// How far from the ends of its segments a torque had not settled after a change of speed, or was about to change, s.
+struct Settling {
+  double behind = 0;  // a change of speed
+  double before = 0;  // the next one
+
+  double both() const { return behind + before; }
+  Settling operator+(const Settling& more) const {
+    return {behind + more.behind, before + more.before};
+  }
+  Settling operator*(double share) const { return {share * behind, share * before}; }
+};
+
+/// What the residual of a fit shows of that; 0 where it shows nothing, or no end of it within a quarter of a typical segment.
 ///
 /// Means z of the residual over runs that grow with the time from the change are compared with those as long from the
 /// segment's middle on, r, and with those as far from the change on its other side, p, where the joint was at the same
@@ -19,17 +30,22 @@ namespace warmjoint {
 ///     P(|S| > x sqrt(sum of squares)) <= 2 exp(-x^2 / 2)
 /// whatever their distribution (Hoeffding 1963). Where both sides have not settled the worse one hides the other, which
 /// shows once that is left out. used: the n of N samples that count; time: [N] s; residual: [n] N.m or N
-double SettlingTime(const Selection& used, const Eigen::VectorXd& time,
-                    const Eigen::VectorXd& residual);
+Settling SettlingTime(const Selection& used, const Eigen::VectorXd& time,
+                      const Eigen::VectorXd& residual);
+
+/// How long a torque may take to settle, both ends together, s: half of a typical segment, so that as much settled torque is left
+/// as goes. What changes throughout the segments looks settled about its extremes.
+double LongestSettling(const Selection& used, const Eigen::VectorXd& time);
 
 /// What of a settling time the residual shows beyond chance: behind it a run follows that is half as long as all before, in which
 /// what is left fades away.
 inline constexpr double kShownToSettle = 2.0 / 3;
 
-/// A selection without the samples of each segment that are nearer to its ends than `settling`, s. time: [N] s
-Selection WithoutSettling(Selection selection, const Eigen::VectorXd& time, double settling);
+/// A selection without the samples of each segment that are nearer to its ends than `settling`. time: [N] s
+Selection WithoutSettling(Selection selection, const Eigen::VectorXd& time,
+                          const Settling& settling);
 
-/// That samples were left out. settling: s
-std::string SaySettling(double settling);
+/// That samples were left out.
+std::string SaySettling(const Settling& settling);
 
 }  // namespace warmjoint

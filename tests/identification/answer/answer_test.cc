@@ -3,6 +3,8 @@
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include "identification/answer/check_estimate.h"
 #include "identification/answer/identify.h"
@@ -59,6 +61,18 @@ TEST(CheckEstimate, GivesTheFrictionOfTheNumbersThatItMoves) {
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_NE(estimate.Find("coulomb")->value, before);
   EXPECT_EQ(estimate.friction->parameters.at("coulomb"), estimate.Find("coulomb")->value);
+}
+
+TEST(FitAndCheck, TakesNoPatternOfTheHoldsForSettling) {
+  // half a sine over each hold of 20 s, always against the motion: settled about its extreme, and of one sign
+  Measurements m = test::RecordHour(test::TableOne(), 3);
+  m.torque.array() += (std::numbers::pi * m.time.array() / 20 + 0.1).sin();
+  const Estimate estimate = test::Answer("energy-ml", m);
+  EXPECT_EQ(estimate.message.find("settle"), std::string::npos) << estimate.message;
+  if (estimate.status != Status::ok) return;
+  const auto& interval = *estimate.Find("coulomb")->interval95;
+  EXPECT_LE(interval[0], 15);
+  EXPECT_GE(interval[1], 15);
 }
 
 TEST(FrictionAtSpeeds, HoldsTheTruthColdAndWarm) {
