@@ -134,7 +134,6 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
   };
   SettledFit settled{AtBounds(identifier.fit(input), input.measurements)};
   Fit plain;  // to all samples
-  const double longest = LongestSettling(input.selection, time);
   Selection before;
   Settling more;
   for (int round = 0; round < kMostRounds && !settled.fit.refusal; ++round) {
@@ -145,7 +144,7 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
     const Settling found = SettlingTime(fit.used, time, fit.residual());
     if (found.both() == 0) break;
     // what takes longer is something else, which the tests for lack of fit look at
-    if ((settled.settling + found).both() > longest) {
+    if (!MaySettle(settled.settling + found, input.selection, time)) {
       return {settled.samples ? std::move(plain) : std::move(settled.fit)};
     }
     if (!settled.samples) plain = fit;

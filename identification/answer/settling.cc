@@ -144,9 +144,11 @@ double TimeOf(const std::vector<Unsettled>& runs, double beyond_chance,
 
 }  // namespace
 
-double LongestSettling(const Selection& used, const VectorXd& time) {
-  if (used.segments.empty()) return 0;
-  return 0.5 * static_cast<double>(TypicalLength(used)) * MedianStep(time);
+bool MaySettle(const Settling& settling, const Selection& used, const VectorXd& time) {
+  // a torque that fades behind its change alone may take as long as it likes
+  if (settling.behind == 0 || settling.before == 0) return true;
+  const double typical = static_cast<double>(TypicalLength(used)) * MedianStep(time);
+  return settling.behind + settling.before <= 0.5 * typical;
 }
 
 Settling SettlingTime(const Selection& used, const VectorXd& time, const VectorXd& residual) {

@@ -33,9 +33,9 @@ struct Settling {
 Settling SettlingTime(const Selection& used, const Eigen::VectorXd& time,
                       const Eigen::VectorXd& residual);
 
-/// How long a torque may take to settle, both ends together, s: half of a typical segment, so that as much settled torque is left
-/// as goes. What changes throughout the segments looks settled about its extremes.
-double LongestSettling(const Selection& used, const Eigen::VectorXd& time);
+/// Whether a torque may settle so: what has not settled at either end of its segments leaves as much settled torque as goes, half of
+/// a typical segment. What changes throughout the segments looks settled about its extremes. used: all samples; time: [N] s
+bool MaySettle(const Settling& settling, const Selection& used, const Eigen::VectorXd& time);
 
 /// What of a settling time the residual shows beyond chance: behind it a run follows that is half as long as all before, in which
 /// what is left fades away.
