@@ -52,6 +52,13 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
   return result;
 }
 
+Eigen::MatrixXd GramOf(const Eigen::MatrixXd& J) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(J.cols(), J.cols());
+  if (J.rows() > 0) gram.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  return gram;
+}
+
 Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
   const Eigen::Index p = normal.rows();
 

@@ -25,6 +25,9 @@ struct LeastSquares {
 LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
                                double indistinct = kIndistinct);
 
+/// J^T J, [p x p]. J: [n x p]
+Eigen::MatrixXd GramOf(const Eigen::MatrixXd& J);
+
 /// The inverse of normal equations J^T J [p x p], formed with columns scaled to norm 1; infinite
 /// throughout where they are singular to rounding.
 Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal);

@@ -1,11 +1,13 @@
 #include "identification/model/solve.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <unsupported/Eigen/FFT>
+#include <utility>
 
 #include "identification/fit_data.h"
+#include "identification/linear/least_squares.h"
 
 namespace warmjoint {
 namespace {
@@ -18,96 +20,79 @@ constexpr int kMostIterations = 40;
 /// Drop of the cost, in units of the noise, at which a fit rests. Why: it moves no parameter by 1 % of its deviation.
 constexpr double kRests = 1e-4;
 
-/// What a step is made of.
-struct Normals {
-  MatrixXd h;       // [P x P]
-  VectorXd b;       // [P]
-  double cost = 0;  // at a given scale
+/// The squares of a model over the kept samples, whose noise is learnt as the fit goes on.
+class ModelSquares {
+ public:
+  ModelSquares(const Model& model, const ModelSamples& samples)
+      : model_(model),
+        torque_(samples.torque),
+        used_{samples.keep, {}},
+        precision_(model.PriorPrecision()),
+        mean_(model.PriorMean()) {}
+
+  /// Over a scale of the noise, with the priors.
+  RowSums At(const VectorXd& x, double scale) {
+    MoveTo(x);
+    RowSums sums{gram_ / scale, product_ / scale, kept_.squaredNorm() / scale};
+    const VectorXd off = x - mean_;
+    sums.gram.diagonal() += precision_;
+    sums.product -= precision_.cwiseProduct(off);
+    sums.squares += off.cwiseAbs2().dot(precision_);
+    return sums;
+  }
+  /// That of the residual at x.
+  NoiseScale NoiseAt(const VectorXd& x) {
+    MoveTo(x);
+    return NoiseScaleOf(kept_);
+  }
+  /// [N] torque - force at x.
+  VectorXd ResidualAt(const VectorXd& x) {
+    MoveTo(x);
+    return residual_;
+  }
+
+ private:
+  void MoveTo(const VectorXd& x) {
+    if (x_.size() == x.size() && x_ == x) return;
+    x_ = x;
+    const ModelRows rows = model_.Evaluate(x);
+    residual_ = torque_ - rows.force;
+    kept_ = Kept(residual_, used_);
+    const MatrixXd j = Kept(rows.derivatives, used_);
+    gram_ = GramOf(j);
+    product_ = j.transpose() * kept_;
+  }
+
+  const Model& model_;
+  const VectorXd& torque_;
+  Selection used_;
+  VectorXd precision_, mean_;  // [P] of the priors
+  VectorXd x_;                 // [P] at which the others are
+  VectorXd residual_;          // [N]
+  VectorXd kept_;              // [n]
+  MatrixXd gram_;              // [P x P] J^T J
+  VectorXd product_;           // [P] J^T r
 };
 
-double PriorCost(const Model& model, const VectorXd& x) {
-  return (x - model.PriorMean()).cwiseAbs2().dot(model.PriorPrecision());
-}
-
-double Cost(const Model& model, const VectorXd& x, const VectorXd& e, double scale) {
-  return e.squaredNorm() / scale + PriorCost(model, x);
-}
-
-/// Where the eigenvalues of a matrix scaled to a unit diagonal count as 0.
-constexpr double kNoInformation = 1e-12;  // why: the rounding of some 1e4 samples' products
-
-struct Scaled {
-  VectorXd scale;
-  MatrixXd vectors;
-  VectorXd inverse;  // of the eigenvalues; 0 where there is no information
-};
-
-Scaled Decompose(const MatrixXd& h) {
-  Scaled found;
-  found.scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(found.scale.asDiagonal() * h *
-                                                       found.scale.asDiagonal());
-  found.vectors = solver.eigenvectors();
-  const VectorXd& values = solver.eigenvalues();
-  const double least = kNoInformation * values.tail(1)[0];
-  found.inverse = (values.array() > least).select(values.cwiseMax(least).cwiseInverse(), 0.0);
-  return found;
-}
-
-/// Derivatives of the kept samples, with 0 for what is held.
-MatrixXd KeptRows(const MatrixXd& derivatives, const Selection& used,
-                  const std::vector<Index>& held) {
-  MatrixXd rows = Kept(derivatives, used);
-  for (const Index column : held) rows.col(column).setZero();
-  return rows;
-}
-
-/// The step that the normal equations ask for, shortened as a whole so that no unknown moves farther than it may.
-VectorXd StepOf(const Model& model, MatrixXd h, VectorXd b, const std::vector<Index>& held) {
-  for (const Index i : held) {
-    h.row(i).setZero();
-    h.col(i).setZero();
-    h(i, i) = 1;
-    b[i] = 0;
-  }
-  VectorXd step = SolveScaled(h, b);
-  for (Index i = 0; i < step.size(); ++i) {
-    const double most = model.table[static_cast<std::size_t>(i)].largest_step;
-    step[i] = std::clamp(step[i], -most, most);
-  }
-  return step;
-}
-
-void Clamp(const Model& model, VectorXd& x) {
-  for (Index i = 0; i < x.size(); ++i) {
+/// The limits of a table.
+SquaresProblem WithinLimits(const Model& model, const std::vector<Index>& held) {
+  SquaresProblem problem;
+  problem.held = held;
+  problem.rests = kRests;
+  const Index p = model.size();
+  problem.lower.resize(p);
+  problem.upper.resize(p);
+  problem.largest_step.resize(p);
+  for (Index i = 0; i < p; ++i) {
     const Unknown& row = model.table[static_cast<std::size_t>(i)];
-    x[i] = std::clamp(x[i], row.lower, row.upper);
+    problem.lower[i] = row.lower;
+    problem.upper[i] = row.upper;
+    problem.largest_step[i] = row.largest_step;
   }
-}
-
-/// Unknowns at a bound that the cost would push farther out. b: [P] minus half the gradient of the cost
-std::vector<Index> PushedOut(const Model& model, const VectorXd& x, const VectorXd& b) {
-  std::vector<Index> pushed;
-  for (Index i = 0; i < x.size(); ++i) {
-    const Unknown& row = model.table[static_cast<std::size_t>(i)];
-    if ((x[i] <= row.lower && b[i] < 0) || (x[i] >= row.upper && b[i] > 0)) pushed.push_back(i);
-  }
-  return pushed;
+  return problem;
 }
 
 }  // namespace
-
-VectorXd SolveScaled(const MatrixXd& h, const VectorXd& b) {
-  const Scaled d = Decompose(h);
-  const VectorXd in = d.vectors.transpose() * d.scale.cwiseProduct(b);
-  return d.scale.cwiseProduct(d.vectors * d.inverse.cwiseProduct(in));
-}
-
-MatrixXd InverseScaled(const MatrixXd& h) {
-  const Scaled d = Decompose(h);
-  const MatrixXd root = d.scale.asDiagonal() * d.vectors * d.inverse.cwiseSqrt().asDiagonal();
-  return root * root.transpose();
-}
 
 NoiseScale NoiseScaleOf(const VectorXd& e) {
   NoiseScale noise;
@@ -136,48 +121,24 @@ NoiseScale NoiseScaleOf(const VectorXd& e) {
 
 SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,
                   const std::vector<Index>& held) {
-  const Selection used{samples.keep, {}};
-  const VectorXd precision = model.PriorPrecision(), mean = model.PriorMean();
+  ModelSquares squares(model, samples);
+  SquaresProblem problem = WithinLimits(model, held);
   SolvedModel solved;
-  ModelRows rows = model.Evaluate(x);
-  VectorXd e = Kept(VectorXd(samples.torque - rows.force), used);
-  solved.noise = NoiseScaleOf(e);
+  solved.noise = squares.NoiseAt(x);
+  // a step by the noise of the fit so far, until both rest
+  problem.most_iterations = 1;
   for (; solved.iterations < kMostIterations && !solved.converged; ++solved.iterations) {
     const double scale = solved.noise.scale();
-    const MatrixXd j = KeptRows(rows.derivatives, used, held);
-    MatrixXd h = MatrixXd::Zero(model.size(), model.size());
-    h.selfadjointView<Eigen::Lower>().rankUpdate(j.transpose(), 1 / scale);
-    h.triangularView<Eigen::StrictlyUpper>() = h.transpose();
-    h.diagonal() += precision;
-    const VectorXd b = j.transpose() * e / scale - precision.cwiseProduct(x - mean);
-    solved.at_bound = PushedOut(model, x, b);
-    std::vector<Index> fixed = held;
-    fixed.insert(fixed.end(), solved.at_bound.begin(), solved.at_bound.end());
-    const VectorXd step = StepOf(model, h, b, fixed);
-
-    // halved until the cost falls
-    const double before = Cost(model, x, e, scale);
-    double drop = 0;
-    for (double share = 1; share > 1e-3; share /= 2) {
-      VectorXd next = x + share * step;
-      Clamp(model, next);
-      ModelRows there = model.Evaluate(next);
-      const VectorXd left = Kept(VectorXd(samples.torque - there.force), used);
-      const double cost = Cost(model, next, left, scale);
-      if (!(cost < before)) continue;
-      drop = before - cost;
-      x = std::move(next);
-      rows = std::move(there);
-      e = left;
-      break;
-    }
-    const NoiseScale now = NoiseScaleOf(e);
-    const double change = std::abs(std::log(now.scale() / scale));
-    solved.noise = now;
-    solved.converged = drop < kRests && (change < 1e-3 || drop == 0);
+    problem.sums = [&](const VectorXd& at) { return squares.At(at, scale); };
+    Minimum step = Minimise(problem, std::move(x));
+    x = std::move(step.x);
+    solved.at_bound = std::move(step.at_bound);
+    solved.noise = squares.NoiseAt(x);
+    const double change = std::abs(std::log(solved.noise.scale() / scale));
+    solved.converged = step.fell < kRests && (change < 1e-3 || step.fell == 0);
   }
-  solved.x = x;
-  solved.residual = samples.torque - rows.force;
+  solved.residual = squares.ResidualAt(x);
+  solved.x = std::move(x);
   return solved;
 }
 
@@ -188,10 +149,8 @@ SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
   const VectorXd e = Kept(solved.residual, used), time = Kept(samples.time, used);
   const double scale = solved.noise.scale();
   const VectorXd precision = model.PriorPrecision();
-  MatrixXd h = MatrixXd::Zero(model.size(), model.size());
-  h.selfadjointView<Eigen::Lower>().rankUpdate(j.transpose(), 1 / scale);
-  h.triangularView<Eigen::StrictlyUpper>() = h.transpose();
-  const MatrixXd data = h;
+  const MatrixXd data = GramOf(j) / scale;
+  MatrixXd h = data;
   h.diagonal() += precision;
 
   // scores of each block of time

@@ -1,9 +1,10 @@
-// Gauss-Newton's fit of a model with priors and bounds, and the covariance of its unknowns.
+// The fit of a model to samples whose noise is not known, and the covariance of its unknowns.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "identification/model/minimise.h"
 #include "identification/model/model.h"
 
 namespace warmjoint {
@@ -52,10 +53,5 @@ SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
 
 /// Variance about 0 and autocorrelation time of a residual's kept samples. e: [n]
 NoiseScale NoiseScaleOf(const Eigen::VectorXd& e);
-
-/// x = H^-1 b of a positive semidefinite H of any scale; directions that H does not know stay 0.
-Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& b);
-/// The inverse in the same sense.
-Eigen::MatrixXd InverseScaled(const Eigen::MatrixXd& h);
 
 }  // namespace warmjoint

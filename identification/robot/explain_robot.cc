@@ -1,11 +1,11 @@
-#include "identification/model/explain_robot.h"
+#include "identification/robot/explain_robot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
 
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 
 namespace warmjoint {
 

@@ -1,4 +1,4 @@
-#include "identification/model/report_joint.h"
+#include "identification/robot/report_joint.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
-#include "identification/model/explain_robot.h"
 #include "identification/report/report_fit.h"
+#include "identification/robot/explain_robot.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"
 

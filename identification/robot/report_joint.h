@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 
 namespace warmjoint {
 

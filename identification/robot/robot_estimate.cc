@@ -1,4 +1,4 @@
-#include "identification/model/robot_estimate.h"
+#include "identification/robot/robot_estimate.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "identification/fit_data.h"
-#include "identification/model/find_heat.h"
+#include "identification/robot/find_heat.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"
 

@@ -1,10 +1,10 @@
-#include "identification/model/robot_samples.h"
+#include "identification/robot/robot_samples.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 #include "models/foundation/low_pass.h"
 
 namespace warmjoint {

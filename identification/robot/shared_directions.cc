@@ -1,4 +1,4 @@
-#include "identification/model/shared_directions.h"
+#include "identification/robot/shared_directions.h"
 
 #include <algorithm>
 #include <cmath>

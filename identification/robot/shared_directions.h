@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 
 namespace warmjoint {
 

@@ -1,8 +1,5 @@
 #include "identification/warming/thermal_fit.h"
 
-#include <ceres/tiny_solver.h>
-
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +10,7 @@
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/row_products.h"
 #include "identification/linear/least_squares.h"
+#include "identification/model/minimise.h"
 
 namespace warmjoint {
 namespace {
@@ -47,22 +45,22 @@ class LogProducts {
         weight_(rows.weight.cwiseSqrt()),
         prior_(Prior(rows)) {}
 
-  /// [J r]^T [J r] at x, r = measured - modelled level, over the log's variance. x: [p]; returns [p + 1 x p + 1]
-  Eigen::MatrixXd At(const Eigen::VectorXd& x) {
+  /// At x, over the log's variance. x: [p]
+  RowSums At(const Eigen::VectorXd& x) {
     measured_ = rows_.level;
     if (layout_.rigid.size > 0) measured_ -= rows_.offsets * layout_.rigid.Of(x);
-    Eigen::MatrixXd products = SumProductsOfSize(x);
+    const Eigen::MatrixXd products = SumProductsOfSize(x);
 
-    // what is known beside the samples: rows sqrt(w) [-1, -b] of unknowns that lie b from what they are known for
+    // what is known beside the samples counts as rows of its own
     Eigen::VectorXd off = x;
     if (layout_.start.size > 0) off[layout_.energy()] -= rows_.initial.mean;
     const Eigen::Index p = layout_.size();
-    const Eigen::VectorXd pull = prior_.cwiseProduct(off);
-    products.diagonal().head(p) += prior_;
-    products.col(p).head(p) += pull;
-    products.row(p).head(p) += pull;
-    products(p, p) += prior_.dot(off.cwiseAbs2());
-    return products / (rows_.scale * rows_.scale);
+    const double variance = rows_.scale * rows_.scale;
+    RowSums sums{products.topLeftCorner(p, p) / variance, products.col(p).head(p) / variance,
+                 (products(p, p) + prior_.dot(off.cwiseAbs2())) / variance};
+    sums.gram.diagonal() += prior_ / variance;
+    sums.product -= prior_.cwiseProduct(off) / variance;
+    return sums;
   }
 
  private:
@@ -126,7 +124,7 @@ class LogProducts {
     return products.selfadjointView<Eigen::Upper>();
   }
 
-  /// Sets the row [-da/dx, r] of sample n from the derivatives g [d] and S [d + 3 + J] of closed_loop_kernel.h.
+  /// Sets the row [da/dx, r] of sample n from the derivatives g [d] and S [d + 3 + J] of closed_loop_kernel.h.
   template <int D, int Q, typename Row>
   void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const {
     const Eigen::Index d = LoopSize<D>(layout_.law.size);
@@ -134,10 +132,10 @@ class LogProducts {
     const Eigen::Index j = D == Eigen::Dynamic ? layout_.jumps.size : 0;
     const double w = weight_[n];
     // derivatives by law, warming, jumps and offsets, then the residual itself
-    for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
-    for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
-    for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
-    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * rows_.offsets(n, i);
+    for (Eigen::Index i = 0; i < d; ++i) row[i] = w * (g[i] + S[i]);
+    for (Eigen::Index i = d; i < d + Q; ++i) row[i] = w * S[i];
+    for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = w * S[d + 3 + i];
+    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = w * rows_.offsets(n, i);
     row[d + Q + j + q] = w * residual;
   }
 
@@ -147,61 +145,6 @@ class LogProducts {
   Eigen::VectorXd prior_;     // [p]
   Eigen::VectorXd measured_;  // [N] level less what the offsets explain
 };
-
-/// The products of a log as ceres::TinySolver wants them.
-class CondensedProblem {
- public:
-  using Scalar = double;
-  enum { NUM_PARAMETERS = Eigen::Dynamic, NUM_RESIDUALS = Eigen::Dynamic };
-
-  /// What rows refer to must outlive this.
-  explicit CondensedProblem(const ThermalRows& rows)
-      : products_of_(rows),
-        x_(Eigen::VectorXd::Constant(rows.layout().size(),
-                                     std::numeric_limits<double>::quiet_NaN())) {}
-
-  int NumParameters() const { return static_cast<int>(x_.size()); }
-  int NumResiduals() const { return NumParameters() + 1; }
-
-  /// A square factor R of the products, R^T R = [J r]^T [J r]: its last column is the residuals [p + 1], the others the
-  /// jacobian [p + 1 x p], where one is asked for.
-  bool operator()(const double* x, double* residuals, double* jacobian) const {
-    Evaluate(Eigen::Map<const Eigen::VectorXd>(x, NumParameters()));
-
-    // a factor R of the products, R^T R = [J r]^T [J r]
-    const Eigen::Index p = NumParameters();
-    const Eigen::LDLT<Eigen::MatrixXd> factors(products_);
-    Eigen::MatrixXd root = factors.transpositionsP() * Eigen::MatrixXd::Identity(p + 1, p + 1);
-    root = factors.matrixU() * root;
-    root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
-    // residual and Jacobian of p + 1 rows, with the same squares as those of all samples
-    Eigen::Map<Eigen::VectorXd>(residuals, p + 1) = root.col(p);
-    if (jacobian) {
-      Eigen::Map<Eigen::MatrixXd>(jacobian, p + 1, p) = root.leftCols(p);
-      trace_.push_back({x_, products_(p, p)});
-    }
-    return true;
-  }
-
-  /// [J r]^T [J r] at x over the log's variance. [p + 1 x p + 1]
-  const Eigen::MatrixXd& Evaluate(const Eigen::VectorXd& x) const {
-    if (x_ == x) return products_;
-    x_ = x;
-    products_ = products_of_.At(x);
-    return products_;
-  }
-
-  std::vector<FitPoint>& trace() const { return trace_; }
-
- private:
-  // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there
-  mutable LogProducts products_of_;
-  mutable Eigen::VectorXd x_;         // [p]
-  mutable Eigen::MatrixXd products_;  // [p + 1 x p + 1]
-  mutable std::vector<FitPoint> trace_;
-};
-
-constexpr int kMostIterations = 50;
 
 }  // namespace
 
@@ -235,26 +178,14 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
   if (at.start.size > 0) fit.x[at.energy()] = rows.initial.mean;
   at.rigid.In(fit.x) = start.parameters.tail(at.rigid.size);
 
-  using Solver = ceres::TinySolver<CondensedProblem>;
-  const CondensedProblem problem(rows);
-  Solver solver;
-  solver.options.max_num_iterations = kMostIterations;
-  solver.options.gradient_tolerance = 1e-10;
-  solver.options.parameter_tolerance = 1e-11;
-  solver.options.function_tolerance = 1e-10;  // of |r|^2, which is about the number of samples
-  solver.options.initial_trust_region_radius = 1e8;
-  solver.Solve(problem, &fit.x);
-
-  // the products at the solution tell squares and cofactor, over the log's variance
-  const Eigen::Index p = fit.x.size();
-  const Eigen::MatrixXd& products = problem.Evaluate(fit.x);
-  fit.squares = products(p, p);
-  fit.cofactor = Cofactor(products.topLeftCorner(p, p));
-  // every iterate, the solution last
-  fit.trace = std::move(problem.trace());
-  fit.trace.push_back({fit.x, fit.squares});
-  fit.converged = solver.summary.status != Solver::HIT_MAX_ITERATIONS &&
-                  std::isfinite(fit.squares) && fit.x.allFinite();
+  LogProducts products(rows);
+  Minimum found =
+      Minimise({.sums = [&](const Eigen::VectorXd& x) { return products.At(x); }}, fit.x);
+  fit.x = std::move(found.x);
+  fit.squares = found.sums.squares;
+  fit.cofactor = Cofactor(found.sums.gram);
+  fit.trace = std::move(found.trace);
+  fit.converged = found.converged && fit.x.allFinite();
 
   // squares are the torque's
   const double variance = rows.scale * rows.scale;

@@ -94,11 +94,9 @@ struct ThermalFit {
 /// To begin where a fit ended: its law and offsets, and its warming.
 InitialGuess StartFrom(const ThermalFit& fit);
 
-/// Minimises the squared residuals of the samples that count by Ceres' Levenberg-Marquardt with exact
-/// derivatives. start: parameters of the law and of the offsets [d + q]. Each jump counts as a sample
-/// that measured 0 with its spread, and an expected E(0) as one that measured its mean. Each evaluation is condensed: [J r] is
-/// replaced by a square factor R of the same products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N
-/// and steps exactly as it would on all of them.
+/// Minimises the squared residuals of the samples that count (model/minimise.h) with exact derivatives. start: parameters of the
+/// law and of the offsets [d + q]. Each jump counts as a sample that measured 0 with its spread, and an expected E(0) as one that
+/// measured its mean.
 ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start);
 
 }  // namespace warmjoint

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "identification/model/robot_estimate.h"
+#include "identification/robot/robot_estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"

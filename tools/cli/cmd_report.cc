@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "identification/estimate.h"
-#include "identification/model/robot_estimate.h"
+#include "identification/robot/robot_estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
-#include "identification/model/robot_estimate.h"
+#include "identification/robot/robot_estimate.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/serialize.h"
 #include "models/foundation/xml_tags.h"

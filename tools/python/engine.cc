@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/model/robot_estimate.h"
+#include "identification/robot/robot_estimate.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"

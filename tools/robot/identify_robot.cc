@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/model/explain_robot.h"
-#include "identification/model/report_joint.h"
+#include "identification/robot/explain_robot.h"
+#include "identification/robot/report_joint.h"
 #include "tools/robot/at_once.h"
 #include "tools/robot/find_faults.h"
 #include "tools/robot/joint_data.h"

@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "identification/model/report_joint.h"
-#include "identification/model/shared_directions.h"
+#include "identification/robot/report_joint.h"
+#include "identification/robot/shared_directions.h"
 #include "identification/uncertainty/tails.h"
 #include "tools/robot/at_once.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 #include "tools/robot/joint_data.h"
 #include "tools/robot/robot_data.h"
 

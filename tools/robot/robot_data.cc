@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"

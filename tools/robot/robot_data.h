@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/model/robot_samples.h"
+#include "identification/robot/robot_samples.h"
 #include "models/robot_log/robot_log.h"
 #include "sim/robot/description.h"
 

@@ -1,5 +1,5 @@
 // The fit of a joint whose rigid torque is given and may be wrong, on columns made of a known truth.
-#include "identification/model/robot_joint.h"
+#include "identification/robot/robot_joint.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "identification/model/report_joint.h"
-#include "identification/model/shared_directions.h"
+#include "identification/robot/report_joint.h"
+#include "identification/robot/shared_directions.h"
 
 namespace warmjoint {
 namespace {
@@ -17,13 +17,13 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// A truth, in N.m, s and rad.
-struct Truth {
+struct JointTruth {
   double viscous = 2, forwards = 5, backwards = 4, load = .05, rotor = .8, gain = 1;
   double thermal_gain = 0, tau = 100;
 };
 
 /// 20 minutes of a joint at 10 Hz: gravity and inertia of a description that is wrong by z in four directions; without z by one deviation.
-JointColumns Columns(const Truth& truth, unsigned seed, const VectorXd& given = {}) {
+JointColumns Columns(const JointTruth& truth, unsigned seed, const VectorXd& given = {}) {
   constexpr Index n = 12000;
   constexpr double h = .1, noise = .3;
   std::mt19937 random(seed);
@@ -84,7 +84,7 @@ double Off(const JointFit& fit, Index row, double truth) {
 
 TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
   // 20 logs: squares of deviations of each parameter from the truth are chi-squared of 20, 45.3 by chance in 1 of 1000
-  const Truth truth;
+  const JointTruth truth;
   VectorXd squares = VectorXd::Zero(5);
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const JointColumns c = Columns(truth, seed);
@@ -99,7 +99,7 @@ TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
 }
 
 TEST(RobotJoint, FindsWarmingWhereItIsAndNotWhereItIsNot) {
-  Truth truth;
+  JointTruth truth;
   EXPECT_FALSE(Fit(Columns(truth, 5), true).at.heat);
   truth.thermal_gain = -.5;
   const JointFit fit = Fit(Columns(truth, 5), true);

@@ -1,0 +1,123 @@
+#include "identification/model/minimise.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Damping of the first step that did not lower the squares, as a share of the diagonal, and by how much it grows from one to the next.
+constexpr double kFirstDamping = 1e-3, kFurther = 8;
+/// Where the eigenvalues of a matrix scaled to a unit diagonal count as 0.
+constexpr double kNoInformation = 1e-12;  // why: the rounding of some 1e4 samples' products
+
+struct Scaled {
+  VectorXd scale;
+  MatrixXd vectors;
+  VectorXd inverse;  // of the eigenvalues; 0 where there is no information
+};
+
+Scaled Decompose(const MatrixXd& h) {
+  Scaled found;
+  found.scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(found.scale.asDiagonal() * h *
+                                                       found.scale.asDiagonal());
+  found.vectors = solver.eigenvectors();
+  const VectorXd& values = solver.eigenvalues();
+  const double least = kNoInformation * values.tail(1)[0];
+  found.inverse = (values.array() > least).select(values.cwiseMax(least).cwiseInverse(), 0.0);
+  return found;
+}
+
+/// Unknowns at a bound that the squares push farther out.
+std::vector<Index> PushedOut(const SquaresProblem& problem, const VectorXd& x,
+                             const VectorXd& product) {
+  std::vector<Index> pushed;
+  if (problem.lower.size() == 0) return pushed;
+  for (Index i = 0; i < x.size(); ++i) {
+    const bool below = x[i] <= problem.lower[i] && product[i] < 0;
+    if (below || (x[i] >= problem.upper[i] && product[i] > 0)) pushed.push_back(i);
+  }
+  return pushed;
+}
+
+/// The step that the normal equations ask for, each unknown no farther than it may. fixed: unknowns that stay
+VectorXd StepOf(const SquaresProblem& problem, const RowSums& sums, double damping,
+                const std::vector<Index>& fixed) {
+  MatrixXd h = sums.gram;
+  h.diagonal() *= 1 + damping;
+  VectorXd b = sums.product;
+  for (const Index i : fixed) {
+    h.row(i).setZero();
+    h.col(i).setZero();
+    h(i, i) = 1;
+    b[i] = 0;
+  }
+  VectorXd step = SolveScaled(h, b);
+  if (problem.largest_step.size() > 0) {
+    step = step.cwiseMin(problem.largest_step).cwiseMax(-problem.largest_step);
+  }
+  return step;
+}
+
+/// x + step within the bounds.
+VectorXd Within(const SquaresProblem& problem, const VectorXd& x) {
+  if (problem.lower.size() == 0) return x;
+  return x.cwiseMax(problem.lower).cwiseMin(problem.upper);
+}
+
+}  // namespace
+
+VectorXd SolveScaled(const MatrixXd& h, const VectorXd& b) {
+  const Scaled d = Decompose(h);
+  const VectorXd in = d.vectors.transpose() * d.scale.cwiseProduct(b);
+  return d.scale.cwiseProduct(d.vectors * d.inverse.cwiseProduct(in));
+}
+
+MatrixXd InverseScaled(const MatrixXd& h) {
+  const Scaled d = Decompose(h);
+  const MatrixXd root = d.scale.asDiagonal() * d.vectors * d.inverse.cwiseSqrt().asDiagonal();
+  return root * root.transpose();
+}
+
+Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
+  Minimum found;
+  found.sums = problem.sums(x);
+  found.trace.push_back({x, found.sums.squares});
+  double damping = 0;
+  for (int i = 0; i < problem.most_iterations && !found.converged; ++i) {
+    if (!std::isfinite(found.sums.squares) || !found.sums.gram.allFinite()) break;
+    found.at_bound = PushedOut(problem, x, found.sums.product);
+    std::vector<Index> fixed = problem.held;
+    fixed.insert(fixed.end(), found.at_bound.begin(), found.at_bound.end());
+
+    // damped more and more until the squares fall, or promise to fall by nothing
+    for (bool fell = false; !fell && !found.converged;) {
+      const VectorXd next = Within(problem, x + StepOf(problem, found.sums, damping, fixed));
+      const VectorXd step = next - x;
+      const double promised = step.dot(2 * found.sums.product - found.sums.gram * step);
+      RowSums there = problem.sums(next);
+      found.converged = !(promised > problem.rests);
+      fell = there.squares < found.sums.squares;
+      if (fell) {
+        found.fell = found.sums.squares - there.squares;
+        found.sums = std::move(there);
+        x = next;
+        damping = damping > kFirstDamping ? damping / kFurther : 0;
+        found.trace.push_back({x, found.sums.squares});
+      } else {
+        damping = std::max(kFirstDamping, kFurther * damping);
+      }
+    }
+  }
+  found.x = std::move(x);
+  return found;
+}
+
+}  // namespace warmjoint

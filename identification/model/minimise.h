@@ -1,0 +1,51 @@
+// The least squares of a model: the one solver of what is fitted to a log by its derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "identification/layout.h"
+
+namespace warmjoint {
+
+/// Rows of a least-squares problem at a point x, summed, over the variance of the noise: J the derivatives of the model, r what it
+/// leaves of the data. What is known beside the data counts as rows, too.
+struct RowSums {
+  Eigen::MatrixXd gram;     // [p x p] J^T J
+  Eigen::VectorXd product;  // [p] J^T r, minus half the slope of the squares
+  double squares = 0;       // r^T r
+};
+
+/// What is minimised, and within which limits. Empty limits: none.
+struct SquaresProblem {
+  std::function<RowSums(const Eigen::VectorXd& x)> sums{};
+  Eigen::VectorXd lower{}, upper{};  // [p] of x
+  Eigen::VectorXd largest_step{};    // [p] in one iteration
+  std::vector<Eigen::Index> held{};  // unknowns that stay as they are
+  int most_iterations = 50;
+  /// Fall of the squares that the next step promises, in variances of the noise, at which a fit rests: no unknown is farther from
+  /// the minimum than its root, in standard deviations.
+  double rests = 1e-10;
+};
+
+struct Minimum {
+  Eigen::VectorXd x;                   // [p]
+  RowSums sums;                        // there
+  std::vector<FitPoint> trace;         // all iterates, the last is x
+  std::vector<Eigen::Index> at_bound;  // unknowns that the squares push against their bounds
+  double fell = 0;                     // the squares in the last iteration
+  bool converged = false;
+};
+
+/// From x on by Gauss-Newton's steps, damped as Levenberg and Marquardt do (SIAM J. Appl. Math. 11, 1963) where one does not
+/// lower the squares. Unknowns at a bound that the squares push outwards stay there. Has not converged where the squares are
+/// not finite.
+Minimum Minimise(const SquaresProblem& problem, Eigen::VectorXd x);
+
+/// x = H^-1 b of a positive semidefinite H of any scale; directions that H does not know stay 0.
+Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& b);
+/// The inverse in the same sense.
+Eigen::MatrixXd InverseScaled(const Eigen::MatrixXd& h);
+
+}  // namespace warmjoint
