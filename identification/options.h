@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <concepts>
 #include <map>
 #include <memory>
@@ -59,6 +60,14 @@ requires std::is_class_v<E>
 void ReadValue(const Node& node, E* value, const FieldInfo&) { *value = ChoiceOf<E>(node); }
 template <HasWords E>
 requires std::is_class_v<E> Tree WriteValue(const E& value) { return NameOf(value); }
+
+/// Whether a part of the model is estimated: warming, friction by load, a lag or delay of the torque, damping, inertia.
+enum class PartFit { none, estimated };
+inline std::span<const Word<PartFit>> WordsOf(PartFit) {
+  static constexpr std::array words{Word{"none", PartFit::none},
+                                    Word{"estimated", PartFit::estimated}};
+  return words;
+}
 
 /// Lists the options of a struct.
 class OptionLister {

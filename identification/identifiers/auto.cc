@@ -80,7 +80,7 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
 void TryLoad(const IdentifierInput& input, ModelComparison& comparison) {
   const Structure* best = comparison.Best();
   if (!best || (best->gravity() == FittedGravity::none && !input.measurements.load)) return;
-  comparison.Add({best->With(LoadOption{LoadFit::estimated})});
+  comparison.Add({best->With(LoadOption{PartFit::estimated})});
 }
 
 /// Gravity to try beside maps: that of the best linear structure, but a sine where that is paired, over
@@ -98,22 +98,22 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
   const bool cold = TakesColdStart(input.options), too_short = !WhyTooShort(input).empty();
 
   // a bend over the speed, with and without warming
-  comparison.Add({StribeckStructure(FittedWarming::none, gravity)});
+  comparison.Add({StribeckStructure(PartFit::none, gravity)});
   if (too_short) {
-    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated, gravity)}, WhyTooShort(input));
+    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)}, WhyTooShort(input));
   } else if (!cold) {
-    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated, gravity)},
+    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)},
                         "it takes the joint for cold as the log begins");
   } else if (comparison.MayBendAndWarm(gravity)) {
-    comparison.Add({StribeckStructure(FittedWarming::estimated, gravity)});
+    comparison.Add({StribeckStructure(PartFit::estimated, gravity)});
   } else {
-    comparison.LeaveOut({StribeckStructure(FittedWarming::estimated, gravity)},
+    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)},
                         "neither a bend over the speed nor a warming can be seen by itself");
   }
 
   // a level for each direction, where one may help
-  for (const FittedWarming warming : {FittedWarming::none, FittedWarming::estimated}) {
-    if ((!cold || too_short) && warming != FittedWarming::none) continue;
+  for (const PartFit warming : {PartFit::none, PartFit::estimated}) {
+    if ((!cold || too_short) && warming != PartFit::none) continue;
     if (!comparison.MayHaveTwoLevels(warming, gravity)) continue;
     comparison.Add({TwoLevelStribeckStructure(warming, gravity)});
   }
@@ -259,7 +259,7 @@ Fit FitChosen(const IdentifierInput& input) {
 
   // on every sample, with the reason before what it says
   if (trials.lag && chosen.CanEstimateLag()) {
-    chosen = chosen.With(LagOption{TorqueLagFit::estimated});
+    chosen = chosen.With(LagOption{PartFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
   Fit fit = FitOnAll(chosen, late, input);

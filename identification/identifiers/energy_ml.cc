@@ -20,7 +20,7 @@ constexpr const char* kEnergyMl = "energy-ml";
 
 Fit FitAsAsked(const IdentifierInput& input) {
   if (input.options.Get<WarmMapOptions>().position == WarmMap::none) {
-    return FitLaw(kEnergyMl, input, HeatFit::estimated);
+    return FitLaw(kEnergyMl, input, PartFit::estimated);
   }
   // what cannot be had together
   if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);

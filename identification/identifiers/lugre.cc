@@ -171,7 +171,7 @@ std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const F
                                 steady,
                                 EvenIntervals(m.size(), 1),
                                 kExponent,
-                                FittedWarming::none,
+                                PartFit::none,
                                 1,
                                 FindFallingLaw(law.steady)};
   const std::vector<FitPoint> scan = ScanStribeckVelocity(problem);
@@ -319,17 +319,10 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   JudgeTurns(m, noise, fit);
 }
 
-enum class Estimation { estimated, none };
-std::span<const Word<Estimation>> WordsOf(Estimation) {
-  static constexpr std::array words{Word{"estimated", Estimation::estimated},
-                                    Word{"none", Estimation::none}};
-  return words;
-}
-
 struct LuGreOptions {
   FallingLawOf<BristleFallingLaws> law;
-  Estimation damping = Estimation::estimated;
-  Estimation inertia = Estimation::estimated;
+  PartFit damping = PartFit::estimated;
+  PartFit inertia = PartFit::estimated;
 
   template <class A>
   void Serialize(A* a) {
@@ -354,9 +347,9 @@ Fit FitLugre(const IdentifierInput& input) {
   const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
   LugreProblem problem = MakeLugreProblem(input, law, scale);
   // what the options hold at 0 is not estimated
-  if (options.damping == Estimation::none)
+  if (options.damping == PartFit::none)
     problem.constant.push_back(static_cast<int>(problem.layout().damping()));
-  if (options.inertia == Estimation::none)
+  if (options.inertia == PartFit::none)
     problem.constant.push_back(static_cast<int>(problem.layout().inertia()));
   const std::vector<FitPoint> scan =
       ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, law, distance); });

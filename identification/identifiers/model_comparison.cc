@@ -241,17 +241,17 @@ bool ModelComparison::MayWarmWith(FittedGravity gravity) const {
 }
 
 bool ModelComparison::MayBendAndWarm(FittedGravity gravity) const {
-  return MayWarm() || Find(StribeckStructure(FittedWarming::none, gravity))->inferred.status !=
+  return MayWarm() || Find(StribeckStructure(PartFit::none, gravity))->inferred.status !=
                           Status::not_identifiable;
 }
 
-bool ModelComparison::MayHaveTwoLevels(FittedWarming warming, FittedGravity gravity) const {
+bool ModelComparison::MayHaveTwoLevels(PartFit warming, FittedGravity gravity) const {
   const Trial& one = *Find(StribeckStructure(warming, gravity));
   if (one.inferred.status == Status::ok) return Pushes(one.fit);
 
   // where the curve does not fit: by a linear law, or by two levels without warming
-  if (warming == FittedWarming::none) return Pushes(First().fit);
-  const Trial* cold = Find(TwoLevelStribeckStructure(FittedWarming::none, gravity));
+  if (warming == PartFit::none) return Pushes(First().fit);
+  const Trial* cold = Find(TwoLevelStribeckStructure(PartFit::none, gravity));
   return cold && cold->inferred.status == Status::ok;
 }
 

@@ -92,7 +92,7 @@ class ModelComparison {
   /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
   /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
   /// more, that two levels fit without it.
-  bool MayHaveTwoLevels(FittedWarming warming, FittedGravity gravity) const;
+  bool MayHaveTwoLevels(PartFit warming, FittedGravity gravity) const;
 
   /// Drops laws without a slope over speed beside the same structure with one: a slope that is not significant is not 0, and its
   /// interval tells how far. They stand where the motion cannot tell a slope.

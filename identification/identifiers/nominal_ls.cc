@@ -17,7 +17,7 @@ Identifier NominalLs() {
   return {name, "a nominal law by linear least squares, without warming",
           OptionGroups<LawOption, GravityOption, LoadOption, MotionOption, LossOption, LagOption,
                        DelayOption>{},
-          [](const IdentifierInput& input) { return FitLaw(name, input, HeatFit::none); }};
+          [](const IdentifierInput& input) { return FitLaw(name, input, PartFit::none); }};
 }
 
 }  // namespace warmjoint

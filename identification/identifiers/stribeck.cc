@@ -45,7 +45,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   const Eigen::MatrixXd kept = Kept(BesideRigid(columns, problem), problem.selection);
   const LeastSquares cold = SolveLeastSquares(kept, torque);
   const double squares = (torque - kept * cold.solution).squaredNorm();
-  if (problem.warming == FittedWarming::none) return squares;
+  if (problem.warming == PartFit::none) return squares;
 
   // with warming, from the best time constant of a scan
   const ClosedLoop loop = ClosedLoop::Along(m, columns);
@@ -81,7 +81,7 @@ std::string Unseen(const IdentifierInput& input, const FallingLaw& law, double e
 /// What the law leaves without warming. (N.m)^2 or N^2
 double ColdSquares(const StribeckProblem& problem) {
   StribeckProblem cold = problem;
-  cold.warming = FittedWarming::none;
+  cold.warming = PartFit::none;
   const std::vector<FitPoint> scan = ScanStribeckVelocity(cold);
   return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
 }
@@ -89,7 +89,7 @@ double ColdSquares(const StribeckProblem& problem) {
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
 std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
                                               const StribeckFit& fit, const Uncertainty& known) {
-  if (problem.warming == FittedWarming::none) return std::nullopt;
+  if (problem.warming == PartFit::none) return std::nullopt;
   const Layout at = problem.layout();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
@@ -193,7 +193,7 @@ Fit FitStribeck(const IdentifierInput& given) {
   fit.trace = ScanTrace(law, options.exponent, scan, 1, input.selection.count());
   SetFallingModel(law, options.exponent, problem.layout(), scan[0].x, m, fit);
   const double seen = Explained(problem, without, scan[0]);
-  if (problem.warming == FittedWarming::none && seen < 0.5 * kVisibleWarming) {
+  if (problem.warming == PartFit::none && seen < 0.5 * kVisibleWarming) {
     fit.refusal = {Status::not_identifiable, Unseen(input, law, seen)};
   } else {
     const StribeckFit best =

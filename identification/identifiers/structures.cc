@@ -90,7 +90,7 @@ bool Structure::CanEstimateDelay() const {
 Structure Structure::Quick() const {
   Structure sketch = Sketch();
   // rows of means do not tell it
-  if (CanEstimateDelay()) sketch = sketch.With(DelayOption{TorqueDelayFit::none});
+  if (CanEstimateDelay()) sketch = sketch.With(DelayOption{PartFit::none});
   if (!strength) return sketch;
   auto made = sketch.identifier.options.Get<MapOptions>();
   made.strength = *strength;
@@ -142,13 +142,13 @@ std::vector<Structure> WarmStructures(FittedGravity gravity) {
                           {Coulomb::name, ViscousCoulomb::name, Asymmetric::name});
 }
 
-Structure StribeckStructure(FittedWarming warming, FittedGravity gravity) {
+Structure StribeckStructure(PartFit warming, FittedGravity gravity) {
   return Structure{StribeckIdentifier(), "warming"}
       .With(StribeckOptions{.warming = warming})
       .With(GravityOption{gravity});
 }
 
-Structure TwoLevelStribeckStructure(FittedWarming warming, FittedGravity gravity) {
+Structure TwoLevelStribeckStructure(PartFit warming, FittedGravity gravity) {
   return StribeckStructure(warming, gravity)
       .With(StribeckOptions{{&FindFallingLaw(AsymmetricStribeck::name)}, warming});
 }
@@ -199,7 +199,7 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
   if (!ShowsLag(runs, torque, residual)) return std::nullopt;
 
   // then how long it is, by the structure that estimates it
-  const Fit behind = structure.With(LagOption{TorqueLagFit::estimated}).Fitted(input);
+  const Fit behind = structure.With(LagOption{PartFit::estimated}).Fitted(input);
   if (behind.refusal || !behind.torque_lag) return std::nullopt;
   return behind.torque_lag->time_constant;
 }
@@ -220,7 +220,7 @@ std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
   if (!IsLate(fit)) return std::nullopt;
 
   // the law beside that of a fit without it
-  const Fit in_time = richest.With(DelayOption{TorqueDelayFit::none}).Fitted(input);
+  const Fit in_time = richest.With(DelayOption{PartFit::none}).Fitted(input);
   const Eigen::MatrixXd columns =
       LawColumns(*FindLaw(fit.friction.law), Kept(m.velocity, fit.used));
   const auto along = [&](const Fit& one) -> Eigen::VectorXd {

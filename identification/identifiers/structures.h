@@ -93,10 +93,10 @@ std::vector<Structure> ColdStructures(FittedGravity gravity);
 std::vector<Structure> WarmStructures(FittedGravity gravity);
 
 /// The Stribeck law beside gravity.
-Structure StribeckStructure(FittedWarming warming, FittedGravity gravity);
+Structure StribeckStructure(PartFit warming, FittedGravity gravity);
 
 /// The same with a Coulomb level for each direction of motion.
-Structure TwoLevelStribeckStructure(FittedWarming warming, FittedGravity gravity);
+Structure TwoLevelStribeckStructure(PartFit warming, FittedGravity gravity);
 
 /// Maps whose kernels are chosen already, or nothing where they are not.
 struct ChosenKernels {

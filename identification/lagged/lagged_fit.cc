@@ -71,7 +71,7 @@ MatrixXd AtSamples(const MatrixXd& kept, const KeptRuns& runs, Index all) {
 }  // namespace
 
 bool AsksForLag(const Options& options) {
-  return options.OrDefault<LagOption>().torque_lag == TorqueLagFit::estimated;
+  return options.OrDefault<LagOption>().torque_lag == PartFit::estimated;
 }
 
 std::optional<std::string> WhyNoLag(const IdentifierInput& input) {

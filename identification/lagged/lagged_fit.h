@@ -2,30 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
 #include "identification/lagged/lagged_rows.h"
+#include "identification/options.h"
 
 namespace warmjoint {
 
-/// Whether a lag of the torque is estimated.
-enum class TorqueLagFit { none, estimated };
-inline std::span<const Word<TorqueLagFit>> WordsOf(TorqueLagFit) {
-  static constexpr std::array words{Word{"none", TorqueLagFit::none},
-                                    Word{"estimated", TorqueLagFit::estimated}};
-  return words;
-}
-
 /// The option of an identifier that can estimate a lag.
 struct LagOption {
-  TorqueLagFit torque_lag = TorqueLagFit::none;
+  PartFit torque_lag = PartFit::none;
 
   template <class A>
   void Serialize(A* a) {

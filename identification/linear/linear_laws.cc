@@ -65,16 +65,16 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   return columns;
 }
 
-Eigen::MatrixXd NominalColumns(const Law& law, LoadFit load, const LogSamples& m,
+Eigen::MatrixXd NominalColumns(const Law& law, PartFit load, const LogSamples& m,
                                const Eigen::VectorXd& velocity) {
   Eigen::MatrixXd columns = LawColumns(law, velocity);
-  if (load == LoadFit::none) return columns;
+  if (load == PartFit::none) return columns;
   columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
   columns.rightCols(1) = m.load->cwiseAbs().cwiseProduct(velocity.cwiseSign());
   return columns;
 }
 
-Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& m, LoadFit load) {
+Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& m, PartFit load) {
   return m.loss_velocity ? NominalColumns(law, load, m, *m.loss_velocity) : Eigen::MatrixXd();
 }
 

@@ -5,9 +5,9 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <span>
 
+#include "identification/options.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/laws.h"
 
@@ -41,17 +41,9 @@ struct LawOption {
 /// velocity: [N] rad/s or m/s; returns [N x d]. The law must be linear.
 Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity);
 
-/// Whether friction grows with what the joint carries.
-enum class LoadFit { none, estimated };
-inline std::span<const Word<LoadFit>> WordsOf(LoadFit) {
-  static constexpr std::array words{Word{"none", LoadFit::none},
-                                    Word{"estimated", LoadFit::estimated}};
-  return words;
-}
-
-/// The option of an identifier that can estimate it.
+/// The option of an identifier that can estimate friction that grows with what the joint carries.
 struct LoadOption {
-  LoadFit load = LoadFit::none;
+  PartFit load = PartFit::none;
 
   template <class A>
   void Serialize(A* a) {
@@ -63,12 +55,12 @@ struct LoadOption {
 
 /// Regressor of Fn with load_gain behind the law's parameters where it is estimated: |load| sign(v). velocity: [N]; load: [N] of
 /// the log; returns [N x d] or [N x d + 1]
-Eigen::MatrixXd NominalColumns(const Law& law, LoadFit load, const LogSamples& measurements,
+Eigen::MatrixXd NominalColumns(const Law& law, PartFit load, const LogSamples& measurements,
                                const Eigen::VectorXd& velocity);
 
 /// The same at the loss velocity of a log, which makes the losses of ClosedLoop::Along; empty where it
 /// tells none.
 Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& measurements,
-                            LoadFit load = LoadFit::none);
+                            PartFit load = PartFit::none);
 
 }  // namespace warmjoint

@@ -152,7 +152,7 @@ Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 }
 
 LinearTask BeginLinear(const IdentifierInput& given, int more) {
-  LinearTask task{*given.options.Get<LawOption>().law, LoadFit::none, {}, {}, {}};
+  LinearTask task{*given.options.Get<LawOption>().law, PartFit::none, {}, {}, {}};
   if (given.measurements.load) task.load = given.options.OrDefault<LoadOption>().load;
   RigidPart& gravity = task.gravity;
 

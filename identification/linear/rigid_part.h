@@ -66,7 +66,7 @@ inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inerti
 /// Law, load, gravity and inertia, all linear in their parameters, on usable data.
 struct LinearTask {
   const Law& law;
-  LoadFit load = LoadFit::none;
+  PartFit load = PartFit::none;
   RigidPart gravity;
   Eigen::MatrixXd columns;         // [N x d] over all samples: law and load, then gravity
   std::optional<Refusal> refusal;  // why nothing can be fitted; there may be no columns then

@@ -135,7 +135,7 @@ Fit FitOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
 
 /// Maps over the energy of a law without maps.
 Fit FitBehindLaw(const std::string& name, const IdentifierInput& input, const MapModel& model) {
-  Fit warm = FitLaw(name, input, HeatFit::estimated);
+  Fit warm = FitLaw(name, input, PartFit::estimated);
   if (!GivesFriction(warm)) return warm;
   const MapTask task = MakeMapTask(input, name);
   std::optional<Thermal>& thermal = warm.friction.thermal;

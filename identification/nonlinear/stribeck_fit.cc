@@ -20,7 +20,7 @@ namespace {
 constexpr int kVelocities = 16;  // of the grid
 
 /// Residuals (F - tau) / scale of the kept samples less what columns take of them, as Ceres' automatic derivatives want them.
-template <typename L, FittedWarming W>
+template <typename L, PartFit W>
 class Residuals {
  public:
   /// basis: [n x q] orthonormal, of the columns
@@ -39,7 +39,7 @@ class Residuals {
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
       T force = L::Force(v, law.data());
-      if constexpr (W == FittedWarming::estimated) {
+      if constexpr (W == PartFit::estimated) {
         force = WarmForce(v, force, energy);
         const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
         energy = ThermalStep(T(x[kAt.gain()] * hold.cooling), hold.pole, energy, Loss(v, force));
@@ -51,7 +51,7 @@ class Residuals {
     return isfinite(energy) && isfinite(law[kAt.log_vs()]);
   }
 
-  static constexpr Layout kAt = LayoutOf<L>(W == FittedWarming::estimated);
+  static constexpr Layout kAt = LayoutOf<L>(W == PartFit::estimated);
 
  private:
   /// Takes off the part of the residuals that lies along the basis.
@@ -68,7 +68,7 @@ class Residuals {
   template <typename T>
   std::vector<ThermalHold<T>> HoldsOf(const T* x) const {
     std::vector<ThermalHold<T>> holds;
-    if constexpr (W == FittedWarming::estimated) {
+    if constexpr (W == PartFit::estimated) {
       using std::exp;
       const T rate = exp(-x[kAt.log_time_constant()]);
       for (const double h : problem_.intervals.length) {
@@ -97,7 +97,7 @@ Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& columns) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
 }
 
-template <typename L, FittedWarming W>
+template <typename L, PartFit W>
 StribeckFit Refine(const StribeckProblem& problem, const FitPoint& start) {
   constexpr int P = static_cast<int>(Residuals<L, W>::kAt.size());
   using Cost = ceres::AutoDiffCostFunction<Residuals<L, W>, ceres::DYNAMIC, P>;
@@ -159,7 +159,7 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
   const Layout at = problem.layout();
   FitPoint point{Eigen::VectorXd(at.size())};
   point.x[at.log_vs()] = std::log(velocity);
-  if (problem.warming == FittedWarming::none) {
+  if (problem.warming == PartFit::none) {
     at.law.In(point.x) = cold.solution.head(columns.cols());
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
@@ -212,9 +212,8 @@ std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem) {
 
 StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start) {
   return ForLawNamed(SteadyFallingLaws{}, problem.law.law.name, [&]<typename L>() {
-    return problem.warming == FittedWarming::none
-               ? Refine<L, FittedWarming::none>(problem, start)
-               : Refine<L, FittedWarming::estimated>(problem, start);
+    return problem.warming == PartFit::none ? Refine<L, PartFit::none>(problem, start)
+                                            : Refine<L, PartFit::estimated>(problem, start);
   });
 }
 

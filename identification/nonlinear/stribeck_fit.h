@@ -7,23 +7,16 @@
 #include <vector>
 
 #include "identification/nonlinear/falling_law.h"
+#include "identification/options.h"
 #include "identification/warming/scan_time_constant.h"
 #include "models/friction/intervals.h"
 
 namespace warmjoint {
 
-/// Whether E of Eqs. (19)-(22) is part of the fit.
-enum class FittedWarming { none, estimated };
-inline std::span<const Word<FittedWarming>> WordsOf(FittedWarming) {
-  static constexpr std::array words{Word{"none", FittedWarming::none},
-                                    Word{"estimated", FittedWarming::estimated}};
-  return words;
-}
-
 /// The options of a fit of such a law.
 struct StribeckOptions {
   FallingLawOf<SteadyFallingLaws> law{};
-  FittedWarming warming = FittedWarming::none;
+  PartFit warming = PartFit::none;
   double exponent = 2;
 
   template <class A>
@@ -42,13 +35,13 @@ struct StribeckProblem {
   const Selection& selection;  // E runs over all samples, the fit is to those kept
   Intervals intervals;         // FindIntervals(time, starts)
   double exponent = 2;         // delta, fixed
-  FittedWarming warming = FittedWarming::none;
+  PartFit warming = PartFit::none;
   double scale = 1;                                        // about the torque's rms, N.m or N
   const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
   Eigen::MatrixXd
       rigid{};  // [N x q] gravity and inertia, whose unknowns stand behind x; [0 x 0]: none
 
-  Layout layout() const { return law.layout(warming == FittedWarming::estimated); }
+  Layout layout() const { return law.layout(warming == PartFit::estimated); }
 };
 
 /// Columns with those of the problem's rigid part behind them. columns: [N x d]; returns [N x d + q]

@@ -368,8 +368,8 @@ Fit Conclude(LawFit law) {
 }
 
 /// The fit to a torque that follows its motion at once, or behind a first-order lag.
-Fit FitLawInTime(const std::string& name, const IdentifierInput& given, HeatFit heat) {
-  const bool warms = heat == HeatFit::estimated;
+Fit FitLawInTime(const std::string& name, const IdentifierInput& given, PartFit heat) {
+  const bool warms = heat == PartFit::estimated;
   const LinearTask task = BeginLinear(given, warms ? 3 : 0);
   if (task.refusal) return Refused(name, *task.refusal);
   const IdentifierInput chosen = task.gravity.Of(given);
@@ -405,7 +405,7 @@ Fit FitLawInTime(const std::string& name, const IdentifierInput& given, HeatFit 
 
 }  // namespace
 
-Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat) {
+Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat) {
   if (auto why = WhyNoLag(given)) return Refused(name, Status::bad_data, *why);
   if (auto why = WhyNoLoad(given)) return Refused(name, Status::bad_data, *why);
   const auto under = [&](const IdentifierInput& one) { return FitLawInTime(name, one, heat); };

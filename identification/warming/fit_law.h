@@ -6,12 +6,10 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
+#include "identification/options.h"
 #include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
-
-/// Whether a fit of a law has heat.
-enum class HeatFit { none, estimated };
 
 /// (p, k, tau, ...) = argmin sum over the kept samples of (tau - F - G - M a)^2, maximum likelihood for white noise on
 /// the torque: without heat by linear least squares, Eqs. (7)-(9); with heat over the closed loop (19)-(22), from a
@@ -20,7 +18,7 @@ enum class HeatFit { none, estimated };
 /// more to whitened rows, unless that changes more than noise may (hausman_test.h).
 /// not_identifiable where the motion cannot tell the columns apart, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier
-Fit FitLaw(const std::string& name, const IdentifierInput& given, HeatFit heat);
+Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat);
 
 /// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
 /// further starts among them

@@ -48,7 +48,7 @@ void AddLoadOfGravity(const VectorXd& load, const LogSamples& m, Fit& fit) {
 }  // namespace
 
 bool AsksForLoad(const IdentifierInput& given) {
-  return given.options.OrDefault<LoadOption>().load == LoadFit::estimated;
+  return given.options.OrDefault<LoadOption>().load == PartFit::estimated;
 }
 
 std::optional<std::string> WhyNoLoad(const IdentifierInput& given) {

@@ -197,8 +197,7 @@ bool IsLate(const Fit& fit) {
 
 bool MayBeLate(const IdentifierInput& given) {
   const auto* option = given.options.Find<DelayOption>();
-  return given.measurements.acceleration && option &&
-         option->torque_delay == TorqueDelayFit::estimated;
+  return given.measurements.acceleration && option && option->torque_delay == PartFit::estimated;
 }
 
 Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {

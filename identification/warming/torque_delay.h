@@ -1,27 +1,18 @@
 // A torque that comes late beside the motion of any kind: one more unknown of a fit of law, heat, gravity and inertia.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
-#include <span>
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
+#include "identification/options.h"
 
 namespace warmjoint {
 
-/// Whether the delay of the torque is estimated.
-enum class TorqueDelayFit { none, estimated };
-inline std::span<const Word<TorqueDelayFit>> WordsOf(TorqueDelayFit) {
-  static constexpr std::array words{Word{"estimated", TorqueDelayFit::estimated},
-                                    Word{"none", TorqueDelayFit::none}};
-  return words;
-}
-
-/// The option of an identifier that can estimate it.
+/// The option of an identifier that can estimate the torque's delay.
 struct DelayOption {
-  TorqueDelayFit torque_delay = TorqueDelayFit::estimated;
+  PartFit torque_delay = PartFit::estimated;
 
   template <class A>
   void Serialize(A* a) {

@@ -144,7 +144,7 @@ TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
   const LogSamples m(test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3));
   const Selection selection = SelectMoving(m);
   const FallingLaw& law = FindFallingLaw(warm.law);
-  const StribeckProblem problem{m,  selection, FindIntervals(m.time), 2, FittedWarming::estimated,
+  const StribeckProblem problem{m,  selection, FindIntervals(m.time), 2, PartFit::estimated,
                                 10, law};
   const Eigen::Index levels = law.levels();
   const Layout at = problem.layout();
