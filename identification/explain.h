@@ -71,7 +71,8 @@ std::string ExplainDelayLeftOut(double delay, double step, double harm,
 /// Of samples left out because the torque lags, s.
 std::string ExplainLeftOutByLag(double lag);
 
-// of heat
+// of heat (explain_heat.cc)
+inline constexpr const char* kWithoutWarming = "without warming: ";  // why not
 inline constexpr const char* kOthersBeginCold =
     "what is expected of E(0) is taken for the first recording, and the others are taken to begin "
     "cold; use --start estimated if they did not";
@@ -88,6 +89,9 @@ std::string ExplainHeldLosses(double step, double change, Action action);
 /// Of gaps in the log whose losses are estimated, or which intervals cover (widen). time: [N] s
 std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
                         Action action);
+/// Of warming beside maps, and of maps over the energy that it gives.
+std::string ExplainWarmingBesideMaps(int rounds);
+std::string ExplainMapsOverEnergy(int rounds);
 
 // of maps
 inline constexpr const char* kMapHoldsGravity =
@@ -95,7 +99,6 @@ inline constexpr const char* kMapHoldsGravity =
     "--gravity sincos";
 inline constexpr const char* kMotorTurnsWithJoint =
     "the motor is taken to turn with the joint: give --gear, or log motor_position";
-inline constexpr const char* kWithoutWarming = "without warming: ";  // why not
 /// Of parameters, by their names, that maps can imitate.
 std::string ExplainImitated(const std::vector<std::string>& names);
 /// Of friction below 0 at a speed, beside the gravity that the fit has.
@@ -106,9 +109,6 @@ std::string ExplainHoles(const std::vector<std::string>& holes);
 /// Of a motor's ripple. harmonics: how often a turn, and amplitude in `unit`
 std::string ExplainMotorRipple(bool forwards, const std::vector<std::pair<int, double>>& harmonics,
                                const std::string& unit);
-/// Of warming beside maps, and of maps over the energy that it gives.
-std::string ExplainWarmingBesideMaps(int rounds);
-std::string ExplainMapsOverEnergy(int rounds);
 
 /// What a test for lack of fit found.
 struct FoundPart {

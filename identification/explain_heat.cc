@@ -1,0 +1,65 @@
+// Sentences on heat and warming.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/explain.h"
+
+namespace warmjoint {
+
+std::string ExplainColdStart(const MovedParameter& moved, double begins, std::string_view remedy) {
+  const std::string clock =
+      begins == 0
+          ? ""
+          : fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", begins);
+  return fmt::format(
+      "this assumes a cold start{}: had the joint been 10 % warmed up, {} would be {:.2g} {} {}; "
+      "{}",
+      clock, moved.parameter.name, std::abs(moved.change), moved.parameter.unit,
+      moved.change < 0 ? "lower" : "higher", remedy);
+}
+
+std::string ExplainUnexpectedStart(double found, double expected, double deviation) {
+  return fmt::format(
+      "the log begins at a heat of {:.3g}, not at the {:.3g} +- {:.2g} that the recording before "
+      "it left: E(0) is taken from this log alone; check the pause, and that the joint rested in "
+      "it",
+      found, expected, deviation);
+}
+
+std::string ExplainHeldLosses(double step, double change, Action action) {
+  return fmt::format(
+      "Eq. (22) takes the losses as constant within each step of {:.3g} s; losses that change with "
+      "the heat within a step change thermal_time_constant by {:.2g} s{}",
+      step, change,
+      action == Action::shift ? ", and describe the log better: the numbers given are theirs"
+                              : ": the intervals cover both; log faster");
+}
+
+std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
+                        Action action) {
+  const double first = time[gaps[0].behind - 1];
+  const double longest = std::ranges::max_element(gaps, {}, &LogGap::length)->length;
+  const std::string where =
+      gaps.size() == 1 ? fmt::format("a gap of {:.4g} s", longest)
+                       : fmt::format("{} gaps of up to {:.4g} s, the first", gaps.size(), longest);
+  return fmt::format("{} at {:.6g} s: the losses during that time are unknown{}", where, first,
+                     action == Action::widen
+                         ? ", and intervals were widened to cover this; record without gaps"
+                         : " and are estimated, too");
+}
+
+std::string ExplainWarmingBesideMaps(int rounds) {
+  return fmt::format("warming beside them in {} rounds", rounds);
+}
+
+std::string ExplainMapsOverEnergy(int rounds) {
+  return fmt::format(
+      "the energy state is consistent with the losses of the fit after {} rounds; thermal_gain and "
+      "thermal_time_constant have no interval, since maps over the energy absorb part of their "
+      "effect",
+      rounds);
+}
+
+}  // namespace warmjoint
