@@ -112,19 +112,19 @@ std::optional<Backend> CheckOutputs(const IdentifyArguments& arguments) {
   return Backend();
 }
 
-/// Fits and judges, or asks the command.
-Answered Answer(const Asked& asked, const PreparedLog& log, const HoldOutSource& holdout,
+/// Fits and judges, or asks the command. context: without a narrator
+Answered Answer(const Asked& asked, const PreparedLog& log, IdentifyContext context,
                 Activity& activity) {
   if (asked.task) {
     const std::string fitting =
         fmt::format("fitting {} to {} samples", asked.name, log.raw().measurements.size());
     activity.Is(fitting);
-    const auto listen = [&](const std::string& words) { activity.Is(fitting + ", " + words); };
-    return {asked.name, IdentifyLog(*asked.task, log, holdout, listen), "", ""};
+    context.narrator = [&](const std::string& words) { activity.Is(fitting + ", " + words); };
+    return {asked.name, Identify(*asked.task, log, context), "", ""};
   }
   activity.Is("waiting for " + asked.name);
   try {
-    const Estimate estimate = IdentifyByCommand(*asked.command, log, holdout);
+    const Estimate estimate = IdentifyByCommand(*asked.command, log, context.holdout);
     return {asked.name, Identified{estimate, estimate}, "", ""};
   } catch (const NoAnswer& failure) {
     return {asked.name, std::nullopt, failure.status, failure.what()};
@@ -149,22 +149,28 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
   WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
 }
 
+/// Says that friction in amperes is of no use to MuJoCo.
+void NoticeAmperes(const Estimate& estimate, JointKind joint, Activity& activity) {
+  if (!estimate.friction || estimate.friction->torque_unit.empty()) return;
+  activity.Aside([&] {
+    SayNotice(
+        "friction is in {}, of use to predict, but not to MuJoCo: --torque-constant K, in {}/A at "
+        "the joint, makes torque of the current\n",
+        estimate.friction->torque_unit, kTorqueUnit.For(joint));
+  });
+}
+
 /// Writes, draws and prints an estimate of the log.
-void Deliver(const IdentifyArguments& arguments, const Identified& identified,
-             const std::optional<CarriedHeat>& heat, const PreparedLog& log,
+void Deliver(const IdentifyArguments& arguments, Identified identified, const PreparedLog& log,
              const std::optional<Backend>& backend, Activity& activity) {
   const Measurements& measurements = log.raw().measurements;
-  // friction in amperes is no use to MuJoCo, and says so where it is written
-  const auto& [estimate, shown] = identified;
-  Estimate written = estimate;
-  const std::string notice = MarkAmperes(measurements, written);
-  if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
+  auto& [estimate, shown] = identified;
+  NoticeAmperes(estimate, measurements.joint, activity);
 
   // files and picture first, so that words follow what is there
-  written.recording = arguments.recording;
-  written.follows = heat;
-  const std::string file = EstimateToJson(written, arguments.output);
-  WriteOutputs(arguments, written, file, measurements, activity);
+  estimate.recording = arguments.recording;
+  const std::string file = EstimateToJson(estimate, arguments.output);
+  WriteOutputs(arguments, estimate, file, measurements, activity);
   if (backend) {
     activity.Is("drawing " + arguments.plot);
     DrawRequest request{.figures = {"fit"}};
@@ -220,21 +226,20 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
 
   // what is held out, the log, and the heat that an earlier recording left
   Activity activity("reading the recording");
-  const HoldOutSource holdout = ReadHoldOut(arguments);
+  IdentifyContext context{.holdout = ReadHoldOut(arguments)};
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   activity.Aside([&] { TellNotes(log); });
-  std::optional<CarriedHeat> heat;
   if (arguments.earlier.is_given()) {
     activity.Is("following " + arguments.earlier.file);
-    heat = HeatBefore(arguments.earlier, arguments.recording,
-                      SettingsOf(arguments, arguments.identifiers.front()), log.raw().measurements);
-    activity.Aside([&] { SayNotice("{}\n", Describe(*heat)); });
-    BeginWith(*heat, *asked.front().task);
+    context.follows =
+        HeatBefore(arguments.earlier, arguments.recording,
+                   SettingsOf(arguments, arguments.identifiers.front()), log.raw().measurements);
+    activity.Aside([&] { SayNotice("{}\n", Describe(*context.follows)); });
   }
 
   // one answer that can be trusted is enough
   std::vector<Answered> answers;
-  for (const Asked& one : asked) answers.push_back(Answer(one, log, holdout, activity));
+  for (const Asked& one : asked) answers.push_back(Answer(one, log, context, activity));
   const bool any_ok = std::ranges::any_of(answers, [](const Answered& one) {
     return one.identified && one.identified->estimate.status == Status::ok;
   });
@@ -242,7 +247,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   if (answers.size() > 1) {
     activity.Aside([&] { PrintSeveral(arguments, answers, log.raw().measurements.torque_unit); });
   } else if (first.identified) {
-    Deliver(arguments, *first.identified, heat, log, backend, activity);
+    Deliver(arguments, *first.identified, log, backend, activity);
   } else {
     activity.Aside([&] {
       fmt::print(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);

@@ -88,7 +88,7 @@ shown::ShownData RecordingReport(const ReportArguments& arguments, Activity& act
   activity.Is(
       fmt::format("fitting {} to {} samples", task.identifier.name, log.raw().measurements.size()));
   // of a void fit the numbers too
-  const Estimate shown = IdentifyLog(task, log, HoldOutSource{}).shown;
+  const Estimate shown = Identify(task, log, {HoldOutSource{}}).shown;
   // the command line that makes the same estimate
   std::vector<std::string> words{"warmjoint", "identify"};
   const std::vector<std::string> typed = WordsOf(recording);

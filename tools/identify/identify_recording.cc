@@ -2,86 +2,107 @@
 
 #include <fmt/format.h>
 
-#include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/identifiers/structures.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/bad_input.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr const char* kStartOption = "initial_energy";
-
-/// Names of the identifiers with an option, with commas between them.
-std::string Able(std::string_view option) {
+/// Names of the identifiers whose options have it, with commas between them.
+template <class Has>
+std::string Able(Has has) {
   std::vector<std::string> able;
   for (const Identifier& one : Identifiers()) {
-    if (one.options.Has(option)) able.push_back(one.name);
+    if (has(one.options)) able.push_back(one.name);
   }
   return fmt::format("{}", fmt::join(able, ", "));
 }
 
-/// Refuses what this identifier has no option for and others have.
-void RefuseOptionsOfOthers(const std::map<std::string, std::string>& given,
-                           const Identifier& identifier) {
+/// The same of a group of options.
+template <class... Groups>
+std::string AbleBy() {
+  return Able([](const Options& options) { return (options.Find<Groups>() || ...); });
+}
+
+/// --set. Refuses what this identifier has no option for and others have.
+Options ReadOptions(const std::map<std::string, std::string>& given, const Identifier& identifier) {
   for (const auto& [name, value] : given) {
-    const std::string able = identifier.options.Has(name) ? "" : Able(name);
+    if (identifier.options.Has(name)) continue;
+    const std::string able = Able([&](const Options& options) { return options.Has(name); });
     if (able.empty()) continue;
     Refuse({"--set"}, "{} has no option '{}'; name one that has it with --identifier: {}",
            identifier.name, name, able);
   }
+  return identifier.options.Read(given, {"--set"});
 }
 
-/// --start estimated, or --follows, as options of the identifier.
-void AddStart(const IdentifySettings& settings, const Identifier& identifier,
-              std::map<std::string, std::string>& given) {
-  if (settings.start != StartBelief::estimated && !settings.follows) return;
+/// With --start estimated, or --follows.
+Options WithStart(const IdentifySettings& settings, const Identifier& identifier,
+                  const Options& options) {
+  if (settings.start != StartBelief::estimated && !settings.follows) return options;
   const char* option = settings.follows ? "--follows" : "--start";
-  if (!identifier.options.Has(kStartOption)) {
+  const auto* group = options.Find<InitialEnergyOptions>();
+  if (!group) {
     Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name,
-           Able(kStartOption));
+           AbleBy<InitialEnergyOptions>());
   }
   // only one option may say how warm the joint is at the start
-  if (settings.follows && (settings.start != StartBelief::cold || given.contains(kStartOption))) {
+  const bool is_cold = settings.start == StartBelief::cold;
+  if (settings.follows && (!is_cold || settings.options.contains("initial_energy"))) {
     Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
-           settings.start != StartBelief::cold ? "--start" : "--set initial_energy");
+           is_cold ? "--set initial_energy" : "--start");
   }
-  given[kStartOption] = settings.follows ? "expected" : "estimated";
+  InitialEnergyOptions start = *group;
+  start.initial_energy = settings.follows ? StartOfHeat::expected : StartOfHeat::estimated;
+  return options.With(start);
 }
 
-/// --motion as an option of the identifier.
-void AddMotion(MotionKind motion, const Identifier& identifier,
-               std::map<std::string, std::string>& given) {
-  if (motion == MotionKind::chosen) return;
-  if (!identifier.options.Has("motion")) {
-    if (motion == MotionKind::constant && identifier.view == View::constant_speed) return;
-    Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
-           identifier.name, Able("motion"));
-  }
-  given["motion"] = NameOf(motion);
+/// With --motion.
+Options WithMotion(MotionKind motion, const Identifier& identifier, const Options& options) {
+  if (motion == MotionKind::chosen) return options;
+  if (options.Find<MotionOption>()) return options.With(MotionOption{motion});
+  if (motion == MotionKind::constant && identifier.view == View::constant_speed) return options;
+  Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
+         identifier.name, AbleBy<MotionOption>());
 }
 
-/// --set, and --start, --motion and --gravity as three of them.
-std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings,
-                                                const Identifier& identifier, JointKind joint) {
-  // the start and the motion first, then gravity
-  auto given = settings.options;
-  AddStart(settings, identifier, given);
-  AddMotion(settings.motion, identifier, given);
-  if (settings.gravity == FittedGravity::none) return given;
-  if (!identifier.options.Has("gravity")) {
+/// With --gravity.
+Options WithGravity(FittedGravity gravity, const Identifier& identifier, JointKind joint,
+                    const Options& options) {
+  if (gravity == FittedGravity::none) return options;
+  const auto* choosing = options.Find<AutoOptions>();
+  if (!choosing && !options.Find<GravityOption>()) {
     Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
-           Able("gravity"));
+           AbleBy<AutoOptions, GravityOption>());
   }
   // gravity over an angle needs one
-  if (settings.gravity == FittedGravity::sincos && joint == JointKind::linear) {
+  if (gravity == FittedGravity::sincos && joint == JointKind::linear) {
     Refuse({"--gravity"},
            "sincos needs an angle and the joint is linear, where gravity does not depend on "
            "position; use paired");
   }
-  given["gravity"] = NameOf(settings.gravity);
-  return given;
+  if (!choosing) return options.With(GravityOption{gravity});
+  AutoOptions to_try = *choosing;
+  to_try.gravity.kind = gravity;
+  return options.With(to_try);
+}
+
+/// Expecting the heat that an earlier recording left, with the doubt that it has. Refuses heat of two stages, of which
+/// identifiers fit one.
+Options WithHeat(const CarriedHeat& heat, const IdentifyTask& task) {
+  if (heat.energy.size() > 1) {
+    Refuse({"--follows"}, "{} holds two stages of warming, and {} fits one", heat.file,
+           task.identifier.name);
+  }
+  auto start = task.options.Get<InitialEnergyOptions>();
+  start.expected_energy = heat.energy[0];
+  start.expected_energy_std = heat.std[0];
+  return task.options.With(start);
 }
 
 /// The figures on what was held out, or why there are none; an answer that they contradict is refused.
@@ -111,22 +132,12 @@ LackOfFitSettings LackOfFitSettingsOf(const IdentifySettings& settings) {
 
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   const Identifier& identifier = FindIdentifier(settings.identifier);
-  const auto given = GivenOptions(settings, identifier, joint);
-  RefuseOptionsOfOthers(given, identifier);
-  Options options = identifier.options.Read(given, {"--set"});
+  // --set first, and over that what has a setting of its own
+  Options options = ReadOptions(settings.options, identifier);
+  options = WithStart(settings, identifier, options);
+  options = WithMotion(settings.motion, identifier, options);
+  options = WithGravity(settings.gravity, identifier, joint, options);
   return {identifier, std::move(options), LackOfFitSettingsOf(settings), settings.void_numbers};
-}
-
-void BeginWith(const CarriedHeat& heat, IdentifyTask& task) {
-  if (heat.energy.size() > 1) {
-    Refuse({"--follows"}, "{} holds two stages of warming, and {} fits one", heat.file,
-           task.identifier.name);
-  }
-  // expected with the doubt that it has
-  auto start = task.options.Get<InitialEnergyOptions>();
-  start.expected_energy = heat.energy[0];
-  start.expected_energy_std = heat.std[0];
-  task.options = task.options.With(start);
 }
 
 HoldOutSource HoldOutShare(double fraction) {
@@ -136,25 +147,33 @@ HoldOutSource HoldOutShare(double fraction) {
   return {fraction, std::nullopt};
 }
 
-Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
-                       const HoldOutSource& holdout, const Narrator& narrator) {
-  const IdentifierInput given{log, task.options, {}, narrator};
+Identified Identify(const IdentifyTask& task, const PreparedLog& log,
+                    const IdentifyContext& context) {
+  // what the identifier may look at
+  const Options options = context.follows ? WithHeat(*context.follows, task) : task.options;
+  const IdentifierInput given{log, options, context.start, context.narrator};
+
+  // the fit, what was found in it, and what that leaves of it; then how it does on unseen samples
   Answer answer = FitAndCheck(task.identifier, given, task.judging);
   const IdentifierInput input = InputOf(answer, task.identifier, given);
-  const HeldOut held = HoldOutBeside(task.identifier, input, holdout, answer);
+  const HeldOut held = HoldOutBeside(task.identifier, input, context.holdout, answer);
+
+  // what is reported; numbers of a refused fit are shown where that was asked for
   Estimate reported = ReportAnswer(task.identifier, input, answer);
   Identified identified{reported, WithVoidNumbers(task.identifier, input, answer, reported)};
-  // numbers of a refused fit are shown where that was asked for
   auto& [estimate, shown] = identified;
   if (task.void_numbers == VoidNumbers::show) {
     estimate = shown;
   } else {
     shown.message = estimate.message;
   }
-  // figures on held-out samples belong to both
+
+  // what belongs to both
   for (Estimate* one : {&estimate, &shown}) {
     one->holdout = held.metrics;
     one->without_holdout = held.why_none;
+    one->follows = context.follows;
+    MarkAmperes(log.raw().measurements, *one);
   }
   return identified;
 }
@@ -172,31 +191,21 @@ CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& r
   cold.follows = false;
   const PreparedLog log = ReadAndPrepare(before);
   const IdentifyTask task = CheckSettings(cold, before.read.joint);
-  const Estimate estimate = IdentifyLog(task, log, {0, std::nullopt}).estimate;
+  const Estimate estimate = Identify(task, log).estimate;
   return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
 }
 
-std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
-  const std::string_view unit = kTorqueUnit.For(measurements.joint);
-  if (!estimate.friction || measurements.torque_unit == unit) return "";
+void MarkAmperes(const Measurements& measurements, Estimate& estimate) {
+  if (!estimate.friction || measurements.torque_unit == kTorqueUnit.For(measurements.joint)) return;
   estimate.friction->torque_unit = measurements.torque_unit;
-  return fmt::format(
-      "friction is in {}, of use to predict, but not to MuJoCo: --torque-constant K, in {}/A at "
-      "the joint, makes torque of the current",
-      measurements.torque_unit, unit);
 }
 
 Estimate Identify(const PreparedLog& log, IdentifySettings settings, const HoldOutSource& holdout,
                   const std::optional<CarriedHeat>& follows, const Narrator& watch) {
-  const Measurements& measurements = log.raw().measurements;
   HoldOutShare(holdout.fraction);
   settings.follows = follows.has_value();
-  IdentifyTask task = CheckSettings(settings, measurements.joint);
-  if (follows) BeginWith(*follows, task);
-  Estimate estimate = IdentifyLog(task, log, holdout, watch).estimate;
-  MarkAmperes(measurements, estimate);
-  estimate.follows = follows;
-  return estimate;
+  const IdentifyTask task = CheckSettings(settings, log.raw().measurements.joint);
+  return Identify(task, log, {holdout, follows, {}, watch}).estimate;
 }
 
 }  // namespace warmjoint

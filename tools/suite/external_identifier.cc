@@ -391,6 +391,7 @@ CheckedCommand CheckCommand(const IdentifySettings& settings, Confinement confin
 Estimate IdentifyByCommand(const CheckedCommand& task, const PreparedLog& log,
                            const HoldOutSource& holdout) {
   Estimate estimate = task.ask(log, {});
+  MarkAmperes(log.raw().measurements, estimate);
   // held-out figures need samples to test on and an answer to be tested
   if (!holdout.other && holdout.fraction == 0) return estimate;
   if (estimate.status != Status::ok) {

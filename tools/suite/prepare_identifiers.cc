@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "models/foundation/excerpt.h"
+#include "tools/identify/identify_recording.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint {
@@ -69,9 +69,9 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(
     }
     // options are checked before anything runs
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options = identifier.options.Read(one.options, place);
-    prepared.emplace_back([identifier, options](const PreparedLog& log, StartKey start) {
-      return IdentifyAndCheck(identifier, {log, options, start});
+    const IdentifyTask task{identifier, identifier.options.Read(one.options, place)};
+    prepared.emplace_back([task](const PreparedLog& log, StartKey start) {
+      return Identify(task, log, {.start = start}).estimate;
     });
   }
   return prepared;

@@ -4,12 +4,17 @@
 #include <warmjoint/friction.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "identification/identifiers/identifier_list.h"
 #include "models/friction/friction_json.h"
 #include "tests/support/folders.h"
+#include "tests/support/refusal.h"
 #include "tests/tools/cli/in_a_folder.h"
 #include "tests/tools/cli/little_files.h"
+#include "tools/identify/identify_recording.h"
 
 namespace warmjoint {
 namespace {
@@ -157,6 +162,44 @@ TEST_F(IdentifyCommand, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) 
   EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("all numbers are void"));
   EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
   EXPECT_TRUE(std::filesystem::exists(at("friction.xml")));
+}
+
+TEST(CheckSettings, MakesOfEachSettingTheOptionOfItsName) {
+  const struct {
+    std::string option, word;
+    void (*set)(IdentifySettings& settings);
+  } settings[] = {
+      {"gravity", "sincos", [](auto& one) { one.gravity = FittedGravity::sincos; }},
+      {"motion", "any", [](auto& one) { one.motion = MotionKind::any; }},
+      {"initial_energy", "estimated", [](auto& one) { one.start = StartBelief::estimated; }}};
+  for (const Identifier& identifier : Identifiers()) {
+    for (const auto& [option, word, set] : settings) {
+      SCOPED_TRACE(identifier.name + ", " + option);
+      IdentifySettings asked;
+      asked.identifier = identifier.name;
+      set(asked);
+      const auto changed = [&] {
+        return CheckSettings(asked, JointKind::rotary).options.Changed();
+      };
+      if (!identifier.options.Has(option)) {
+        EXPECT_THAT(test::RefusalOf(changed), HasSubstr("use one of: "));
+        continue;
+      }
+      const std::map<std::string, std::string> expected{{option, word}};
+      EXPECT_EQ(changed(), expected);
+      // over what --set says of it
+      for (const OptionInfo& info : identifier.options.List()) {
+        if (info.name == option) asked.options[option] = info.value;
+      }
+      EXPECT_EQ(changed(), expected);
+    }
+  }
+}
+
+TEST_F(IdentifyCommand, SaysOfEachOfSeveralThatItsFrictionIsInAmperes) {
+  const auto all = Json(With(nominal_, {"--identifier", "rls", "--unit", "torque=A"}));
+  ASSERT_EQ(all.size(), 2u);
+  for (const auto& one : all) EXPECT_EQ(one.at("friction").at("torque_unit"), "A");
 }
 
 /// A script that answers 5 v + coulomb sign(v).
