@@ -90,7 +90,7 @@ std::string ExplainHeldLosses(double step, double change, Action action);
 std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
                         Action action);
 /// Of warming beside maps, and of maps over the energy that it gives.
-std::string ExplainWarmingBesideMaps(int rounds);
+std::string ExplainWarmingBesideMaps(int iterations);
 std::string ExplainMapsOverEnergy(int rounds);
 
 // of maps

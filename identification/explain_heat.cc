@@ -50,8 +50,8 @@ std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& 
                          : " and are estimated, too");
 }
 
-std::string ExplainWarmingBesideMaps(int rounds) {
-  return fmt::format("warming beside them in {} rounds", rounds);
+std::string ExplainWarmingBesideMaps(int iterations) {
+  return fmt::format("warming with them in {} iterations", iterations);
 }
 
 std::string ExplainMapsOverEnergy(int rounds) {

@@ -1,5 +1,6 @@
 #include "identification/forward/closed_loop.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -47,16 +48,15 @@ Eigen::MatrixXd ForceSlopes(const ClosedLoop& loop, const Eigen::VectorXd& param
 
 /// The same along a stretch, of levels that are not those of the loop. at: where it begins and ends
 WARMJOINT_FOR_EACH_PROCESSOR
-Eigen::MatrixXd SlopesOfStretch(const ClosedLoop& loop, const LoopStretch& stretch,
-                                const Eigen::VectorXd& parameters, const Thermal& thermal,
-                                const Eigen::VectorXd& jumps, LoopEnd& at) {
-  Eigen::MatrixXd slopes(stretch.last - stretch.first, at.slopes.size());
+ClosedLoop::Rows SlopesOfStretch(const ClosedLoop& loop, const LoopStretch& stretch,
+                                 const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                 const Eigen::VectorXd& jumps, LoopEnd& at) {
+  ClosedLoop::Rows slopes(stretch.last - stretch.first, at.slopes.size());
   const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
     const double direction = loop.direction()[n];
-    auto row = slopes.row(n - stretch.first);
-    for (Eigen::Index i = 0; i < row.size(); ++i) {
-      row[i] = direction * (i < stretch.d ? g[i] + S[i] : S[i]);
-    }
+    double* row = slopes.data() + (n - stretch.first) * slopes.cols();
+    for (Eigen::Index i = 0; i < stretch.d; ++i) row[i] = direction * (g[i] + S[i]);
+    for (Eigen::Index i = stretch.d; i < slopes.cols(); ++i) row[i] = direction * S[i];
   };
   Sensitivities<Eigen::Dynamic> S(at.slopes.begin(), at.slopes.end());
   WithHolds(loop.intervals(), thermal, [&](const auto& hold) {
@@ -81,12 +81,16 @@ ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& veloc
 /// Columns times the direction of motion, a sample after the other, from the first on. [m x d]
 ClosedLoop::Rows ClosedLoop::Signed(const Eigen::MatrixXd& columns, Eigen::Index first) const {
   Rows rows(columns.rows(), columns.cols());
-  for (Eigen::Index i = 0; i < rows.cols(); ++i) {
-    // a column after the other, as they lie
-    const double* column = columns.col(i).data();
-    double* to = rows.data() + i;
-    for (Eigen::Index n = 0; n < rows.rows(); ++n, to += rows.cols())
-      *to = direction_[first + n] * column[n];
+  // rows that stay in the cache while a column after the other is read as it lies
+  constexpr Eigen::Index kTile = 64;
+  for (Eigen::Index begin = 0; begin < rows.rows(); begin += kTile) {
+    const Eigen::Index end = std::min(begin + kTile, rows.rows());
+    for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+      const double* column = columns.col(i).data();
+      double* to = rows.data() + begin * rows.cols() + i;
+      for (Eigen::Index n = begin; n < end; ++n, to += rows.cols())
+        *to = direction_[first + n] * column[n];
+    }
   }
   return rows;
 }
@@ -141,9 +145,9 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
   return jacobian;
 }
 
-Eigen::MatrixXd ClosedLoop::SlopesAlong(const LoopColumns& columns,
-                                        const Eigen::VectorXd& parameters, const Thermal& thermal,
-                                        const Eigen::VectorXd& jumps, LoopEnd& at) const {
+ClosedLoop::Rows ClosedLoop::SlopesAlong(const LoopColumns& columns,
+                                         const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                         const Eigen::VectorXd& jumps, LoopEnd& at) const {
   const Rows levels = Signed(columns.law, columns.first);
   const Rows of_loss = columns.loss.size() > 0 ? Signed(columns.loss, columns.first) : Rows();
   const LoopStretch stretch{columns.first, columns.first + levels.rows(), levels.data(),

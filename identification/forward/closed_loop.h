@@ -64,9 +64,8 @@ class ClosedLoop {
 
   /// dF/d(p, k, log tau, E0, jumps) along a stretch, [m x (d + 3 + J)], of a law with other columns than the loop's, which
   /// are not read. at: E and its derivatives at the first of its samples, led on to the sample behind it.
-  Eigen::MatrixXd SlopesAlong(const LoopColumns& columns, const Eigen::VectorXd& parameters,
-                              const Thermal& thermal, const Eigen::VectorXd& jumps,
-                              LoopEnd& at) const;
+  Rows SlopesAlong(const LoopColumns& columns, const Eigen::VectorXd& parameters,
+                   const Thermal& thermal, const Eigen::VectorXd& jumps, LoopEnd& at) const;
 
   /// E at the last sample, and its exact derivatives there.
   LoopEnd End(const Eigen::VectorXd& parameters, const Thermal& thermal, double initial_energy = 0,

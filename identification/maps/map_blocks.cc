@@ -47,13 +47,22 @@ bool MapBlock::ChooseGiven(const Eigen::VectorXd& energy) {
 }
 
 bool MapBlock::FitGiven(const Eigen::VectorXd& energy) {
+  LeaveTo(energy);
+  fit_ = repeated_->To(torque_);
+  return fit_.has_value();
+}
+
+void MapBlock::Take(Eigen::VectorXd x, const Eigen::VectorXd& energy) {
+  LeaveTo(energy);
+  fit_ = repeated_->At(std::move(x));
+}
+
+void MapBlock::LeaveTo(const Eigen::VectorXd& energy) {
   task_.energy = energy;
   MapProblem& problem = chosen_->problem;
   if (!problem.rows) problem.rows = KernelRows::Kept(problem.maps, problem.points, 1);
   torque_ =
       Kept(input_.measurements.torque, input_.selection).col(0) - TorqueOfEnergy(input_, energy);
-  fit_ = repeated_->To(torque_);
-  return fit_.has_value();
 }
 
 Eigen::VectorXd MapBlock::Everywhere() const {

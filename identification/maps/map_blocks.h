@@ -1,4 +1,4 @@
-// The two blocks of unknowns that are fitted in turn: law and maps given the heat, and the heat given the maps.
+// Where the fit of law, maps and heat begins: law and maps given the heat, and the heat given the maps.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,11 @@ class MapBlock {
   /// Fits once more with the shape and strength that were chosen last.
   bool FitGiven(const Eigen::VectorXd& energy);
 
+  /// Takes an x that was found otherwise, beside its energy. x: [p + q]
+  void Take(Eigen::VectorXd x, const Eigen::VectorXd& energy);
+
   const MapWeights& fit() const { return *fit_; }
+  const RepeatedFit& solver() const { return *repeated_; }
   /// Of the residual over the kept samples.
   double Squares() const { return (torque_ - fit_->fitted).squaredNorm(); }
   /// Values of the maps at all samples, [N] N.m or N.
@@ -35,6 +39,9 @@ class MapBlock {
   MapTask Settled() const;
 
  private:
+  /// Leaves law and maps what an energy leaves of the torque.
+  void LeaveTo(const Eigen::VectorXd& energy);
+
   const IdentifierInput& input_;
   MapTask task_;
   MapPoints everywhere_;                        // [N x 5]

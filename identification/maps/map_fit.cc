@@ -210,12 +210,15 @@ std::optional<Eigen::VectorXd> RepeatedFit::Unknowns() {
 
 std::optional<MapWeights> RepeatedFit::Fit() {
   std::optional<Eigen::VectorXd> x = Unknowns();
-  if (!x) return std::nullopt;
+  return x ? std::optional(At(std::move(*x))) : std::nullopt;
+}
+
+MapWeights RepeatedFit::At(Eigen::VectorXd x) const {
   const Eigen::Index free = problem_.free.cols();
   const Layout layout = Layout::InOrder({{&Layout::law, problem_.of_law},
                                          {&Layout::rigid, free - problem_.of_law},
-                                         {&Layout::weights, x->size() - free}});
-  MapWeights fit{layout, std::move(*x), strength_, {}, {}, unseen_};
+                                         {&Layout::weights, x.size() - free}});
+  MapWeights fit{layout, std::move(x), strength_, {}, {}, unseen_};
   // fitted torque: law by its columns, maps by their weights
   const Eigen::VectorXd weights = fit.weights();
   fit.maps = WithWeights(problem_.maps, weights);
@@ -223,6 +226,11 @@ std::optional<MapWeights> RepeatedFit::Fit() {
   fit.fitted +=
       problem_.rows ? problem_.rows->Times(weights) : EvaluateMaps(fit.maps, problem_.points);
   return fit;
+}
+
+Eigen::MatrixXd RepeatedFit::penalty() const {
+  const Eigen::Index q = std::ssize(unseen_);
+  return gram_.bottomRightCorner(q, q) - normal_.gram.bottomRightCorner(q, q);
 }
 
 Eigen::MatrixXd RepeatedFit::Products(const Eigen::Ref<const Eigen::MatrixXd>& torques) const {

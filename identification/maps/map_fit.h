@@ -116,6 +116,12 @@ class RepeatedFit {
   std::optional<MapWeights> Fit();
   /// To another torque, [n] N.m or N.
   std::optional<MapWeights> To(const Eigen::VectorXd& torque);
+  /// The weights at some x, [p + q].
+  MapWeights At(Eigen::VectorXd x) const;
+  /// Those of the latest fit.
+  const Conditions& conditions() const { return latest_->conditions(); }
+  /// s P of the kernels, [q x q].
+  Eigen::MatrixXd penalty() const;
   /// x of each of k torques alone, [p + q x k]. torques: [n x k] N.m or N
   std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& torques);
   /// The latest, and how sure it is: but for the bounds of columns that the data tell, since how sure these are is a

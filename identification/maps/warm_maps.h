@@ -1,7 +1,12 @@
 // Law, maps and warming together.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "identification/maps/identify_maps.h"
+#include "identification/maps/joint_fit.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/thermal_fit.h"
 
@@ -11,21 +16,19 @@ namespace warmjoint {
 struct WarmMaps {
   MapTask task;              // with the choice made, and E
   MapFit fit;                // law and maps beside E
-  ThermalFit warming;        // of law, one factor on the maps, and all that is told of the heat
+  ThermalFit warming;        // its heat: gain, time constant, E(0), jumps
   std::vector<LogGap> gaps;  // where E jumps
   /// Drop of |e|^2 that warming brings, over the noise's variance. Where it stays far below what can be seen,
-  /// task and fit are not set.
+  /// nothing else is set.
   double visible = 0;
   bool converged = false;
-  int rounds = 0;
+  std::shared_ptr<const JointFit> joint{};  // null where no warming was found beside the maps
 };
 
-/// Two blocks in turn, each exact for the other: maps and their strength by ridge on what E leaves
-/// of the torque; the warming, the law and one factor on the maps by maximum likelihood over the
-/// closed loop (thermal_fit.h), until gain and time constant rest to 1e-6. The blocks hardly overlap:
-/// a map repeats itself with every pass, warming does not; where they do, as in short logs or around a gap,
-/// rounds are mixed by the method of Anderson. At gaps E jumps, as energy-ml has it.
-/// task.energy is not read; initial: what is known of E(0). Nothing where no fit can be solved.
+/// Least squares of law, maps and heat together over the closed loop (joint_fit.h). It begins where two turns of each beside the
+/// other end: maps and their strength by ridge on what E leaves of the torque; the warming, the law and one factor on the maps
+/// by maximum likelihood (thermal_fit.h). At gaps E jumps, as energy-ml has it.
+/// task.energy is not read; input: must outlive the result; initial: what is known of E(0). Nothing where no fit can be solved.
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
                                     const InitialEnergy& initial);
 

@@ -48,8 +48,8 @@ std::vector<Index> PushedOut(const SquaresProblem& problem, const VectorXd& x,
 }
 
 /// The step that the normal equations ask for, each unknown no farther than it may. fixed: unknowns that stay
-VectorXd StepOf(const SquaresProblem& problem, const RowSums& sums, double damping,
-                const std::vector<Index>& fixed) {
+VectorXd StepOf(const SquaresProblem& problem, const VectorXd& x, const RowSums& sums,
+                double damping, const std::vector<Index>& fixed) {
   MatrixXd h = sums.gram;
   h.diagonal() *= 1 + damping;
   VectorXd b = sums.product;
@@ -59,7 +59,7 @@ VectorXd StepOf(const SquaresProblem& problem, const RowSums& sums, double dampi
     h(i, i) = 1;
     b[i] = 0;
   }
-  VectorXd step = SolveScaled(h, b);
+  VectorXd step = problem.step ? problem.step(h, b, x) : SolveScaled(h, b);
   if (problem.largest_step.size() > 0) {
     step = step.cwiseMin(problem.largest_step).cwiseMax(-problem.largest_step);
   }
@@ -99,7 +99,7 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
 
     // damped more and more until the squares fall, or promise to fall by nothing
     for (bool fell = false; !fell && !found.converged;) {
-      const VectorXd next = Within(problem, x + StepOf(problem, found.sums, damping, fixed));
+      const VectorXd next = Within(problem, x + StepOf(problem, x, found.sums, damping, fixed));
       const VectorXd step = next - x;
       const double promised = step.dot(2 * found.sums.product - found.sums.gram * step);
       RowSums there = problem.sums(next);

@@ -23,6 +23,10 @@ struct SquaresProblem {
   Eigen::VectorXd lower{}, upper{};  // [p] of x
   Eigen::VectorXd largest_step{};    // [p] in one iteration
   std::vector<Eigen::Index> held{};  // unknowns that stay as they are
+  /// The step from x of gram step = product, where it must keep conditions; empty: by SolveScaled.
+  std::function<Eigen::VectorXd(const Eigen::MatrixXd& gram, const Eigen::VectorXd& product,
+                                const Eigen::VectorXd& x)>
+      step{};
   int most_iterations = 50;
   /// Fall of the squares that the next step promises, in variances of the noise, at which a fit rests: no unknown is farther from
   /// the minimum than its root, in standard deviations.
