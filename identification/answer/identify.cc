@@ -205,7 +205,7 @@ std::optional<LogView> FollowedOf(const Fit& fit, const IdentifierInput& input) 
                   {fit.friction, fit.gravity, fit.torque_delay});
 }
 
-/// What was found in log and fit, and the tests as data. Enters what the fit says of friction at speeds.
+/// What was found in log and fit, and the tests as data. Enters what noise says of friction at speeds.
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                      const LackOfFitSettings& judging, Answer& answer) {
   LackOfFit found;
@@ -220,7 +220,7 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
     const auto followed = FollowedOf(answer.fit, input);
     const IdentifierInput seen = followed ? input.On(*followed) : input;
     found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, judging);
-    answer.inferred.at_speeds =
+    answer.by_noise.at_speeds =
         SpeedFiguresOf(answer.fit, answer.inferred, found.model, seen.measurements, seen.selection);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
       auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
@@ -231,11 +231,6 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
   }
   std::ranges::move(PreparationCauses(input, answer.fit, answer.inferred),
                     std::back_inserter(found.causes));
-  // the last floor asks what all of that leaves of the friction
-  if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
-    auto unknown = UnknownFriction(answer.inferred.at_speeds, found.causes);
-    if (unknown) found.causes.push_back(std::move(*unknown));
-  }
   return found;
 }
 
@@ -257,12 +252,19 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   answer.fit = std::move(settled.fit);
   const IdentifierInput input = InputOf(answer, identifier, given);
   NameOneSpeed(input.measurements, input.selection, answer.fit);
-  answer.inferred = Infer(answer.fit);
+  answer.by_noise = ByNoise(answer.fit);
+  std::vector<Cause> causes = OwnCauses(answer.fit, answer.by_noise);
+  answer.inferred = Apply(answer.by_noise, causes);
 
-  // what is said about it, and what that leaves of it
+  // what else is said about it; the last floor asks what all of that leaves of the friction
   LackOfFit found = FindCauses(identifier, input, judging, answer);
-  if (unsettled) found.causes.push_back(*std::move(unsettled));
-  answer.judged = Apply(answer.inferred, std::move(found.causes));
+  std::ranges::move(found.causes, std::back_inserter(causes));
+  if (unsettled) causes.push_back(*std::move(unsettled));
+  if (answer.inferred.status == Status::ok && !IsRefused(causes)) {
+    auto unknown = UnknownFriction(answer.by_noise.at_speeds, causes);
+    if (unknown) causes.push_back(std::move(*unknown));
+  }
+  answer.judged = Apply(answer.by_noise, std::move(causes));
   answer.judged.diagnostics = std::move(found.diagnostics);
   answer.judged.assumptions =
       AssumptionsOf(answer.judged.causes, answer.fit, input.measurements.torque_unit);
@@ -272,7 +274,13 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
 void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer) {
   if (answer.judged.status != Status::ok) return;
   auto floor = FloorOfHeldOut(held_out, several_speeds, answer.fit);
-  if (floor) answer.judged = Apply(std::move(answer.judged), {std::move(*floor)});
+  if (!floor) return;
+  std::vector<Cause> causes = answer.judged.causes;
+  causes.push_back(std::move(*floor));
+  Inference judged = Apply(answer.by_noise, std::move(causes));
+  judged.diagnostics = std::move(answer.judged.diagnostics);
+  judged.assumptions = std::move(answer.judged.assumptions);
+  answer.judged = std::move(judged);
 }
 
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,
@@ -292,13 +300,15 @@ Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& 
   const IdentifierInput input = SelectSamples(identifier, given);
   Fit fit = AtBounds(identifier.fit(input), input.measurements);
   NameOneSpeed(input.measurements, input.selection, fit);
-  Inference inferred = Infer(fit);
+  Inference by_noise = ByNoise(fit);
+  const std::vector<Cause> causes = OwnCauses(fit, by_noise);
+  const Inference inferred = Apply(by_noise, causes);
   const auto followed = FollowedOf(fit, input);
   const LogSamples& m = followed ? followed->measurements : input.measurements;
   const Selection& selection = followed ? followed->selection : input.selection;
-  inferred.at_speeds =
+  by_noise.at_speeds =
       SpeedFiguresOf(fit, inferred, EvaluateModel(fit, inferred, m, selection), m, selection);
-  return ReportFit(fit, inferred, input.log, m);
+  return ReportFit(fit, Apply(std::move(by_noise), causes), input.log, m);
 }
 
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,

@@ -11,11 +11,12 @@
 
 namespace warmjoint {
 
-/// A fit, what noise says of it, and what all causes leave of that.
+/// A fit, and what is known of it.
 struct Answer {
   Fit fit;
-  Inference inferred;
-  Inference judged;
+  Inference by_noise;  // with its friction at speeds
+  Inference inferred;  // what the fit's own causes leave of that
+  Inference judged;    // and all causes
   /// The samples that it rests on, where some of those that were given had not settled.
   std::optional<Selection> settled{};
 };

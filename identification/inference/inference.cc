@@ -69,28 +69,6 @@ std::string MessageOf(const Fit& fit, const Inference& inference) {
   return fit.summary + loss + NoiseOf(inference.known);
 }
 
-/// What noise alone says, whatever the bounds.
-Inference ByNoise(const Fit& fit) {
-  Inference inference;
-  if (fit.refusal) {
-    inference.status = fit.refusal->status;
-    inference.message = fit.refusal->message;
-    return inference;
-  }
-
-  // how sure the parameters are
-  inference.known = CovarianceOf(fit);
-  if (!inference.known.covariance.allFinite()) {
-    inference.status = Status::bad_data;
-    inference.message = "torque or velocity is too large to square";
-    return inference;
-  }
-  inference.parameters = IntervalsOf(fit, inference);
-  inference.message = MessageOf(fit, inference);
-  inference.gives_friction = true;
-  return inference;
-}
-
 /// Of weighted squares: C (W J)^T R (W J) C with C = (J^T W J)^-1.
 Uncertainty OfWeighted(const Eigen::MatrixXd& jacobian, const ErrorModel& errors,
                        const Eigen::VectorXd& residual, const Selection& used) {
@@ -168,13 +146,38 @@ bool HasIntervals(const Inference& inference) {
   });
 }
 
-Inference Infer(const Fit& fit) {
-  Inference by_noise = ByNoise(fit);
+Inference ByNoise(const Fit& fit) {
+  Inference inference;
+  if (fit.refusal) {
+    inference.status = fit.refusal->status;
+    inference.message = fit.refusal->message;
+    return inference;
+  }
+
+  // how sure the parameters are
+  inference.known = CovarianceOf(fit);
+  if (!inference.known.covariance.allFinite()) {
+    inference.status = Status::bad_data;
+    inference.message = "torque or velocity is too large to square";
+    return inference;
+  }
+  inference.parameters = IntervalsOf(fit, inference);
+  inference.message = MessageOf(fit, inference);
+  inference.gives_friction = true;
+  return inference;
+}
+
+std::vector<Cause> OwnCauses(const Fit& fit, const Inference& by_noise) {
   std::vector<Cause> causes = fit.causes;
   if (by_noise.status == Status::ok && !IsRefused(causes)) {
     if (auto bound = BeyondBounds(fit, by_noise)) causes.push_back(std::move(*bound));
   }
-  return Apply(std::move(by_noise), std::move(causes));
+  return causes;
+}
+
+Inference Infer(const Fit& fit) {
+  const Inference by_noise = ByNoise(fit);
+  return Apply(by_noise, OwnCauses(fit, by_noise));
 }
 
 Fit AtBounds(Fit fit, const LogSamples& measurements) {

@@ -58,8 +58,14 @@ struct Inference {
 /// Whether any number has an interval.
 bool HasIntervals(const Inference& inference);
 
-/// Covariance, intervals with Student's quantile, and physical bounds (bounds.h). The interval of a row that is held
-/// at its bound is that of the fit without it, from the bound on; those of the others are, too.
+/// What noise alone says, whatever causes and bounds: covariance and intervals with Student's quantile. The interval of a row that is
+/// held at its bound is that of the fit without it, from the bound on; those of the others are, too.
+Inference ByNoise(const Fit& fit);
+
+/// What a fit says against itself: the rows that it brings, and that of its physical bounds (bounds.h).
+std::vector<Cause> OwnCauses(const Fit& fit, const Inference& by_noise);
+
+/// What noise says, and what the fit's own causes leave of that.
 Inference Infer(const Fit& fit);
 
 /// The fit with what noise puts beyond a bound set to it (bounds.h); the fit itself where there is nothing to set, or

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "identification/answer/speed_figures.h"
 #include "identification/fit_data.h"
@@ -277,11 +278,13 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   // judged as any fit is
   const Fit made = FitOf(fit, c);
   JointSeries series = SeriesOf(fit, c);
-  Inference inferred = Infer(made);
-  inferred.at_speeds = SpeedFiguresOf(made, inferred, std::nullopt, m, made.used);
-  std::vector<Cause> causes = CausesOf(fit, c, series, holdout, summary.gain_is_known);
-  if (auto floor = UnknownFriction(inferred.at_speeds, causes)) causes.push_back(std::move(*floor));
-  const Inference inference = Apply(std::move(inferred), std::move(causes));
+  Inference by_noise = ByNoise(made);
+  std::vector<Cause> causes = OwnCauses(made, by_noise);
+  by_noise.at_speeds = SpeedFiguresOf(made, Apply(by_noise, causes), std::nullopt, m, made.used);
+  std::ranges::move(CausesOf(fit, c, series, holdout, summary.gain_is_known),
+                    std::back_inserter(causes));
+  if (auto floor = UnknownFriction(by_noise.at_speeds, causes)) causes.push_back(std::move(*floor));
+  const Inference inference = Apply(std::move(by_noise), std::move(causes));
   RobotJointEstimate answer{std::move(summary), ReportFit(made, inference, m), std::move(series)};
   Estimate& estimate = answer.estimate;
   if (!estimate.parameters.empty()) {
