@@ -57,8 +57,6 @@ struct ErrorModel {
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
   /// Of the rows that the fit solved, and with which C is; or none.
   std::shared_ptr<const Whitening> whitening;
-  /// [p] one error more of x, beside that by noise: by structure that the model lacks; or empty.
-  Eigen::VectorXd structure;
   /// Covariance of the table's estimated rows, where the identifier had to know it already.
   std::optional<Uncertainty> known;
   /// The same found where it is asked for: of a sketch, of which hardly anyone does; or not set.

@@ -25,7 +25,6 @@ enum class Source {
   white_noise,
   autocorrelated_noise,
   few_segments,
-  structure,
   // what refuses an answer by itself
   fit,
   bound,
@@ -54,6 +53,7 @@ enum class Source {
   rounding,
   hidden_steps,
   // what tests for lack of fit found in the residual
+  structure,
   findings,
   hidden_means,
   unadjusted_findings,

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
@@ -43,7 +46,8 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
   return most;
 }
 
-void AddStructure(const Disagreement& structure, const Eigen::VectorXd& friction, Fit& fit) {
+Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& friction,
+                     const Fit& fit) {
   // columns of gravity may have no name of their own
   const auto row = static_cast<std::size_t>(structure.parameter);
   const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
@@ -52,12 +56,25 @@ void AddStructure(const Disagreement& structure, const Eigen::VectorXd& friction
   // how far the structure moves the fitted torque, beside the size of the friction
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
   if (!(moved < kDefaultRelevance * Rms(friction))) {
-    fit.causes.push_back(
-        DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals)));
-    return;
+    return DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals));
   }
-  fit.errors.structure = structure.differences;
-  fit.causes.push_back(Remark(ExplainStructure(name, structure.deviations, Action::note)));
+
+  // d in the values of the table
+  Cause cause{.source = Source::structure,
+              .action = Action::widen,
+              .sentence = ExplainStructure(name, structure.deviations, Action::widen)};
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& one = fit.parameters[i];
+    if (!one.estimated) continue;
+    const double by_coordinate = one.coordinate == Coordinate::logarithm ? one.value : 1;
+    const double difference = structure.differences[std::ssize(deviations)];
+    cause.rows.push_back(i);
+    deviations.push_back(by_coordinate * difference);
+  }
+  cause.bias = Eigen::VectorXd::Zero(std::ssize(deviations));
+  cause.spread = Eigen::Map<const Eigen::VectorXd>(deviations.data(), std::ssize(deviations));
+  return cause;
 }
 
 }  // namespace warmjoint

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "identification/fit.h"
+#include "identification/inference/cause.h"
 
 namespace warmjoint {
 
@@ -31,9 +32,10 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
                                              double degrees_of_freedom);
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
-/// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by
-/// default, d joins the errors as one more of them, covariance + d d^T, and a warning says so; beyond
-/// it no number gets an interval. friction: [n] F at the kept samples, N.m or N; fit: with its table, Jacobian and errors.
-void AddStructure(const Disagreement& structure, const Eigen::VectorXd& friction, Fit& fit);
+/// the parameters, about: its standard deviation. Where J d stays below a tenth of the friction, as `--relevance` has it by
+/// default, the row widens intervals by that, 1.96 |d|; beyond it no number gets an interval.
+/// friction: [n] F at the kept samples, N.m or N; fit: with its table and Jacobian
+Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& friction,
+                     const Fit& fit);
 
 }  // namespace warmjoint

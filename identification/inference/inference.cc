@@ -120,24 +120,6 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   return known;
 }
 
-/// By the noise of the residual.
-Uncertainty CovarianceByNoise(const Fit& fit) {
-  const ErrorModel& errors = fit.errors;
-  // what the identifier knew already, or finds only where it is asked
-  if (errors.known) return *errors.known;
-  if (errors.judge) return errors.judge();
-
-  // rows that were whitened are judged by the colour that is left
-  if (errors.whitening) return OfWhitened(fit, *errors.whitening);
-
-  // a robust loss or a lag brings scores in place of the residual
-  const Eigen::VectorXd residual = errors.scores.size() > 0 ? errors.scores : fit.residual();
-  const auto jacobian = [&] { return Kept(fit.jacobian(), fit.used); };
-  if (errors.weights.size() > 0) return OfWeighted(jacobian(), errors, residual, fit.used);
-
-  return OfSquares(fit, residual, jacobian);
-}
-
 }  // namespace
 
 bool HasIntervals(const Inference& inference) {
@@ -188,14 +170,20 @@ Fit AtBounds(Fit fit, const LogSamples& measurements) {
 }
 
 Uncertainty CovarianceOf(const Fit& fit) {
-  Uncertainty known = CovarianceByNoise(fit);
-  // structure that moves the friction little joins the errors as one more of them
-  const Eigen::VectorXd& structure = fit.errors.structure;
-  if (structure.size() > 0) {
-    known.covariance += structure * structure.transpose();
-    known.structure = structure;
-  }
-  return known;
+  const ErrorModel& errors = fit.errors;
+  // what the identifier knew already, or finds only where it is asked
+  if (errors.known) return *errors.known;
+  if (errors.judge) return errors.judge();
+
+  // rows that were whitened are judged by the colour that is left
+  if (errors.whitening) return OfWhitened(fit, *errors.whitening);
+
+  // a robust loss or a lag brings scores in place of the residual
+  const Eigen::VectorXd residual = errors.scores.size() > 0 ? errors.scores : fit.residual();
+  const auto jacobian = [&] { return Kept(fit.jacobian(), fit.used); };
+  if (errors.weights.size() > 0) return OfWeighted(jacobian(), errors, residual, fit.used);
+
+  return OfSquares(fit, residual, jacobian);
 }
 
 std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorXd& slopes,
@@ -212,13 +200,10 @@ std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorX
   const bool few = known.by_samples.size() > 0;
   const double before =
       few ? StudentQuantile(known.samples_degrees_of_freedom, kIntervalLevel) : quantile;
-  const double bias = known.structure.size() > 0 ? known.structure.dot(slopes) : 0;
-  const double noise = std::sqrt(std::max(all * all - bias * bias, 0.0));
   const std::pair<Source, double> steps[] = {
       {Source::white_noise, before * deviation(known.white)},
-      {Source::autocorrelated_noise, few ? before * deviation(known.by_samples) : quantile * noise},
-      {Source::few_segments, quantile * noise},
-      {Source::structure, quantile * all}};
+      {Source::autocorrelated_noise, few ? before * deviation(known.by_samples) : quantile * all},
+      {Source::few_segments, quantile * all}};
 
   // one that makes it narrower takes that off what was there
   std::vector<WidthPart> parts;

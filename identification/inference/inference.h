@@ -72,8 +72,8 @@ Inference Infer(const Fit& fit);
 /// the whole interval lies beyond. measurements: of the fit.
 Fit AtBounds(Fit fit, const LogSamples& measurements);
 
-/// What an interval by noise is made of: what white noise makes, what its colour and unevenness add, what few segments do, and
-/// structure that counts as an error. slopes: [p] of the figure by the coordinates; half: of its interval
+/// What an interval by noise is made of: what white noise makes, what its colour and unevenness add, and what few segments do.
+/// slopes: [p] of the figure by the coordinates; half: of its interval
 std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorXd& slopes,
                                   double half);
 

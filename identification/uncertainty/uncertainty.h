@@ -23,7 +23,6 @@ struct Uncertainty {
   Eigen::MatrixXd white;       // [d x d] were the noise white and even; or empty: not known
   Eigen::MatrixXd by_samples;  // [d x d] before few segments counted; or empty: they do not
   double samples_degrees_of_freedom = 1;  // of that
-  Eigen::VectorXd structure;              // [d] an error that joined it; or empty
 
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }

@@ -361,7 +361,10 @@ Fit Conclude(LawFit law) {
   }
 
   // structure in the residual
-  if (law.unwhitened) AddStructure(*law.unwhitened, Kept(response.force, fit.used), fit);
+  if (law.unwhitened) {
+    const Eigen::VectorXd friction = Kept(response.force, fit.used);
+    fit.causes.push_back(StructureCause(*law.unwhitened, friction, fit));
+  }
   // the lag, which the model of law and heat does not know
   if (law.lag) AddLag(law.lag, response.torque, m, fit);
   return fit;

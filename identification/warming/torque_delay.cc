@@ -135,13 +135,10 @@ void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& 
     return ConcatColumns(of_model(), by_delay);
   };
   // it is known by the log alone
-  const auto extend = [](VectorXd& values) {
-    if (values.size() == 0) return;
-    values.conservativeResize(values.size() + 1);
-    values[values.size() - 1] = 0;
-  };
-  extend(fit.errors.prior);
-  extend(fit.errors.structure);
+  if (VectorXd& prior = fit.errors.prior; prior.size() > 0) {
+    prior.conservativeResize(prior.size() + 1);
+    prior[prior.size() - 1] = 0;
+  }
   fit.errors.cofactor = CofactorOf(fit);
   ++fit.count;
   fit.effective_parameters += 1;

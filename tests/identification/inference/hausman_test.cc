@@ -112,24 +112,33 @@ Fit LevelFit() {
 
 Disagreement MovedBy(double difference) { return {0, 9, Eigen::VectorXd::Constant(1, difference)}; }
 
-TEST(AddStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
+TEST(StructureCause, LetsIntervalsReachAsFarAsTheWhitenedFit) {
   Fit fit = LevelFit();
-  const double before = CovarianceOf(fit).covariance(0, 0);
-  AddStructure(MovedBy(0.2), fit.fitted, fit);
+  const Inference before = Infer(fit);
+  fit.causes.push_back(StructureCause(MovedBy(0.2), fit.fitted, fit));
   const Inference inference = Infer(fit);
-  EXPECT_TRUE(HasIntervals(inference));
   EXPECT_EQ(inference.warnings.size(), 1u);
-  EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before + 0.04);
+  const ParameterInterval& coulomb = inference.parameters[0];
+  EXPECT_DOUBLE_EQ(coulomb.value, 15);
+  EXPECT_DOUBLE_EQ(coulomb.HalfWidth(), before.parameters[0].HalfWidth() + kNormal95 * 0.2);
+  EXPECT_EQ(coulomb.parts.back().by, Source::structure);
+  EXPECT_DOUBLE_EQ(coulomb.parts.back().half_width, kNormal95 * 0.2);
+  // noise stays noise
+  EXPECT_EQ(inference.known.covariance, before.known.covariance);
 }
 
-TEST(AddStructure, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
+TEST(StructureCause, IsOfTheValueOfALogarithm) {
+  Fit fit = LevelFit();
+  fit.parameters[0].coordinate = Coordinate::logarithm;
+  const Cause cause = StructureCause(MovedBy(0.01), fit.fitted, fit);
+  EXPECT_DOUBLE_EQ(cause.spread(0, 0), 0.15);
+}
+
+TEST(StructureCause, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
   // J d is 1.55 N.m of 15 everywhere, 10.3 %
   Fit fit = LevelFit();
-  const double before = CovarianceOf(fit).covariance(0, 0);
-  AddStructure(MovedBy(1.55), fit.fitted, fit);
-  const Inference inference = Infer(fit);
-  EXPECT_FALSE(HasIntervals(inference));
-  EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before);
+  fit.causes.push_back(StructureCause(MovedBy(1.55), fit.fitted, fit));
+  EXPECT_FALSE(HasIntervals(Infer(fit)));
 }
 
 }  // namespace
