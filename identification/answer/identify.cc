@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -234,6 +235,15 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
   return found;
 }
 
+/// What all causes leave of an answer, and of one that they refuse what it was.
+Inference Judged(const Answer& answer, std::vector<Cause> causes) {
+  Inference judged = Apply(answer.by_noise, std::move(causes));
+  if (judged.status != answer.inferred.status) {
+    judged.refused = std::make_shared<const Inference>(answer.inferred);
+  }
+  return judged;
+}
+
 }  // namespace
 
 IdentifierInput InputOf(const Answer& answer, const Identifier& identifier,
@@ -264,7 +274,7 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
     auto unknown = UnknownFriction(answer.by_noise.at_speeds, causes);
     if (unknown) causes.push_back(std::move(*unknown));
   }
-  answer.judged = Apply(answer.by_noise, std::move(causes));
+  answer.judged = Judged(answer, std::move(causes));
   answer.judged.diagnostics = std::move(found.diagnostics);
   answer.judged.assumptions =
       AssumptionsOf(answer.judged.causes, answer.fit, input.measurements.torque_unit);
@@ -277,16 +287,16 @@ void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer) 
   if (!floor) return;
   std::vector<Cause> causes = answer.judged.causes;
   causes.push_back(std::move(*floor));
-  Inference judged = Apply(answer.by_noise, std::move(causes));
+  Inference judged = Judged(answer, std::move(causes));
   judged.diagnostics = std::move(answer.judged.diagnostics);
   judged.assumptions = std::move(answer.judged.assumptions);
   answer.judged = std::move(judged);
 }
 
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,
-                      const Answer& answer) {
+                      const Answer& answer, RefusedNumbers numbers) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  Estimate estimate = ReportFit(answer.fit, answer.judged, input.log, input.measurements);
+  Estimate estimate = ReportFit(answer.fit, answer.judged, input.log, input.measurements, numbers);
   estimate.options = input.options.Changed();
   return estimate;
 }
@@ -309,19 +319,6 @@ Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& 
   by_noise.at_speeds =
       SpeedFiguresOf(fit, inferred, EvaluateModel(fit, inferred, m, selection), m, selection);
   return ReportFit(fit, Apply(std::move(by_noise), causes), input.log, m);
-}
-
-Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
-                         const Answer& answer, Estimate refused) {
-  // causes that refused nothing leave nothing to force
-  if (answer.judged.status == answer.inferred.status) return refused;
-  Estimate before = ReportFit(answer.fit, answer.inferred, input.log,
-                              SelectSamples(identifier, input).measurements);
-  refused.parameters = std::move(before.parameters);
-  refused.friction = std::move(before.friction);
-  refused.bands = std::move(before.bands);
-  refused.message += std::string("; ") + kForced;
-  return refused;
 }
 
 }  // namespace warmjoint

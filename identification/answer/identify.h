@@ -8,6 +8,7 @@
 #include "identification/identifier.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
+#include "identification/report/report_fit.h"
 
 namespace warmjoint {
 
@@ -43,14 +44,9 @@ Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& i
 
 /// The same of an answer that is there already.
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& input,
-                      const Answer& answer);
+                      const Answer& answer, RefusedNumbers numbers = RefusedNumbers::hide);
 
 /// Without a verdict: what the fit tells by itself.
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& input);
-
-/// What --force shows of an answer that a cause refused: its report with the numbers that noise alone would give, and a message that
-/// calls them void. refused: ReportAnswer; stays as it is where no cause refused it.
-Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
-                         const Answer& answer, Estimate refused);
 
 }  // namespace warmjoint

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,8 @@ struct Inference {
   bool gives_friction = false;                // whether the fit's friction may be used
   std::vector<Diagnostic> diagnostics;        // of the verdict, one for each test for lack of fit
   std::vector<Assumption> assumptions;
+  /// What the fit's own causes left, of an answer that others refused: the numbers that --force shows. Else null.
+  std::shared_ptr<const Inference> refused{};
 };
 
 /// Whether any number has an interval.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "identification/explain.h"
@@ -335,8 +336,8 @@ Friction ReportedFriction(const Fit& fit, const Inference& inference) {
 }
 
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
-                   const LogSamples& measurements) {
-  Estimate estimate = ReportFit(fit, inference, measurements);
+                   const LogSamples& measurements, RefusedNumbers numbers) {
+  Estimate estimate = ReportFit(fit, inference, measurements, numbers);
   if (const auto& refusal = fit.refusal;
       refusal && refusal->unconverged && inference.status == refusal->status) {
     estimate.message += "; " + WhyNotConverged(log, *refusal->unconverged);
@@ -344,7 +345,8 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog
   return estimate;
 }
 
-Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements) {
+Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements,
+                   RefusedNumbers numbers) {
   // who answers, with which status, and why
   Estimate estimate;
   estimate.identifier = fit.identifier;
@@ -360,19 +362,24 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples&
   for (const Iterate& iterate : fit.trace) {
     estimate.trace.push_back(EntryOf(fit, iterate, h));
   }
+  // whose numbers are shown
+  const bool is_void = inference.refused && numbers == RefusedNumbers::show;
+  const Inference& shown = is_void ? *inference.refused : inference;
+  if (is_void) estimate.message += std::string("; ") + kForced;
   if (inference.parameters.empty()) return estimate;
 
   // the numbers
-  estimate.parameters = ParametersOf(fit, inference, h);
+  estimate.parameters = ParametersOf(fit, shown, h);
   estimate.half_widths = HalfWidths(fit, inference);
   estimate.metrics = ComputeMetrics(fit.torque, fit.fitted, fit.count, fit.effective_parameters);
   estimate.gravity = fit.gravity;
-  if (!inference.gives_friction) return estimate;
+  if (!shown.gives_friction) return estimate;
 
   // and what can be used elsewhere
-  estimate.friction = ReportedFriction(fit, inference);
+  estimate.friction = ReportedFriction(fit, shown);
+  estimate.bands = BandsOf(fit, shown);
+  if (!inference.gives_friction) return estimate;
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
-  estimate.bands = BandsOf(fit, inference);
   for (const SpeedFigure& one : inference.at_speeds) {
     estimate.friction_at_speeds.push_back(one.at);
   }

@@ -19,13 +19,17 @@ namespace warmjoint {
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
                                          const Friction& friction, const LogSamples& measurements);
 
+/// The numbers of an answer that causes refused (Inference::refused): void ones are for who insists, with a message that says so.
+enum class RefusedNumbers { hide, show };
+
 /// The estimate: parameters by name with their intervals; beside the warming's gain and time
 /// constant the discrete pair of Eq. (22) for the median sampling interval; metrics, trace, friction,
 /// gravity, bands and the covariance of the values. measurements: what the fit saw.
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
-                   const LogSamples& measurements);
+                   const LogSamples& measurements, RefusedNumbers numbers = RefusedNumbers::hide);
 /// The same of a fit that no log is asked about which did not come to rest.
-Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements);
+Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements,
+                   RefusedNumbers numbers = RefusedNumbers::hide);
 
 /// The fit's friction with what the causes moved.
 Friction ReportedFriction(const Fit& fit, const Inference& inference);

@@ -159,9 +159,12 @@ Identified Identify(const IdentifyTask& task, const PreparedLog& log,
   const HeldOut held = HoldOutBeside(task.identifier, input, context.holdout, answer);
 
   // what is reported; numbers of a refused fit are shown where that was asked for
-  Estimate reported = ReportAnswer(task.identifier, input, answer);
-  Identified identified{reported, WithVoidNumbers(task.identifier, input, answer, reported)};
+  const Estimate reported = ReportAnswer(task.identifier, input, answer);
+  Identified identified{reported, reported};
   auto& [estimate, shown] = identified;
+  if (answer.judged.refused) {
+    shown = ReportAnswer(task.identifier, input, answer, RefusedNumbers::show);
+  }
   if (task.void_numbers == VoidNumbers::show) {
     estimate = shown;
   } else {

@@ -176,7 +176,7 @@ TEST(Judge, TakesBackEverythingButTheValues) {
 
   // who insists sees the numbers, beside the verdict
   const Estimate forced =
-      WithVoidNumbers(identifier, input, FitAndCheck(identifier, input), judged);
+      ReportAnswer(identifier, input, FitAndCheck(identifier, input), RefusedNumbers::show);
   EXPECT_EQ(forced.status, kInadequate);
   EXPECT_THAT(forced.FullMessage(), HasSubstr("void"));
   EXPECT_EQ(forced.Find("coulomb")->interval95, before.Find("coulomb")->interval95);
