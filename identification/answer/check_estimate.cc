@@ -59,13 +59,10 @@ Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
   return inference;
 }
 
-/// Takes over what the verdict left.
-void TakeOver(const Fit& fit, Inference inference, Estimate& estimate) {
-  estimate.status = inference.status;
-  estimate.message = std::move(inference.message);
-  estimate.warnings = std::move(inference.warnings);
-  estimate.diagnostics = std::move(inference.diagnostics);
-  estimate.assumptions = std::move(inference.assumptions);
+/// What the verdict leaves of an estimate. What the fit's table does not hold is the other program's and stays: numbers of its own,
+/// the discrete pair, its metrics and its trace.
+void ReportCheck(const Fit& fit, const Inference& inference, Estimate& estimate) {
+  ReportVerdict(inference, estimate);
   // the numbers that others would use
   if (inference.gives_friction) {
     estimate.friction = ReportedFriction(fit, inference);
@@ -159,7 +156,7 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
   Inference judged = Apply(claimed, causes);
   judged.diagnostics = std::move(diagnostics);
   judged.assumptions = AssumptionsOf(causes, fit, input.measurements.torque_unit);
-  TakeOver(fit, std::move(judged), estimate);
+  ReportCheck(fit, judged, estimate);
 }
 
 }  // namespace warmjoint

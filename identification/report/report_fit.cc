@@ -335,6 +335,14 @@ Friction ReportedFriction(const Fit& fit, const Inference& inference) {
   return friction;
 }
 
+void ReportVerdict(const Inference& inference, Estimate& estimate) {
+  estimate.status = inference.status;
+  estimate.message = inference.message;
+  estimate.warnings = inference.warnings;
+  estimate.diagnostics = inference.diagnostics;
+  estimate.assumptions = inference.assumptions;
+}
+
 Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog& log,
                    const LogSamples& measurements, RefusedNumbers numbers) {
   Estimate estimate = ReportFit(fit, inference, measurements, numbers);
@@ -350,12 +358,8 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples&
   // who answers, with which status, and why
   Estimate estimate;
   estimate.identifier = fit.identifier;
-  estimate.status = inference.status;
-  estimate.message = inference.message;
-  estimate.warnings = inference.warnings;
-  estimate.diagnostics = inference.diagnostics;
-  estimate.assumptions = inference.assumptions;
   estimate.choice = fit.choice;
+  ReportVerdict(inference, estimate);
 
   // how the fit came to rest
   const double h = MedianStep(measurements.time);

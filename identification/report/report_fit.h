@@ -31,6 +31,9 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog
 Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements,
                    RefusedNumbers numbers = RefusedNumbers::hide);
 
+/// What an answer says beside its numbers: status, message, warnings, tests and assumptions.
+void ReportVerdict(const Inference& inference, Estimate& estimate);
+
 /// The fit's friction with what the causes moved.
 Friction ReportedFriction(const Fit& fit, const Inference& inference);
 
