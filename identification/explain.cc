@@ -114,8 +114,13 @@ constexpr AssumptionWords kAssumptions[] = {
 
 }  // namespace
 
-std::string ExplainHeld(const Excess& excess) {
-  return fmt::format("{}: noise may do that, so it is set to {}", Describe(excess), excess.bound);
+std::string ExplainHeld(const std::vector<Excess>& held) {
+  std::vector<std::string> words;
+  for (const Excess& one : held) {
+    words.push_back(
+        fmt::format("{}: noise may do that, so it is set to {}", Describe(one), one.bound));
+  }
+  return fmt::format("{}", fmt::join(words, "; and "));
 }
 
 std::string ExplainHeldBesideMaps(const FitParameter& parameter) {

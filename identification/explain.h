@@ -33,8 +33,8 @@ struct Excess {
 };
 
 // of the law
-/// Of a parameter that was set to its bound, and of one beside maps.
-std::string ExplainHeld(const Excess& excess);
+/// Of parameters that were set to their bounds, and of one beside maps.
+std::string ExplainHeld(const std::vector<Excess>& held);
 std::string ExplainHeldBesideMaps(const FitParameter& parameter);
 /// Of a law that does not describe the data: by one of its parameters, or since friction rises from rest.
 std::string ExplainExcess(const Excess& excess, const Fit& fit);

@@ -45,7 +45,7 @@ struct FitParameter {
   int displacement_power = 0;     // of rad or m in the unit, beside the torque's
   int time_power = 0;             // of s
   LawPart part = LawPart::other;  // of a row of the law
-  double moved = 0;               // of the value, since a row of the law is held at its bound
+  double moved = 0;  // of the value, by the row that holds others at a bound (HoldAtBounds)
 };
 
 /// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with what a method

@@ -37,6 +37,15 @@ void Move(const FigureChange& change, double& value, std::array<double, 2>* inte
   }
 }
 
+/// Moves the value of a row of the table to where others are held at a bound: its interval stays that of noise.
+void Hold(const std::vector<Cause>& causes, std::size_t row, ParameterInterval& known) {
+  for (const Cause& cause : causes) {
+    if (cause.action != Action::hold) continue;
+    const auto at = std::ranges::find(cause.rows, row) - cause.rows.begin();
+    if (at < std::ssize(cause.rows)) known.value += cause.bias[at];
+  }
+}
+
 void Apply(const FigureChange& change, ParameterInterval& known) {
   if (!change.has_interval) {
     known.std.reset();
@@ -80,8 +89,10 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
   // the numbers
   const auto count = std::ssize(answer.parameters);
   for (Eigen::Index i = 0; i < count; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    Hold(causes, row, answer.parameters[row]);
     Apply(ChangeOf(causes, Eigen::VectorXd::Unit(count, i), About::parameters),
-          answer.parameters[static_cast<std::size_t>(i)]);
+          answer.parameters[row]);
   }
   Apply(causes, answer.at_speeds);
 

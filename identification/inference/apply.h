@@ -10,7 +10,7 @@
 namespace warmjoint {
 
 /// The only function that changes a value, an interval or the status. The order of the rows does not matter to any of
-/// them: shifts add, what widens intervals adds (ChangeOf), and of rows that refuse the one whose status says most counts, in the
+/// them: what shifts and holds adds, what widens intervals adds (ChangeOf), and of rows that refuse the one whose status says most counts, in the
 /// order bad_data, inadequate_model, not_identifiable, not_converged. Sentences stand in the order of their sources.
 /// by_noise: what noise alone says.
 Inference Apply(Inference by_noise, std::vector<Cause> causes);

@@ -3,6 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
@@ -59,6 +64,19 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
   }
 }
 
+/// The row of values that moved.
+Cause Moved(const std::vector<FitParameter>& parameters, std::string sentence) {
+  Cause cause{.source = Source::bound, .action = Action::hold, .sentence = std::move(sentence)};
+  std::vector<double> moves;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!parameters[i].estimated) continue;
+    cause.rows.push_back(i);
+    moves.push_back(parameters[i].moved);
+  }
+  cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
+  return cause;
+}
+
 }  // namespace
 
 bool LeavesBounds(const std::vector<FitParameter>& parameters) {
@@ -96,6 +114,7 @@ void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit
   if (free || !fit.friction.maps.empty()) return;
   std::vector<Eigen::Index> held;
   std::vector<double> gaps;
+  std::vector<Excess> beyond;
   Eigen::Index column = -1;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
@@ -106,8 +125,9 @@ void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit
     if (excess->beyond || !excess->interval95) return;
     held.push_back(column);
     gaps.push_back(excess->bound - row.value);
-    fit.causes.push_back(Remark(ExplainHeld(*excess)));
+    beyond.push_back(*excess);
   }
+  const std::string sentence = ExplainHeld(beyond);
 
   // the others as the covariance has them with these held
   const Eigen::MatrixXd& covariance = by_noise.known.covariance;
@@ -116,6 +136,7 @@ void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit
   Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);
   fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
   fit.end_energy = nullptr;
+  fit.causes.push_back(Moved(fit.parameters, sentence));
 }
 
 }  // namespace warmjoint

@@ -22,8 +22,8 @@ bool GivesFriction(const Fit& fit);
 std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 
 /// Sets law parameters that lie outside of a bound within their intervals to it: what is beyond is noise. The others are
-/// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x, and the model follows. A fit stays
-/// as it is where one lies beyond with its whole interval, or beside maps (RepeatedFit holds their laws) and free gravity.
+/// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x. The model of the fit follows, so that the residual is
+/// that of what is reported, and a row (Action::hold) moves the values of the answer. A fit stays as it is where one lies beyond with its whole interval, or beside maps (RepeatedFit holds their laws) and free gravity.
 /// by_noise: of the fit, whatever its bounds; measurements: of the fit.
 void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit);
 

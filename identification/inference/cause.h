@@ -101,6 +101,7 @@ enum class Action {
   cover,           // intervals hold the value, and the value with the bias, for noise around either
   drop_intervals,  // no number has an interval
   shift,           // values and intervals move by the bias
+  hold,            // values of parameters move by the bias, and their intervals stay
   refuse,          // no interval, friction or band; the answer's status is the row's
 };
 

@@ -30,13 +30,12 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
   return {value, std::abs(value) * relative, {{ends.first, ends.second}}, 0};
 }
 
-/// The same about the fit's own value, where it was moved; of one that was set to a bound from that on.
+/// The same about the fit's own value, where it was moved; of one that is at a bound from that on.
 ParameterInterval KnownWithin(FitParameter row, double deviation, double quantile) {
-  const double value = row.value;
+  const double held = row.value;
   row.value -= row.moved;
   ParameterInterval known = Known(row, deviation, quantile);
-  known.value = value;
-  if (!IsNominal(row.role) || (value != row.lower && value != row.upper)) return known;
+  if (!IsNominal(row.role) || (held != row.lower && held != row.upper)) return known;
   for (double& end : *known.interval95) end = std::clamp(end, row.lower, row.upper);
   return known;
 }
@@ -47,7 +46,7 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
   std::vector<ParameterInterval> all;
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
-    ParameterInterval one{parameter.value, {}, {}, 0};
+    ParameterInterval one{parameter.value - parameter.moved, {}, {}, 0};
     if (parameter.estimated) {
       const double quantile = StudentQuantile(known.DegreesOfFreedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);

@@ -61,8 +61,8 @@ struct Inference {
 /// Whether any number has an interval.
 bool HasIntervals(const Inference& inference);
 
-/// What noise alone says, whatever causes and bounds: covariance and intervals with Student's quantile. The interval of a row that is
-/// held at its bound is that of the fit without it, from the bound on; those of the others are, too.
+/// What noise alone says, whatever causes and bounds: values that no bound holds, covariance, and intervals with Student's quantile. That of a
+/// row at its bound goes from the bound on.
 Inference ByNoise(const Fit& fit);
 
 /// What a fit says against itself: the rows that it brings, and that of its physical bounds (bounds.h).

@@ -129,6 +129,19 @@ TEST(Apply, TakesTheRefusalThatSaysMost) {
   EXPECT_DOUBLE_EQ(answer.parameters[0].value, 5.25);
 }
 
+TEST(Apply, HoldsValuesAndLeavesTheirIntervals) {
+  std::vector<Cause> rows{Moves(Source::bound, Action::hold, -0.5, 0.25),
+                          Moves(Source::gaps, Action::widen, 0.5, 0)};
+  rows[0].sentence = "held";
+  const Inference answer = Apply(ByNoise(), rows);
+  EXPECT_EQ(answer.warnings, std::vector<std::string>{"held"});
+  EXPECT_DOUBLE_EQ(answer.parameters[0].value, 4.5);
+  EXPECT_DOUBLE_EQ((*answer.parameters[0].interval95)[0], 3.5);
+  EXPECT_DOUBLE_EQ((*answer.parameters[0].interval95)[1], 6.5);
+  EXPECT_DOUBLE_EQ(answer.parameters[1].value, 15.25);
+  EXPECT_DOUBLE_EQ((*answer.parameters[1].interval95)[0], 13);
+}
+
 TEST(Apply, DoesNotDependOnTheOrderOfRows) {
   std::vector<Cause> rows = Rows();
   rows.push_back(Moves(Source::held_losses, Action::cover, 0.5, -0.25));
