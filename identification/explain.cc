@@ -216,6 +216,13 @@ std::string ExplainLeftOutByLag(double lag) {
       lag);
 }
 
+std::string ExplainSettling(double settling) {
+  return fmt::format(
+      "the torque takes {:.2g} s to settle after a change of speed: the samples until then are "
+      "left out",
+      settling);
+}
+
 std::string ExplainImitated(const std::vector<std::string>& names) {
   return fmt::format(
       "the data cannot separate {} from the map; use total friction (at the speeds given, and "

@@ -71,6 +71,9 @@ std::string ExplainDelayLeftOut(double delay, double step, double harm,
 /// Of samples left out because the torque lags, s.
 std::string ExplainLeftOutByLag(double lag);
 
+/// Of samples left out since the torque takes so long, s, to settle after a change of speed.
+std::string ExplainSettling(double settling);
+
 // of heat (explain_heat.cc)
 inline constexpr const char* kWithoutWarming = "without warming: ";  // why not
 inline constexpr const char* kOthersBeginCold =
@@ -89,6 +92,18 @@ std::string ExplainHeldLosses(double step, double change, Action action);
 /// Of gaps in the log whose losses are estimated, or which intervals cover (widen). time: [N] s
 std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
                         Action action);
+/// Of a log that shows no warming: by how much it lowers the squared residuals, in variances of the noise, where `needed` count. beside: what
+/// stands beside it, "" or words that begin with a blank; instead: the identifier that fits without
+std::string ExplainUnseenWarming(double lowers, double needed, std::string_view beside,
+                                 std::string_view instead);
+/// Of a warming that is faster than heat, s.
+std::string ExplainFastWarming(double time_constant, double fastest, std::string_view instead);
+/// Of gain and time constant that trade off: since the latter, in s, lies outside of what the log can show, since it is known to a factor,
+/// or not at all; and since it is longer than the log's duration, s, by far.
+std::string ExplainHiddenTimeConstant(double time_constant, double shortest, double longest);
+std::string ExplainVagueTimeConstant(double factor);
+std::string ExplainUnknownTimeConstant();
+std::string ExplainRunawayTimeConstant(double duration);
 /// Of warming beside maps, and of maps over the energy that it gives.
 std::string ExplainWarmingBesideMaps(int iterations);
 std::string ExplainMapsOverEnergy(int rounds);

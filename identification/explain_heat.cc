@@ -7,6 +7,17 @@
 #include "identification/explain.h"
 
 namespace warmjoint {
+namespace {
+
+/// known: what is known of the time constant
+std::string ExplainTradeOff(std::string_view known) {
+  return fmt::format(
+      "thermal_gain and thermal_time_constant cannot be told apart: {}; record longer, from cold "
+      "until friction settles, or with rests",
+      known);
+}
+
+}  // namespace
 
 std::string ExplainColdStart(const MovedParameter& moved, double begins, std::string_view remedy) {
   const std::string clock =
@@ -48,6 +59,40 @@ std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& 
                      action == Action::widen
                          ? ", and intervals were widened to cover this; record without gaps"
                          : " and are estimated, too");
+}
+
+std::string ExplainUnseenWarming(double lowers, double needed, std::string_view beside,
+                                 std::string_view instead) {
+  return fmt::format(
+      "no warm-up can be seen{}: warming lowers the sum of squared residuals by {:.3g} noise "
+      "variances, and {:.3g} are needed; {} fits without warming, and a drift that it shows here "
+      "does not come from the losses; to see a warm-up, record ten minutes or more from cold",
+      beside, lowers, needed, instead);
+}
+
+std::string ExplainFastWarming(double time_constant, double fastest, std::string_view instead) {
+  return fmt::format(
+      "what looks like warming has a time constant of {:.2g} s, and nothing warms within {:.2g} "
+      "s: is the torque or the velocity late or filtered? {} fits without warming",
+      time_constant, fastest, instead);
+}
+
+std::string ExplainHiddenTimeConstant(double time_constant, double shortest, double longest) {
+  return ExplainTradeOff(fmt::format("tau is {:.3g} s, and the log can show {:.3g} to {:.3g} s",
+                                     time_constant, shortest, longest));
+}
+
+std::string ExplainVagueTimeConstant(double factor) {
+  return ExplainTradeOff(fmt::format("tau is known to a factor of {:.3g} only", factor));
+}
+
+std::string ExplainUnknownTimeConstant() { return ExplainTradeOff("nothing is known of tau"); }
+
+std::string ExplainRunawayTimeConstant(double duration) {
+  return ExplainTradeOff(
+      fmt::format("the friction still changes at the same rate at the end of the {:.4g} s, so that "
+                  "any longer tau fits as well",
+                  duration));
 }
 
 std::string ExplainWarmingBesideMaps(int iterations) {

@@ -164,7 +164,8 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
 /// What is left of a torque that settles moves law and heat by no more than the samples in which it fades away: of an exponential,
 /// and of what fades quicker, less is left behind these than in them.
 Cause SettlingCause(const SettledFit& settled) {
-  Cause cause = OfTheLog(Source::preparation, SaySettling(settled.settling));
+  const double longest = std::max(settled.settling.behind, settled.settling.before);
+  Cause cause = OfTheLog(Source::preparation, ExplainSettling(longest));
   const std::vector<FitParameter>& rows = settled.fit.parameters;
   const bool alike = settled.sooner && !settled.sooner->refusal && !settled.fit.refusal &&
                      settled.sooner->friction.law == settled.fit.friction.law &&

@@ -1,7 +1,5 @@
 #include "identification/answer/settling.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -183,13 +181,6 @@ Selection WithoutSettling(Selection selection, const VectorXd& time, const Settl
   }
   selection.segments = std::move(left);
   return selection;
-}
-
-std::string SaySettling(const Settling& settling) {
-  return fmt::format(
-      "the torque takes {:.2g} s to settle after a change of speed: the samples until then are "
-      "left out",
-      std::max(settling.behind, settling.before));
 }
 
 }  // namespace warmjoint

@@ -4,7 +4,6 @@
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
-#include <string>
 
 namespace warmjoint {
 
@@ -44,8 +43,5 @@ inline constexpr double kShownToSettle = 2.0 / 3;
 /// A selection without the samples of each segment that are nearer to its ends than `settling`. time: [N] s
 Selection WithoutSettling(Selection selection, const Eigen::VectorXd& time,
                           const Settling& settling);
-
-/// That samples were left out.
-std::string SaySettling(const Settling& settling);
 
 }  // namespace warmjoint

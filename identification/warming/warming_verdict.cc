@@ -1,8 +1,8 @@
 #include "identification/warming/warming_verdict.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include "identification/explain.h"
 
 namespace warmjoint {
 
@@ -10,27 +10,23 @@ namespace {
 
 constexpr double kNotAtAll = 100;  // a factor within which nothing is known
 
-/// What a fit knows of tau, where that is too little.
-std::string WhatIsKnown(const WarmingEvidence& evidence) {
+/// Why what a fit knows of tau is too little.
+std::string WhyUntold(const WarmingEvidence& evidence) {
   const double tau = evidence.time_constant;
   const double factor = std::exp(1.96 * evidence.log_deviation);
-  if (!(factor < kNotAtAll)) return "nothing is known of tau";
+  if (!(factor < kNotAtAll)) return ExplainUnknownTimeConstant();
   if (tau < evidence.shortest / 4 || tau > evidence.longest * 4) {
-    return fmt::format("tau is {:.3g} s, and the log can show {:.3g} to {:.3g} s", tau,
-                       evidence.shortest, evidence.longest);
+    return ExplainHiddenTimeConstant(tau, evidence.shortest, evidence.longest);
   }
-  return fmt::format("tau is known to a factor of {:.3g} only", factor);
+  return ExplainVagueTimeConstant(factor);
 }
 
 }  // namespace
 
 std::optional<std::string> InsignificantWarming(double explained, const WarmingContext& context) {
   if (explained > kVisibleWarming) return std::nullopt;
-  return fmt::format(
-      "no warm-up can be seen{}: warming lowers the sum of squared residuals by {:.3g} noise "
-      "variances, and {:.3g} are needed; {} fits without warming, and a drift that it shows here "
-      "does not come from the losses; to see a warm-up, record ten minutes or more from cold",
-      context.beside, explained > 0 ? explained : 0.0, kVisibleWarming, context.instead);
+  return ExplainUnseenWarming(explained > 0 ? explained : 0.0, kVisibleWarming, context.beside,
+                              context.instead);
 }
 
 std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,
@@ -38,10 +34,7 @@ std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence
   if (auto why = InsignificantWarming(evidence.explained, context)) return why;
   const double tau = evidence.time_constant;
   if (tau < FastestWarming(evidence.step)) {
-    return fmt::format(
-        "what looks like warming has a time constant of {:.2g} s, and nothing warms within {:.2g} "
-        "s: is the torque or the velocity late or filtered? {} fits without warming",
-        tau, FastestWarming(evidence.step), context.instead);
+    return ExplainFastWarming(tau, FastestWarming(evidence.step), context.instead);
   }
   // a time constant that may be longer than the log must be known better
   const bool beyond = tau * std::exp(1.96 * evidence.log_deviation) > evidence.duration;
@@ -50,19 +43,12 @@ std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence
     return std::nullopt;
   }
   if (auto why = RunawayWarming(tau, evidence.duration)) return why;
-  return fmt::format(
-      "thermal_gain and thermal_time_constant cannot be told apart: {}; record longer, from cold "
-      "until friction settles, or with rests",
-      WhatIsKnown(evidence));
+  return WhyUntold(evidence);
 }
 
 std::optional<std::string> RunawayWarming(double time_constant, double duration) {
   if (!(time_constant > 5 * duration)) return std::nullopt;
-  return fmt::format(
-      "thermal_gain and thermal_time_constant cannot be told apart: the friction still changes at "
-      "the same rate at the end of the {:.4g} s, so that any longer tau fits as well; record "
-      "longer, from cold until friction settles, or with rests",
-      duration);
+  return ExplainRunawayTimeConstant(duration);
 }
 
 }  // namespace warmjoint
