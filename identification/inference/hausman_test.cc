@@ -11,6 +11,7 @@
 
 #include "identification/explain.h"
 #include "identification/fit_data.h"
+#include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
@@ -59,6 +60,12 @@ Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& frict
     return DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals));
   }
 
+  // known no better than the noise: by its fewest degrees of freedom
+  const Uncertainty known = CovarianceOf(fit);
+  double fewest = known.degrees_of_freedom;
+  if (known.each_degrees_of_freedom.size() > 0) fewest = known.each_degrees_of_freedom.minCoeff();
+  const double reach = StudentQuantile(fewest, kIntervalLevel) / kNormal95;
+
   // d in the values of the table
   Cause cause{.source = Source::structure,
               .action = Action::widen,
@@ -70,7 +77,7 @@ Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& frict
     const double by_coordinate = one.coordinate == Coordinate::logarithm ? one.value : 1;
     const double difference = structure.differences[std::ssize(deviations)];
     cause.rows.push_back(i);
-    deviations.push_back(by_coordinate * difference);
+    deviations.push_back(reach * by_coordinate * difference);
   }
   cause.bias = Eigen::VectorXd::Zero(std::ssize(deviations));
   cause.spread = Eigen::Map<const Eigen::VectorXd>(deviations.data(), std::ssize(deviations));

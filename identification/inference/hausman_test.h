@@ -33,8 +33,8 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
 /// the parameters, about: its standard deviation. Where J d stays below a tenth of the friction, as `--relevance` has it by
-/// default, the row widens intervals by that, 1.96 |d|; beyond it no number gets an interval.
-/// friction: [n] F at the kept samples, N.m or N; fit: with its table and Jacobian
+/// default, the row widens intervals by |d| times Student's quantile for the noise's fewest degrees of freedom; beyond it no number gets an
+/// interval. friction: [n] F at the kept samples, N.m or N; fit: with its table, Jacobian and errors
 Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& friction,
                      const Fit& fit);
 

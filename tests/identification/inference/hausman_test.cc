@@ -119,19 +119,21 @@ TEST(StructureCause, LetsIntervalsReachAsFarAsTheWhitenedFit) {
   const Inference inference = Infer(fit);
   EXPECT_EQ(inference.warnings.size(), 1u);
   const ParameterInterval& coulomb = inference.parameters[0];
+  const double reach = StudentQuantile(before.known.degrees_of_freedom, kIntervalLevel) * 0.2;
   EXPECT_DOUBLE_EQ(coulomb.value, 15);
-  EXPECT_DOUBLE_EQ(coulomb.HalfWidth(), before.parameters[0].HalfWidth() + kNormal95 * 0.2);
+  EXPECT_NEAR(coulomb.HalfWidth(), before.parameters[0].HalfWidth() + reach, 1e-12);
   EXPECT_EQ(coulomb.parts.back().by, Source::structure);
-  EXPECT_DOUBLE_EQ(coulomb.parts.back().half_width, kNormal95 * 0.2);
+  EXPECT_NEAR(coulomb.parts.back().half_width, reach, 1e-12);
   // noise stays noise
   EXPECT_EQ(inference.known.covariance, before.known.covariance);
 }
 
 TEST(StructureCause, IsOfTheValueOfALogarithm) {
   Fit fit = LevelFit();
+  const Cause of_value = StructureCause(MovedBy(0.01), fit.fitted, fit);
   fit.parameters[0].coordinate = Coordinate::logarithm;
-  const Cause cause = StructureCause(MovedBy(0.01), fit.fitted, fit);
-  EXPECT_DOUBLE_EQ(cause.spread(0, 0), 0.15);
+  const Cause of_logarithm = StructureCause(MovedBy(0.01), fit.fitted, fit);
+  EXPECT_DOUBLE_EQ(of_logarithm.spread(0, 0), 15 * of_value.spread(0, 0));
 }
 
 TEST(StructureCause, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
