@@ -12,8 +12,35 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Damping of the first step that did not lower the squares, as a share of the diagonal, and by how much it grows from one to the next.
-constexpr double kFirstDamping = 1e-3, kFurther = 8;
+/// Damping after the first step that did not lower the squares, as a share of the diagonal.
+constexpr double kFirstDamping = 1e-3;
+
+/// Share of the diagonal up to which steps are about those without damping.
+constexpr double kLight = 0.1;
+/// Of the squares, what rounding makes of a sum of 1e6 terms.
+constexpr double kRounding = 1e-12;
+
+/// How much the diagonal grows: more and more with each step that fails, less with each that does what it promised, by the rules of
+/// Madsen, Nielsen and Tingleff (Methods for non-linear least squares problems, 2004, 3.2).
+class Damping {
+ public:
+  double share() const { return share_; }
+  /// Whether a step is about the undamped one.
+  bool IsLight() const { return share_ <= kLight; }
+  /// ratio: of what the squares fell by to what was promised
+  void AfterFall(double ratio) {
+    share_ *= std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3));
+    growth_ = 2;
+  }
+  void AfterRise() {
+    share_ = std::max(kFirstDamping, growth_ * share_);
+    growth_ *= 2;
+  }
+
+ private:
+  double share_ = 0, growth_ = 2;
+};
+
 /// Where the eigenvalues of a matrix scaled to a unit diagonal count as 0.
 constexpr double kNoInformation = 1e-12;  // why: the rounding of some 1e4 samples' products
 
@@ -90,30 +117,36 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
   Minimum found;
   found.sums = problem.sums(x);
   found.trace.push_back({x, found.sums.squares});
-  double damping = 0;
-  for (int i = 0; i < problem.most_iterations && !found.converged; ++i) {
+  Damping damping;
+  bool stuck = false;
+  for (int i = 0; i < problem.most_iterations && !found.converged && !stuck; ++i) {
     if (!std::isfinite(found.sums.squares) || !found.sums.gram.allFinite()) break;
     found.at_bound = PushedOut(problem, x, found.sums.product);
     std::vector<Index> fixed = problem.held;
     fixed.insert(fixed.end(), found.at_bound.begin(), found.at_bound.end());
+    const double rests = std::max(problem.rests, kRounding * found.sums.squares);
 
-    // damped more and more until the squares fall, or promise to fall by nothing
-    for (bool fell = false; !fell && !found.converged;) {
-      const VectorXd next = Within(problem, x + StepOf(problem, x, found.sums, damping, fixed));
+    // damped more and more until the squares fall
+    for (bool fell = false; !fell && !found.converged && !stuck;) {
+      const VectorXd next =
+          Within(problem, x + StepOf(problem, x, found.sums, damping.share(), fixed));
       const VectorXd step = next - x;
       const double promised = step.dot(2 * found.sums.product - found.sums.gram * step);
       RowSums there = problem.sums(next);
-      found.converged = !(promised > problem.rests);
+      // at a minimum nothing is promised; where it takes damping to promise nothing, the squares do not do as they promise
+      const bool promises = std::abs(promised) > (damping.IsLight() ? rests : problem.rests);
+      found.converged = !promises && damping.IsLight();
+      stuck = !promises && !damping.IsLight();
       fell = there.squares < found.sums.squares;
-      if (fell) {
-        found.fell = found.sums.squares - there.squares;
-        found.sums = std::move(there);
-        x = next;
-        damping = damping > kFirstDamping ? damping / kFurther : 0;
-        found.trace.push_back({x, found.sums.squares});
-      } else {
-        damping = std::max(kFirstDamping, kFurther * damping);
+      if (!fell) {
+        damping.AfterRise();
+        continue;
       }
+      found.fell = found.sums.squares - there.squares;
+      found.sums = std::move(there);
+      x = next;
+      damping.AfterFall(promised > 0 ? found.fell / promised : 0);
+      found.trace.push_back({x, found.sums.squares});
     }
   }
   found.x = std::move(x);

@@ -44,7 +44,7 @@ struct Minimum {
 
 /// From x on by Gauss-Newton's steps, damped as Levenberg and Marquardt do (SIAM J. Appl. Math. 11, 1963) where one does not
 /// lower the squares. Unknowns at a bound that the squares push outwards stay there. Has not converged where the squares are
-/// not finite.
+/// not finite, or fall by none of what the steps promise.
 Minimum Minimise(const SquaresProblem& problem, Eigen::VectorXd x);
 
 /// x = H^-1 b of a positive semidefinite H of any scale; directions that H does not know stay 0.
