@@ -52,15 +52,13 @@ struct FitParameter {
 /// changes of it.
 struct ErrorModel {
   Eigen::MatrixXd cofactor;  // [p x p] C, the inverse of what the fit solved
-  Eigen::VectorXd prior;     // [p] what is known beforehand (EstimateCovariance); or empty
+  Eigen::VectorXd prior;     // [p] what is known beforehand (uncertainty.h); or empty
   Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss or a lag; or empty
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
   /// Of the rows that the fit solved, and with which C is; or none.
   std::shared_ptr<const Whitening> whitening;
-  /// Covariance of the table's estimated rows, where the identifier had to know it already.
-  std::optional<Uncertainty> known;
-  /// The same found where it is asked for: of a sketch, of which hardly anyone does; or not set.
-  std::function<Uncertainty()> judge;
+  /// Covariance of the table's estimated rows, of a fit whose errors follow from more than its table; or not set.
+  std::function<Uncertainty()> covariance;
 };
 
 /// Where a fit stood after an iteration.
@@ -126,7 +124,7 @@ struct Fit {
   Selection used;
   Eigen::VectorXd torque;  // [n] measured, N.m or N
   Eigen::VectorXd fitted;  // [n] F + G + M a, behind the lag where there is one, N.m or N
-  /// d(F + G + M a)/dx over all samples, [N x p], exact; of a fit whose errors.known is not set.
+  /// d(F + G + M a)/dx over all samples, [N x p], exact; of a fit whose errors.covariance is not set.
   std::function<Eigen::MatrixXd()> jacobian;
   ErrorModel errors;
   int count = 0;                    // of parameters, kernels included

@@ -110,8 +110,10 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
   }
 
   // and whether noise may do it
-  const Uncertainty known =
-      EstimateCovariance([&] { return rows; }, step.cofactor, residual - taken, model->selection);
+  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return rows; }),
+                                          .cofactor = step.cofactor,
+                                          .residual = residual - taken,
+                                          .selection = model->selection});
   // the parameter that is farthest off, in its standard errors
   const Eigen::ArrayXd deviations = known.covariance.diagonal().array().sqrt();
   Eigen::Index most = 0;

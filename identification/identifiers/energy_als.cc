@@ -354,9 +354,12 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   fit.effective_parameters = part.effective + 2;
 
   // what is known now, and how far from the end it is
-  const Uncertainty known =
-      EstimateCovariance([&] { return jacobian; }, *cofactor, fit.residual(), fit.used, fit.fitted);
-  fit.errors.known = OfTable(part, known);
+  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                                          .cofactor = *cofactor,
+                                          .residual = fit.residual(),
+                                          .selection = fit.used,
+                                          .fitted = fit.fitted});
+  fit.errors.covariance = [of_table = OfTable(part, known)] { return of_table; };
   const auto [arrived, message] =
       Arrival(states, known, input.options.Get<EnergyAlsOptions>().tolerance);
   if (!arrived) fit.causes.push_back(Voids(Status::not_converged, message));

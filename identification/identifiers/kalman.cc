@@ -224,7 +224,7 @@ struct KalmanOptions {
 
 /// One pass is not efficient, and what still moves has not arrived.
 void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
-  const Uncertainty& known = *fit.errors.known;
+  const Uncertainty known = CovarianceOf(fit);
   if (passes.size() == 1) {
     fit.summary += NoiseOf(known);
     fit.causes.push_back(DropsIntervals(kNoIntervalsOfOnePass));
@@ -305,8 +305,12 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);
   fit.refusal = WhyRefused(track, fit, last, joint, response, nominal_squares);
   if (fit.refusal) return fit;
-  fit.errors.known = EstimateCovariance([&] { return jacobian; }, joint.cofactor, fit.residual(),
-                                        fit.used, fit.fitted);
+  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                                          .cofactor = joint.cofactor,
+                                          .residual = fit.residual(),
+                                          .selection = fit.used,
+                                          .fitted = fit.fitted});
+  fit.errors.covariance = [known] { return known; };
   fit.summary =
       fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}", passes.size(),
                   fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);

@@ -139,9 +139,10 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
     if (!problem.IsConstant(i)) free.push_back(i);
   }
   const Eigen::MatrixXd jacobian = fit.jacobian(Eigen::all, free);
-  answer.known =
-      EstimateCovariance([&] { return jacobian; }, Cofactor(jacobian.transpose() * jacobian),
-                         fit.residual, problem.used);
+  answer.known = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                               .cofactor = Cofactor(GramOf(jacobian)),
+                               .residual = fit.residual,
+                               .selection = problem.used});
   // the sampling's error beside that of the noise
   const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
 
@@ -306,8 +307,9 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   fit.effective_parameters = fit.count;
 
   // over its deviations, which take up what is uneven, a residual tells its colour alone
-  fit.errors.known = answer.known;
-  fit.errors.known->uneven = 0;
+  Uncertainty known = answer.known;
+  known.uneven = 0;
+  fit.errors.covariance = [known] { return known; };
 
   const Eigen::Index turns = fit.torque.size() - input.selection.count();
   fit.summary =

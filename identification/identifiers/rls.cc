@@ -201,8 +201,8 @@ Fit FitOnline(const IdentifierInput& given) {
   fit.errors.cofactor = weighted.cofactor;
   fit.errors.weights = weights;
   if (heat) {
-    fit.errors.known =
-        ThroughHeat(*heat, rows, weights, residual, weighted.cofactor, input.selection);
+    fit.errors.covariance = [known = ThroughHeat(*heat, rows, weights, residual, weighted.cofactor,
+                                                 input.selection)] { return known; };
   }
   fit.count = task.count();
   fit.effective_parameters = fit.count;

@@ -141,10 +141,12 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
                   input.measurements.acceleration ? kOfAnyMotion : "", problem.exponent);
 
   // how sure it is, and whether that will do
-  fit.errors.known = EstimateCovariance([&] { return best.jacobian; },
-                                        Cofactor(best.jacobian.transpose() * best.jacobian),
-                                        fit.residual(), fit.used, fit.fitted);
-  const Uncertainty& known = *fit.errors.known;
+  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return best.jacobian; }),
+                                          .cofactor = Cofactor(GramOf(best.jacobian)),
+                                          .residual = fit.residual(),
+                                          .selection = fit.used,
+                                          .fitted = fit.fitted});
+  fit.errors.covariance = [known] { return known; };
   const StribeckEvidence evidence = EvidenceOf(problem.law, at, best.solution.x, known);
   auto why = UnidentifiableStribeck(problem.law, evidence, input.measurements, input.selection);
   if (!why) why = UnidentifiableHeat(problem, best, known);

@@ -84,9 +84,4 @@ std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorX
 /// the residual shows (uncertainty.h). [p x p] in the coordinates of the parameters.
 Uncertainty CovarianceOf(const Fit& fit);
 
-/// Degrees of freedom of the noise's variance that n weighted samples leave beside d parameters: at
-/// least 1. (sum w)^2 / sum w^2 of them count. weights: [n].
-double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
-                                 Eigen::Index d);
-
 }  // namespace warmjoint

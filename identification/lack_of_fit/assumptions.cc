@@ -146,8 +146,11 @@ class OpenFactors {
     const Index p = basis.cols();
     MatrixXd cofactor = MatrixXd::Identity(p + 1, p + 1);
     cofactor(p, p) = 1 / square;
-    const Uncertainty known = EstimateCovariance([&] { return ConcatColumns(basis, own); },
-                                                 cofactor, left_ - factor * own, AllOf(own.size()));
+    const Uncertainty known =
+        CovarianceOf({.rows = RowsFrom([&] { return ConcatColumns(basis, own); }),
+                      .cofactor = cofactor,
+                      .residual = left_ - factor * own,
+                      .selection = AllOf(own.size())});
 
     // as far as noise reaches at that level
     const double quantile = known.degrees_of_freedom == white_degrees_of_freedom_

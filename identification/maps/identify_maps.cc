@@ -277,7 +277,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
           const Uncertainty& known) {
   if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, maps);
-  fit.errors.known = OfTable(known, maps);
+  fit.errors.covariance = [of_table = OfTable(known, maps)] { return of_table; };
   if (task.settings.bands == MapBands::none || !GivesFriction(fit)) return fit;
   AddBands(input, task, maps, known, fit);
   // what a motor's map shows, which comes first
@@ -292,7 +292,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
 Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice) {
   if (!choice.fit.inverse.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, choice.fit);
-  fit.errors.judge = [kept = std::make_shared<const MapChoice>(std::move(choice))] {
+  fit.errors.covariance = [kept = std::make_shared<const MapChoice>(std::move(choice))] {
     return OfTable(MapCovariance(kept->problem, kept->fit), kept->fit);
   };
   return fit;

@@ -3,7 +3,8 @@
 #include <Eigen/Cholesky>
 #include <utility>
 
-#include "identification/uncertainty/penalised_uncertainty.h"
+#include "identification/uncertainty/uncertainty.h"
+#include "identification/uncertainty/weight_prior.h"
 #include "identification/warming/gaps.h"
 
 namespace warmjoint {
@@ -137,9 +138,14 @@ Uncertainty JointFit::CovarianceOf(const MapFit& maps, const VectorXd& residual)
   const MatrixXd inverse =
       scale.asDiagonal() * factors.solve(MatrixXd::Identity(p, p)) * scale.asDiagonal();
   // independent weights: with those that go together gain and time constant are off by half of what is said
-  return PenalisedCovariance(
-      {rows_.gram(), inverse, maps.free(), maps.weights(), maps.strength, maps.unseen, prior_},
-      [&](Index first, Index last) { return rows_.Between(first, last); }, residual, selection_);
+  return warmjoint::CovarianceOf(
+      {.rows = [&](Index first, Index last) { return rows_.Between(first, last); },
+       .cofactor = inverse,
+       .residual = residual,
+       .selection = selection_,
+       .fitted = rows_.torque() - residual,
+       .prior = prior_,
+       .pull = WeightPrior{rows_.gram(), maps.free(), maps.weights(), maps.strength, maps.unseen}});
 }
 
 }  // namespace warmjoint

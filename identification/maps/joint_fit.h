@@ -28,7 +28,7 @@ class JointFit {
   const JointRows& rows() const { return rows_; }
   /// Writes what the fit tells of the heat.
   void HeatInto(ThermalFit& warming) const;
-  /// How sure all of it is (penalised_uncertainty.h). maps: the block's; residual: [n] that is left, N.m or N
+  /// How sure all of it is (uncertainty.h). maps: the block's; residual: [n] that is left, N.m or N
   Uncertainty CovarianceOf(const MapFit& maps, const Eigen::VectorXd& residual) const;
 
  private:

@@ -35,8 +35,9 @@ class JointRows {
   const Eigen::MatrixXd& gram() const { return gram_; }  // [p x p]
   const Eigen::VectorXd& product() const {
     return product_;
-  }                                            // [p] with what is left of the torque
-  double squares() const { return squares_; }  // of that, (N.m)^2 or N^2
+  }                                                          // [p] with what is left of the torque
+  const Eigen::VectorXd& torque() const { return torque_; }  // [n] N.m or N
+  double squares() const { return squares_; }                // of that, (N.m)^2 or N^2
 
   /// dE/dx at the end of the log, [p].
   Eigen::VectorXd OfEnd() const;

@@ -11,8 +11,8 @@
 
 #include "identification/maps/holes.h"
 #include "identification/ridge/envelope_cholesky.h"
-#include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/uncertainty/tails.h"
+#include "identification/uncertainty/weight_prior.h"
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint {
@@ -299,9 +299,13 @@ Uncertainty MapCovariance(const MapProblem& problem, const MapFit& fit) {
   const auto correlation = [&](double length) {
     return CorrelationInLines(fit.maps, fit.unseen, length);
   };
-  return PenalisedCovariance(
-      {fit.gram, fit.inverse, fit.free(), fit.weights(), fit.strength, fit.unseen, {}, correlation},
-      rows, problem.torque - fit.fitted, problem.selection);
+  return CovarianceOf({.rows = rows,
+                       .cofactor = fit.inverse,
+                       .residual = problem.torque - fit.fitted,
+                       .selection = problem.selection,
+                       .fitted = fit.fitted,
+                       .pull = WeightPrior{fit.gram, fit.free(), fit.weights(), fit.strength,
+                                           fit.unseen, correlation}});
 }
 
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {

@@ -155,7 +155,7 @@ class RepeatedFit {
 /// The maps with their weights, one map's after the other's. weights: [q]
 std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen::VectorXd& weights);
 
-/// How sure its parameters and weights are (penalised_uncertainty.h).
+/// How sure its parameters and weights are (uncertainty.h).
 Uncertainty MapCovariance(const MapProblem& problem, const MapFit& fit);
 
 /// Sum of maps at some points, [n] N.m or N.

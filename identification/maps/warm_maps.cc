@@ -76,7 +76,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const LogSamples& m
   // rows of the heat, with errors that law, maps and warming share
   const std::vector<FitParameter> rows = HeatTable(warming, warm.gaps, measurements);
   Append(rows, fit);
-  fit.errors.known = WithoutWeights(known, warm.fit);
+  fit.errors.covariance = [table = WithoutWeights(known, warm.fit)] { return table; };
   fit.count += static_cast<int>(rows.size());
   fit.effective_parameters += static_cast<double>(rows.size());
   fit.causes.insert(fit.causes.begin(), Remark(ExplainWarmingBesideMaps(warm.joint->iterations()),

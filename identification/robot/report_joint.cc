@@ -132,7 +132,7 @@ Fit FitOf(const JointFit& fit, const JointColumns& c) {
   known.covariance = fit.known.covariance;
   known.degrees_of_freedom = fit.known.degrees_of_freedom;
   known.noise.variance = known.noise.innovation = fit.solved.noise.variance;
-  made.errors.known = std::move(known);
+  made.errors.covariance = [known] { return known; };
   if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
   return made;
 }

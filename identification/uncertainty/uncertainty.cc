@@ -5,9 +5,15 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <utility>
+
+#include "identification/uncertainty/few_segments.h"
 
 namespace warmjoint {
 namespace {
+
+using Eigen::Index;
 
 constexpr double kUneven = 4;        // deviations
 constexpr double kLeastLevel = 0.2;  // of the line through |r|, of its mean
@@ -49,54 +55,161 @@ Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& k
   return level / std::sqrt(level.squaredNorm() / static_cast<double>(level.size()));
 }
 
+constexpr Index kBlock = 4096;  // rows at a time
+
+/// J^T R J, [d x d], and what the fit took up of the residual, in samples.
+struct Scatter {
+  Eigen::MatrixXd of_rows;
+  double taken = 0;
+};
+
+/// White noise that is even or not.
+Eigen::MatrixXd WhiteScatter(const FittedRows& fit, const Uncertainty& known) {
+  if (known.uneven == 0) return known.noise.variance * fit.pull->gram;
+  // each row by its own residual
+  const Index n = fit.residual.size(), d = fit.cofactor.rows();
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(d, d);
+  for (Index first = 0; first < n; first += kBlock) {
+    const Index last = std::min(first + kBlock, n);
+    const Eigen::MatrixXd rows =
+        fit.residual.segment(first, last - first).asDiagonal() * fit.rows(first, last);
+    scatter += rows.transpose() * rows;
+  }
+  return scatter;
+}
+
+/// Coloured noise; of uneven one the rows are weighted by its level, and the colour is that of the rest.
+Eigen::MatrixXd ColouredScatter(const FittedRows& fit, const Eigen::MatrixXd& circumstances,
+                                Uncertainty& known) {
+  const Index d = fit.cofactor.rows();
+  if (known.uneven == 0) return ScatterThrough(known.noise, fit.rows, d, fit.selection);
+  const Eigen::VectorXd level = Levels(fit.residual, circumstances);
+  known.noise = FitNoise(fit.residual.cwiseQuotient(level), fit.selection);
+  const auto weighted = [&](Index first, Index last) -> Eigen::MatrixXd {
+    return level.segment(first, last - first).asDiagonal() * fit.rows(first, last);
+  };
+  return ScatterThrough(known.noise, weighted, d, fit.selection);
+}
+
+/// Of rows that count by weights.
+Uncertainty OfWeighted(const FittedRows& fit) {
+  Uncertainty known;
+  known.noise = FitNoise(fit.residual, fit.selection);
+  const auto weighted = [&](Index first, Index last) -> Eigen::MatrixXd {
+    return fit.weights.segment(first, last - first).asDiagonal() * fit.rows(first, last);
+  };
+  const Index d = fit.cofactor.rows();
+  known.covariance = fit.cofactor *
+                     ScatterThrough(known.noise, weighted(0, fit.residual.size()), fit.selection) *
+                     fit.cofactor;
+  known.degrees_of_freedom = DegreesOfFreedomOfWeights(fit.weights, known.noise, d);
+  return known;
+}
+
+/// Of an exact log: its numbers are as sure as the rounding of doubles lets them be.
+Uncertainty OfRounding(const FittedRows& fit) {
+  Uncertainty exact;
+  exact.noise.variance = exact.noise.innovation = RoundingVariance(fit.fitted + fit.residual);
+  exact.covariance = exact.noise.variance * fit.cofactor;
+  exact.degrees_of_freedom =
+      std::max(static_cast<double>(fit.residual.size() - fit.cofactor.rows()), 1.0);
+  return exact;
+}
+
+/// What a fit with a pull takes up of the residual: E|r|^2 = tr R - 2 tr(C S) + tr(C G C S), at most half of the samples.
+double TakenBesidePull(const Eigen::MatrixXd& hat, const Eigen::MatrixXd& spread, double variance,
+                       double samples) {
+  const double product = hat.cwiseProduct(spread.transpose()).sum();
+  return std::clamp((2 * spread.trace() - product) / variance, 0.0, 0.5 * samples);
+}
+
+/// By the noise, by the pull and by what was known.
+void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertainty& known) {
+  const Eigen::MatrixXd& C = fit.cofactor;
+  const auto n = static_cast<double>(fit.residual.size());
+  const Eigen::MatrixXd hat = C * fit.pull->gram, spread = C * scatter;
+  const double taken = TakenBesidePull(hat, spread, known.noise.variance, n);
+  Eigen::MatrixXd by_noise(C.rows(), C.rows());
+  by_noise.triangularView<Eigen::Lower>() = n / (n - taken) * spread * C;
+  by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
+  known.covariance = by_noise + CovarianceByPull(*fit.pull, C, hat, by_noise);
+  // what was known beforehand errs as a measurement of that weight does
+  if (fit.prior.size() > 0) {
+    known.covariance += known.noise.variance * (C * fit.prior.asDiagonal() * C);
+  }
+  // independent samples less effective parameters
+  known.degrees_of_freedom = std::max(n / known.noise.variance_inflation - hat.trace(), 1.0);
+}
+
+/// By the noise and by what was known.
+void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& known) {
+  const Eigen::MatrixXd& C = fit.cofactor;
+  const auto n = static_cast<double>(fit.residual.size());
+  const auto d = static_cast<double>(C.rows());
+  // what the fit took up counts in samples, of coloured noise at most half of them
+  double taken = d;
+  known.degrees_of_freedom = n - d;
+  if (known.noise.order() > 0) {
+    taken = std::min((C * scatter).trace() / known.noise.variance, 0.5 * n);
+    known.degrees_of_freedom = std::max(n / known.noise.variance_inflation - d, 1.0);
+  }
+  if (fit.prior.size() > 0) scatter.diagonal() += known.noise.variance * fit.prior;
+  known.covariance = n / (n - taken) * (C * scatter * C);
+}
+
 }  // namespace
 
-Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
-                               const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                               const Selection& selection, const Eigen::VectorXd& fitted,
-                               const Eigen::VectorXd& prior) {
-  Uncertainty result;
-  result.noise = FitNoise(residual, selection);
-  const auto n = static_cast<double>(residual.size());
-  const auto d = static_cast<double>(cofactor.rows());
-  // whether the residual grows with time or with friction
-  const Eigen::MatrixXd known = Circumstances(residual.size(), fitted);
-  const double uneven = Unevenness(residual, known, result.noise);
-  if (uneven > kUneven) result.uneven = uneven;
-
-  // white and even: (J^T R J) C is s^2 times the identity
-  result.white = residual.squaredNorm() / std::max(n - d, 1.0) * cofactor;
-  if (result.noise.order() == 0 && result.uneven == 0) {
-    result.degrees_of_freedom = n - d;
-    result.covariance = residual.squaredNorm() / result.degrees_of_freedom * cofactor;
-    return result;
-  }
-
-  Eigen::MatrixXd rows = jacobian();
-  // errors by the scatter of the rows, and by that of what was known beforehand
-  const auto spread = [&](Eigen::MatrixXd scatter) -> Eigen::MatrixXd {
-    if (prior.size() > 0) scatter.diagonal() += result.noise.variance * prior;
-    return cofactor * scatter * cofactor;
+RowsBetween RowsFrom(std::function<Eigen::MatrixXd()> all) {
+  // made once
+  auto rows = std::make_shared<std::optional<Eigen::MatrixXd>>();
+  return [rows, all = std::move(all)](Index first, Index last) -> Eigen::MatrixXd {
+    if (!*rows) *rows = all();
+    return (*rows)->middleRows(first, last - first);
   };
-  // white but uneven: each row by its own residual
-  if (result.noise.order() == 0) {
-    rows = residual.asDiagonal() * rows;
-    result.degrees_of_freedom = n - d;
-    result.covariance = n / result.degrees_of_freedom * spread(rows.transpose() * rows);
-    return result;
-  }
+}
 
-  // coloured: what the fit took up counts in samples, at most half of them
-  if (result.uneven > 0) {
-    const Eigen::VectorXd level = Levels(residual, known);
-    result.noise = FitNoise(residual.cwiseQuotient(level), selection);
-    rows = level.asDiagonal() * rows;
+Uncertainty CovarianceOf(const FittedRows& fit) {
+  if (fit.weights.size() > 0) return OfWeighted(fit);
+  const double squares = fit.residual.squaredNorm();
+  if (fit.fitted.size() > 0 && IsRounding(squares, fit.fitted + fit.residual)) {
+    return OfRounding(fit);
   }
-  const Eigen::MatrixXd scatter = ScatterThrough(result.noise, rows, selection);
-  const double taken = std::min((cofactor * scatter).trace() / result.noise.variance, 0.5 * n);
-  result.degrees_of_freedom = std::max(n / result.noise.variance_inflation - d, 1.0);
-  result.covariance = n / (n - taken) * spread(scatter);
-  return result;
+  Uncertainty known;
+  known.noise = FitNoise(fit.residual, fit.selection);
+  const Index n = fit.residual.size(), d = fit.cofactor.rows();
+  // whether the residual grows with time or with friction
+  const Eigen::MatrixXd circumstances = Circumstances(n, fit.fitted);
+  const double uneven = Unevenness(fit.residual, circumstances, known.noise);
+  if (uneven > kUneven) known.uneven = uneven;
+
+  const bool is_white = known.noise.order() == 0;
+  const auto scatter = [&] {
+    return is_white ? WhiteScatter(fit, known) : ColouredScatter(fit, circumstances, known);
+  };
+  if (fit.pull) {
+    BesidePull(fit, scatter(), known);
+    return known;
+  }
+  known.white = squares / std::max(static_cast<double>(n - d), 1.0) * fit.cofactor;
+  if (is_white && known.uneven == 0) {
+    // (J^T R J + v P) C is the variance times the identity
+    known.degrees_of_freedom = static_cast<double>(n - d);
+    known.covariance = squares / known.degrees_of_freedom * fit.cofactor;
+  } else {
+    OfSquares(fit, scatter(), known);
+  }
+  const bool has_prior = fit.prior.size() > 0 && !fit.prior.isZero();
+  if (!has_prior && HasFewSegments(fit.selection, d)) {
+    CountSegments(fit.rows(0, n), fit.cofactor, fit.residual, fit.selection, known);
+  }
+  return known;
+}
+
+double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
+                                 Eigen::Index d) {
+  const double sum = weights.sum();
+  const double effective = sum * sum / weights.squaredNorm();
+  return std::max(effective / noise.variance_inflation - static_cast<double>(d), 1.0);
 }
 
 Uncertainty Picked(Uncertainty known, const std::vector<Eigen::Index>& places) {

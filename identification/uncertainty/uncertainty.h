@@ -4,10 +4,12 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "identification/uncertainty/noise_model.h"
+#include "identification/uncertainty/weight_prior.h"
 
 namespace warmjoint {
 
@@ -35,23 +37,33 @@ struct Uncertainty {
 /// That of some parameters. places: [q] of them, in the order of the result
 Uncertainty Picked(Uncertainty known, const std::vector<Eigen::Index>& places);
 
-/// Covariance of x = argmin |y - f(x)|^2 for stationary noise: C (J^T R J) C, C = (J^T J)^-1, with
-/// R from an autoregressive model of the residual (noise_model.h). For white noise it is s^2 C.
-/// The residual is smaller than the noise by what the fit took up, tr(C J^T R J): the variance is
-/// scaled up by that, as n/(n - d) does for white noise.
-/// Where r^2 goes with |f| or with time, by more than 4 deviations of n^(1/2) times their
-/// correlation (Koenker 1981), the noise's variance is not even. Then white noise takes
-/// n/(n - d) C (sum of r^2 j^T j over the rows j of J) C (HC1, White 1980). Coloured noise is taken
-/// for s(|f|, t) u with a stationary u: s is the line through |r|, R that of u, and J is weighted
-/// by s.
-/// jacobian: [n x d] df/dx over the kept samples, asked for where noise is not white and even; cofactor: C; residual: [n] y - f; fitted: [n] f,
-/// or empty where only time is asked about; prior: [d] what
-/// is known of x beforehand, P = diag(prior): the noise's variance over the variance of each
-/// parameter, or 0. With it C = (J^T J + P)^-1, and P times the noise's variance joins J^T R J.
-Uncertainty EstimateCovariance(const std::function<Eigen::MatrixXd()>& jacobian,
-                               const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                               const Selection& selection, const Eigen::VectorXd& fitted = {},
-                               const Eigen::VectorXd& prior = {});
+/// A fit x = argmin (y - f(x))^T W (y - f(x)) + x^T P x about its solution, as the errors of x follow from it.
+struct FittedRows {
+  RowsBetween rows;          // of J = df/dx [n x d], asked for where noise is not white and even
+  Eigen::MatrixXd cofactor;  // [d x d] C = (J^T W J + P)^-1
+  Eigen::VectorXd residual;  // [n] y - f
+  const Selection& selection;
+  Eigen::VectorXd fitted{};   // [n] f; or empty: not known
+  Eigen::VectorXd weights{};  // [n] diagonal of W; or empty: 1
+  /// [d] what is known of x beforehand, the diagonal of P: the noise's variance over that of each parameter, or 0; or empty
+  Eigen::VectorXd prior{};
+  std::optional<WeightPrior> pull{};  // s |w|^2, which is in C as well
+};
+
+/// Rows that are there already, or are made all at once.
+RowsBetween RowsFrom(std::function<Eigen::MatrixXd()> all);
+
+/// Covariance of the errors of x, from the noise, from what was known beforehand, and from what a prior pulls away:
+///   C J^T W R W J C + v C P C + s^2 C_w S C_w^T (weight_prior.h),
+/// R the covariance of the noise of variance v by an autoregressive model of the residual (noise_model.h). For white noise
+/// without weights and pull it is v C. The residual is smaller than the noise by what the fit took up, 2 tr(C J^T R J) -
+/// tr(C G C J^T R J), G = J^T J: the variance is scaled up by that, as n/(n - d) does for white noise without a pull.
+/// Where r^2 goes with |f| or with time, by more than 4 deviations of n^(1/2) times their correlation (Koenker 1981), the noise's
+/// variance is not even. White noise then has the sum of r^2 j^T j over the rows j of J in place of J^T R J (HC1, White 1980).
+/// Coloured noise is taken for s(|f|, t) u with a stationary u: s is the line through |r|, R that of u, and J is weighted by s.
+/// A residual that rounding makes (IsRounding) has its variance. Where segments are few, and nothing else is known, what each
+/// segment says counts (few_segments.h).
+Uncertainty CovarianceOf(const FittedRows& fit);
 
 /// Variance that the rounding of doubles leaves in the residual of an exact torque: sums over n samples carry errors of
 /// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). What is below is no
@@ -65,6 +77,11 @@ bool IsRounding(double squares, const Eigen::VectorXd& torque);
 /// 0 where rounding was all that there was to explain. degrees_of_freedom: samples less parameters
 double ExplainedVariances(double without, double with, double degrees_of_freedom,
                           const Eigen::VectorXd& torque);
+
+/// Degrees of freedom of the noise's variance that n weighted samples leave beside d parameters: at
+/// least 1. (sum w)^2 / sum w^2 of them count. weights: [n].
+double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
+                                 Eigen::Index d);
 
 /// A half sentence on the colour of the noise, "" for white: "; noise is coloured (correlation 0.90
 /// between neighbours), which the intervals account for".

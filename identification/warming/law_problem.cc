@@ -114,8 +114,12 @@ Eigen::MatrixXd LawProblem::JacobianOf(const ThermalFit& fit) const {
 
 Uncertainty LawProblem::CovarianceOf(const ThermalFit& plain,
                                      const Eigen::VectorXd& residual) const {
-  return EstimateCovariance([&] { return Kept(JacobianOf(plain), input_.selection); },
-                            plain.cofactor, residual, input_.selection, {}, plain.prior);
+  return warmjoint::CovarianceOf(
+      {.rows = RowsFrom([&] { return Kept(JacobianOf(plain), input_.selection); }),
+       .cofactor = plain.cofactor,
+       .residual = residual,
+       .selection = input_.selection,
+       .prior = plain.prior});
 }
 
 void LawProblem::TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& spread) {

@@ -32,7 +32,7 @@ Fit KnowTableOne(const IdentifierInput& input) {
   EXPECT_EQ(input.selection.keep.size(), shown);
   Fit fit;
   fit.friction = test::TableOne();
-  fit.errors.known = Uncertainty{};
+  fit.errors.covariance = [] { return Uncertainty{}; };
   return fit;
 }
 const Identifier kKnowing{"knowing", "", {}, &KnowTableOne};

@@ -10,8 +10,9 @@
 #include "identification/linear/least_squares.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/noise_model.h"
-#include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/uncertainty/tails.h"
+#include "identification/uncertainty/uncertainty.h"
+#include "identification/uncertainty/weight_prior.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/coloured_noise.h"
 #include "tests/support/judging.h"
@@ -65,8 +66,11 @@ Eigen::Vector2d CoverageUneven(double pole) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     const Eigen::VectorXd y = deviation * Coloured(n, pole, seed).array();
     const Eigen::VectorXd x = cofactor * (A.transpose() * y);
-    const Uncertainty known = EstimateCovariance([&] { return A; }, cofactor, y - A * x,
-                                                 warmjoint::AllOf(n), 20 * A.col(1));
+    const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return A; }),
+                                            .cofactor = cofactor,
+                                            .residual = y - A * x,
+                                            .selection = warmjoint::AllOf(n),
+                                            .fitted = 20 * A.col(1)});
     EXPECT_GT(known.uneven, 0);
     const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
     for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
@@ -90,8 +94,10 @@ TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {
     residual[i] = random.Normal();
   }
   const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
-  const Uncertainty known =
-      EstimateCovariance([&] { return A; }, cofactor, residual, warmjoint::AllOf(400));
+  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return A; }),
+                                          .cofactor = cofactor,
+                                          .residual = residual,
+                                          .selection = warmjoint::AllOf(400)});
   EXPECT_EQ(known.noise.order(), 0);
   EXPECT_EQ(known.degrees_of_freedom, 398);
   EXPECT_EQ(known.covariance, residual.squaredNorm() / 398 * cofactor);
@@ -131,8 +137,10 @@ Eigen::Array2d CoverageOfSegments(int count, double in_common) {
     }
     const Eigen::Vector2d x = cofactor * A.transpose() * noise;
     const Eigen::VectorXd residual = noise - A * x;
-    Uncertainty known = EstimateCovariance([&] { return A; }, cofactor, residual, selection);
-    CountSegments(A, cofactor, residual, selection, known);
+    const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return A; }),
+                                            .cofactor = cofactor,
+                                            .residual = residual,
+                                            .selection = selection});
     for (int j = 0; j < 2; ++j) {
       const double reach =
           StudentQuantile(known.DegreesOfFreedom(j), kIntervalLevel) * known.Deviation(j);
@@ -185,12 +193,15 @@ TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
 
 /// A level that was known beforehand to one standard error of the log's, beside a weight of +-1 in
 /// turn: by hand its variance is s^2 / (n + n), of which a half comes from either.
-Uncertainty Penalised(const PenalisedFit& fit, const Eigen::MatrixXd& jacobian,
+Uncertainty Penalised(const WeightPrior& pull, const Eigen::MatrixXd& inverse,
+                      const Eigen::VectorXd& prior, const Eigen::MatrixXd& jacobian,
                       const Eigen::VectorXd& residual) {
-  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
-    return jacobian.middleRows(first, last - first);
-  };
-  return PenalisedCovariance(fit, rows, residual, warmjoint::AllOf(residual.size()));
+  return CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                       .cofactor = inverse,
+                       .residual = residual,
+                       .selection = warmjoint::AllOf(residual.size()),
+                       .prior = prior,
+                       .pull = pull});
 }
 
 TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
@@ -210,7 +221,7 @@ TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
   const Eigen::MatrixXd inverse = penalised.inverse();
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(1, 0.5);
   const Uncertainty known =
-      Penalised({gram, inverse, 0, weight, 1, {false}, prior}, jacobian, residual);
+      Penalised({gram, 0, weight, 1, {false}}, inverse, prior, jacobian, residual);
 
   // to the scatter of the noise's variance, sqrt(2 / n) = 1 %, four times
   const double closed_form = 1.0 / (2.0 * double(n));
@@ -236,7 +247,7 @@ TEST(PenalisedUncertainty, TakesTheWeightsVarianceFromThoseThatThePriorHoldsBack
   const Eigen::Array3d g = gram.diagonal();  // 1000, 10, 10
   const Eigen::MatrixXd inverse = (1 / (g + s)).matrix().asDiagonal();
   const Uncertainty known =
-      Penalised({gram, inverse, 0, weight, s, {false, false, true}}, jacobian, residual);
+      Penalised({gram, 0, weight, s, {false, false, true}}, inverse, {}, jacobian, residual);
 
   double above = 0, below = 0;
   for (const int k : {0, 1}) {
