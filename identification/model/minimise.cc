@@ -121,6 +121,8 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
   bool stuck = false;
   for (int i = 0; i < problem.most_iterations && !found.converged && !stuck; ++i) {
     if (!std::isfinite(found.sums.squares) || !found.sums.gram.allFinite()) break;
+    found.converged = found.sums.squares <= problem.least;
+    if (found.converged) break;
     found.at_bound = PushedOut(problem, x, found.sums.product);
     std::vector<Index> fixed = problem.held;
     fixed.insert(fixed.end(), found.at_bound.begin(), found.at_bound.end());

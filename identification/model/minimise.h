@@ -31,6 +31,8 @@ struct SquaresProblem {
   /// Fall of the squares that the next step promises, in variances of the noise, at which a fit rests: no unknown is farther from
   /// the minimum than its root, in standard deviations.
   double rests = 1e-10;
+  /// Squares that the rounding of the data leaves of an exact fit, which no step lowers.
+  double least = 0;
 };
 
 struct Minimum {

@@ -11,6 +11,7 @@
 #include "identification/forward/row_products.h"
 #include "identification/linear/least_squares.h"
 #include "identification/model/minimise.h"
+#include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
 namespace {
@@ -179,8 +180,10 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
   at.rigid.In(fit.x) = start.parameters.tail(at.rigid.size);
 
   LogProducts products(rows);
-  Minimum found =
-      Minimise({.sums = [&](const Eigen::VectorXd& x) { return products.At(x); }}, fit.x);
+  SquaresProblem problem;
+  problem.sums = [&](const Eigen::VectorXd& x) { return products.At(x); };
+  problem.least = rows.weight.sum() * RoundingVariance(rows.level) / (rows.scale * rows.scale);
+  Minimum found = Minimise(problem, fit.x);
   fit.x = std::move(found.x);
   fit.squares = found.sums.squares;
   fit.cofactor = Cofactor(found.sums.gram);
