@@ -70,9 +70,9 @@ std::string RemedyForBound(const FitParameter& parameter, const Fit& fit) {
                      torque);
 }
 
-/// "the torque comes 20 ms (2 samples) late beside the positions"
+/// "the torque comes 20 ms (2 samples) late against the positions"
 std::string DescribeDelay(double delay, double step, std::string_view comes = "comes") {
-  return fmt::format("the torque {} {:.3g} ms ({:.2g} samples) {} beside the positions", comes,
+  return fmt::format("the torque {} {:.3g} ms ({:.2g} samples) {} against the positions", comes,
                      1e3 * std::abs(delay), std::abs(delay) / step, delay < 0 ? "early" : "late");
 }
 
@@ -351,7 +351,7 @@ std::string ExplainNegativeInertia(const FitParameter& inertia,
                                    const std::array<double, 2>& interval95) {
   return fmt::format(
       "inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}: the torque "
-      "is late or early beside the motion, has the wrong sign (--scale torque=-1), or another "
+      "is late or early against the motion, has the wrong sign (--scale torque=-1), or another "
       "load acts",
       inertia.value, inertia.unit, interval95[0], interval95[1]);
 }

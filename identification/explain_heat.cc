@@ -12,7 +12,8 @@ namespace {
 /// known: what is known of the time constant
 std::string ExplainTradeOff(std::string_view known) {
   return fmt::format(
-      "thermal_gain and thermal_time_constant cannot be told apart: {}; record longer, from cold "
+      "thermal_gain and thermal_time_constant cannot be distinguished: {}; record longer, from "
+      "cold "
       "until friction settles, or with rests",
       known);
 }

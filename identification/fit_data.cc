@@ -78,7 +78,7 @@ std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& 
   const Eigen::ArrayXd speed = velocity.cwiseAbs();
   const std::string_view unit = kVelocityUnit.For(measurements.joint);
   return fmt::format(
-      "the motion cannot tell apart: {}; speeds from {:.4g} to {:.4g} {}{}; move at two or more "
+      "the motion does not distinguish: {}; speeds from {:.4g} to {:.4g} {}{}; move at two or more "
       "speeds that differ clearly, for example a tenth of the highest and the highest{}",
       names, speed.minCoeff(), speed.maxCoeff(), unit,
       one_direction ? " in one direction alone" : "", one_direction ? ", in both directions" : "");

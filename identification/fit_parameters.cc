@@ -33,7 +33,7 @@ constexpr ParameterInfo kTorqueDelayInfo{kTorqueDelayName,
                                          -kInfinity,
                                          kInfinity,
                                          0,
-                                         "by how much the torque is late beside the motion"};
+                                         "by how much the torque is late against the motion"};
 
 /// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
 /// stands for the torque.

@@ -44,7 +44,7 @@ FitParameter InertiaParameter(double value, const Measurements& measurements);
 /// torque_lag: T of a first-order lag, s, by its logarithm.
 FitParameter TorqueLagParameter(double time_constant, const Measurements& measurements);
 
-/// torque_delay: by how much the torque is late beside the motion, s.
+/// torque_delay: by how much the torque is late against the motion, s.
 FitParameter TorqueDelayParameter(double delay, const Measurements& measurements);
 
 /// Puts rows behind those of the fit's table.

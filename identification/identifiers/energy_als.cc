@@ -99,7 +99,7 @@ struct NominalMapOptions : AddedMapOptions {
 
   template <class A>
   void Serialize(A* a) {
-    a->Field("position", &position, {.meaning = "a map over position beside the law"});
+    a->Field("position", &position, {.meaning = "a map over position in addition to the law"});
     AddedMapOptions::Serialize(a);
   }
 };
@@ -344,9 +344,10 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), part.moving);
   const auto cofactor = JointCofactor(part, jacobian, fit.torque);
   if (!cofactor) {
-    fit.refusal = {Status::not_identifiable,
-                   "the motion cannot tell warming from the nominal friction; record from cold, "
-                   "with speeds that differ clearly, until the friction settles"};
+    fit.refusal = {
+        Status::not_identifiable,
+        "the motion does not distinguish warming from the nominal friction; record from cold, "
+        "with speeds that differ clearly, until the friction settles"};
     return fit;
   }
   fit.fitted = Kept(fitted, part.moving);

@@ -26,11 +26,11 @@ Fit FitAsAsked(const IdentifierInput& input) {
   if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);
   if (AsksForLoad(input)) {
     return Refused(kEnergyMl, Status::bad_data,
-                   "load is estimated beside a law without maps; use position none, or load none");
+                   "load is estimated with a law without maps; use position none, or load none");
   }
   if (AsksForLag(input.options)) {
     return Refused(kEnergyMl, Status::bad_data,
-                   "torque_lag is estimated beside a law without maps; use position none, or "
+                   "torque_lag is estimated with a law without maps; use position none, or "
                    "torque_lag none");
   }
   return FitWithMaps(kEnergyMl, input);

@@ -331,7 +331,7 @@ struct LuGreOptions {
     a->Field("law", &law, {.meaning = "one Coulomb level, or one for each direction"});
     a->Field("damping", &damping, {.meaning = "bristle_damping, or 0"});
     a->Field("inertia", &inertia,
-             {.meaning = "torque for acceleration, beside the friction, or none"});
+             {.meaning = "torque for acceleration, with the friction, or none"});
   }
 };
 

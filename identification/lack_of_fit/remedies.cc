@@ -155,10 +155,11 @@ Remedy RemedyForWarming(const Advice& advice) {
   // no warming yet: one beside whatever else the fit holds
   if (!HasWarming(advice)) {
     if (const double duration = DurationOf(advice); duration < kShortestWarming) {
-      return {fmt::format(
-          "within {:.3g} s a warming cannot be told from what else changes (load, sensor, grease): "
-          "record {:.0f} s or longer, from cold",
-          duration, kShortestWarming)};
+      return {
+          fmt::format("within {:.3g} s a warming cannot be distinguished from what else changes "
+                      "(load, sensor, grease): "
+                      "record {:.0f} s or longer, from cold",
+                      duration, kShortestWarming)};
     }
     const IdentifyCommand warm{"energy-ml"};
     if (HasMap(advice, MapQuantity::motor_position)) {
@@ -250,7 +251,7 @@ Remedy RemedyForDirection(const Advice& advice) {
             command.With("gravity", "paired")};
   }
   if (HasMap(advice, MapQuantity::velocity)) {
-    return {"the map tells the directions apart already, and they differ in another way"};
+    return {"the map separates the directions already, and they differ in another way"};
   }
 
   // else the slopes differ, which kernels over speed can follow

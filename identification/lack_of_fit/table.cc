@@ -26,7 +26,7 @@ template <typename Other>
 std::string OrElse(const LogSamples& measurements, Other&& other) {
   const std::optional<double> speed = OneSpeed(measurements);
   if (!speed) return "";
-  return fmt::format("; the log's one speed cannot tell that from {}", other(*speed));
+  return fmt::format("; the log's one speed cannot distinguish that from {}", other(*speed));
 }
 
 std::string Period(const Finding& finding, const LogSamples& measurements) {
@@ -140,11 +140,11 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        "Something changed in the middle of the log (load, controller, grease): record again, or "
        "cut the log there."},
       {"lag", "too few samples follow a change of speed", lag, independent, of_effect_twice,
-       SeenOver::time, nullptr, Lag, RemedyForLag, "Does the torque lag behind changes of speed?",
+       SeenOver::time, nullptr, Lag, RemedyForLag, "Does the torque lag changes of speed?",
        "The torque column is filtered or delayed: raise --trim, so that samples after each change "
        "of speed are left out.",
        TestLag},
-      {"position_by_energy", "the fit has no map beside a warming", fading, independent, of_moves,
+      {"position_by_energy", "the fit has no map with a warming", fading, independent, of_moves,
        SeenOver::position, nullptr, Say<kFading>, RemedyForFading,
        "Does the pattern over position change with warmth?",
        "The pattern over position fades or grows as the joint warms: let the map depend on "

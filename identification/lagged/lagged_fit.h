@@ -58,6 +58,6 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd
             const LogSamples& measurements, Fit& fit);
 
 /// What the summary of a fit says that has one.
-inline constexpr const char* kWithLag = " behind a lag of the torque";
+inline constexpr const char* kWithLag = " with a lag of the torque";
 
 }  // namespace warmjoint

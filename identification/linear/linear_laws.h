@@ -49,7 +49,7 @@ struct LoadOption {
   void Serialize(A* a) {
     a->Field("load", &load,
              {.meaning = "friction that grows with the load, load_gain times |load|: estimated by "
-                         "the column load, else by the gravity that is fitted beside it; or none"});
+                         "the column load, else by the gravity that is fitted with it; or none"});
   }
 };
 

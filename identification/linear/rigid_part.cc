@@ -209,12 +209,13 @@ Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTa
 
   // and what motion would tell them apart
   const bool turns = lifts && gravity.kind != GravityKind::constant;
-  return {Status::not_identifiable,
-          fmt::format(
-              "the motion cannot tell apart: {}; {}at two or more speeds in both directions{}, or "
-              "use a law that is alike in both directions, as viscous_coulomb",
-              fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
-              moves_mass ? ", with accelerations that differ" : "")};
+  return {
+      Status::not_identifiable,
+      fmt::format(
+          "the motion does not distinguish: {}; {}at two or more speeds in both directions{}, or "
+          "use a law that is alike in both directions, as viscous_coulomb",
+          fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
+          moves_mass ? ", with accelerations that differ" : "")};
 }
 
 }  // namespace warmjoint

@@ -15,7 +15,7 @@ namespace warmjoint {
 
 inline constexpr FieldInfo kGravityInfo{
     .meaning =
-        "gravity beside friction: none, by sin and cos of the position, or whatever both "
+        "gravity, fitted with the friction: none, by sin and cos of the position, or whatever both "
         "directions have in common at one position"};
 
 /// The option of an identifier that can tell gravity from friction.

@@ -23,7 +23,7 @@
 namespace warmjoint {
 namespace {
 
-constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
+constexpr WarmingContext kContext{" with the maps", "position-ridge"};
 
 /// What warming takes of the residual, in variances of the noise, one turn after the other.
 class Visibility {

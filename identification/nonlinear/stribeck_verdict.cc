@@ -48,8 +48,8 @@ Refusal NotConverged() {
 
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection) {
   return {Status::not_identifiable,
-          fmt::format("{} and stribeck_velocity cannot be told from coulomb; {}", law.rest(),
-                      SlowSpeeds(measurements, selection))};
+          fmt::format("{} and stribeck_velocity cannot be distinguished from coulomb; {}",
+                      law.rest(), SlowSpeeds(measurements, selection))};
 }
 
 StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
@@ -73,7 +73,7 @@ std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
     return NoFall(law, measurements, selection).message;
   }
   return fmt::format(
-      "{} and stribeck_velocity cannot be told apart: stribeck_velocity is known to a factor of "
+      "{} and stribeck_velocity cannot be distinguished: stribeck_velocity is known to a factor of "
       "{:.3g} only, {} to {:.3g}; {}",
       law.rest(), factor, law.fall_words, 1.96 * evidence.fall_deviation,
       SlowSpeeds(measurements, selection));

@@ -39,7 +39,7 @@ Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Sele
 StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
                             const Uncertainty& known);
 
-/// Why ks and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
+/// Why ks and stribeck_velocity cannot be distinguished: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.
 std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
                                                   const StribeckEvidence& evidence,

@@ -42,7 +42,7 @@ std::string ExplainBeyond(const std::vector<std::string>& rows) {
 
 std::string ExplainUntold(double level, double reach, const std::string& unit) {
   return fmt::format(
-      "Coulomb friction cannot be told: {:.3g} +- {:.3g} {}; log slower and faster motion in both "
+      "Coulomb friction is unknown: {:.3g} +- {:.3g} {}; log slower and faster motion in both "
       "directions",
       level, reach, unit);
 }
@@ -80,7 +80,7 @@ std::string ExplainTurnedSign(const std::string& joint) {
 
 std::string ExplainUnknownGain(const std::string& joint) {
   return fmt::format(
-      "the gain of its current cannot be told, so friction is in A; give --torque-constant "
+      "the gain of its current is unknown, so friction is in A; give --torque-constant "
       "{}=N.m/A",
       joint);
 }

@@ -18,7 +18,7 @@ struct DelayOption {
   void Serialize(A* a) {
     a->Field(
         "torque_delay", &torque_delay,
-        {.meaning = "by how much the torque is late beside motion of any kind: estimated where "
+        {.meaning = "by how much the torque is late against motion of any kind: estimated where "
                     "the log tells it, or none"});
   }
 };

@@ -290,7 +290,7 @@ Command AddIdentifyCommand(CLI::App& program) {
             "what gravity does to the torque: nothing, a sine of the angle, or what both "
             "directions share at each position");
   AddChoice(*parser, "--motion", arguments->settings.motion,
-            "constant: samples at constant speed; any: all that move, with the inertia beside the "
+            "constant: samples at constant speed; any: all that move, with the inertia and the "
             "friction; chosen: any where the log holds no speeds");
 
   // what else the verdict and its figures go by

@@ -77,8 +77,8 @@ Options WithGravity(FittedGravity gravity, const Identifier& identifier, JointKi
   if (gravity == FittedGravity::none) return options;
   const auto* choosing = options.Find<AutoOptions>();
   if (!choosing && !options.Find<GravityOption>()) {
-    Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
-           AbleBy<AutoOptions, GravityOption>());
+    Refuse({"--gravity"}, "{} cannot separate gravity from friction; use one of: {}",
+           identifier.name, AbleBy<AutoOptions, GravityOption>());
   }
   // gravity over an angle needs one
   if (gravity == FittedGravity::sincos && joint == JointKind::linear) {

@@ -41,7 +41,7 @@ struct FitView {
 
   // with a friction in the estimate alone
   bool has_fit = false;
-  Eigen::VectorXd fitted;  // F, torque_unit, as the log shows it behind a lag of the torque
+  Eigen::VectorXd fitted;  // F, torque_unit, as the log shows it with a lag of the torque
   Eigen::VectorXd energy;  // E, torque_unit; 0 where nothing warms
 
   // standard deviations by the estimate's parameters; empty where they are not known

@@ -183,7 +183,7 @@ TEST(AnyMotion, PositionsAloneMakeNoDelay) {
 TEST(AnyMotion, MethodsThatKnowNoDelayNameIt) {
   const Estimate estimate = AnswerTo("position-ridge", Late(Excited(test::Cold(), 6000, 8), 5));
   EXPECT_EQ(estimate.status, Status::inadequate_model);
-  EXPECT_THAT(estimate.message, HasSubstr("late beside the positions"));
+  EXPECT_THAT(estimate.message, HasSubstr("late against the positions"));
 }
 
 TEST(AnyMotion, IsRefusedWhereConstantSpeedIsAskedFor) {

@@ -138,7 +138,7 @@ TEST_F(IdentifyCommand, TellsGravityFromFrictionOrSaysWhyNot) {
   EXPECT_THAT(Refusal(With({"identify", "log.csv", "--joint", "linear"}, gravity)),
               HasSubstr("use paired"));
   EXPECT_THAT(Refusal(With({"identify", "log.csv", "--identifier", "kalman"}, gravity)),
-              HasSubstr("kalman cannot tell gravity from friction; use one of"));
+              HasSubstr("kalman cannot separate gravity from friction; use one of"));
 }
 
 TEST_F(IdentifyCommand, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
