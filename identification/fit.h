@@ -46,6 +46,9 @@ struct FitParameter {
   int time_power = 0;             // of s
   LawPart part = LawPart::other;  // of a row of the law
   double moved = 0;  // of the value, by the row that holds others at a bound (HoldAtBounds)
+
+  /// Derivative of the value by the coordinate x in which the fit works, at a value.
+  double ValueByCoordinate(double at) const { return coordinate == Coordinate::logarithm ? at : 1; }
 };
 
 /// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with what a method

@@ -51,16 +51,13 @@ Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitPa
               .sentence = ExplainVelocityNoise(taken, slope)};
   if (!viscous) return cause;
   const double move = std::abs(taken.left * viscous->value);
-  std::vector<double> moves;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     const bool is_level = row.part == LawPart::level;
     if (row.role != Role::law || !(is_level || row.part == LawPart::slope)) continue;
-    cause.rows.push_back(i);
     // a slope that is too small goes with levels that are too large
-    moves.push_back(is_level ? -move * taken.mean_speed : move);
+    cause.Add(i, is_level ? -move * taken.mean_speed : move);
   }
-  cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
   return cause;
 }
 
@@ -171,14 +168,11 @@ Cause SettlingCause(const SettledFit& settled) {
                      settled.sooner->friction.law == settled.fit.friction.law &&
                      settled.sooner->parameters.size() == rows.size();
   if (!alike) return cause;
-  std::vector<double> moves;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].estimated || (rows[i].role != Role::law && rows[i].role != Role::heat)) continue;
-    cause.rows.push_back(i);
-    moves.push_back(settled.sooner->parameters[i].value - rows[i].value);
+    cause.Add(i, settled.sooner->parameters[i].value - rows[i].value);
   }
   cause.action = Action::widen;
-  cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
   return cause;
 }
 

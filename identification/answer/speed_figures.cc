@@ -22,8 +22,7 @@ VectorXd ByCoordinates(const Fit& fit, const VectorXd& derivatives) {
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     if (!row.estimated) continue;
-    const bool by_logarithm = row.coordinate == Coordinate::logarithm;
-    slopes.push_back(derivatives[static_cast<Index>(i)] * (by_logarithm ? row.value : 1));
+    slopes.push_back(derivatives[static_cast<Index>(i)] * row.ValueByCoordinate(row.value));
   }
   return Eigen::Map<const VectorXd>(slopes.data(), std::ssize(slopes));
 }

@@ -67,13 +67,9 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
 /// The row of values that moved.
 Cause Moved(const std::vector<FitParameter>& parameters, std::string sentence) {
   Cause cause{.source = Source::bound, .action = Action::hold, .sentence = std::move(sentence)};
-  std::vector<double> moves;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (!parameters[i].estimated) continue;
-    cause.rows.push_back(i);
-    moves.push_back(parameters[i].moved);
+    if (parameters[i].estimated) cause.Add(i, parameters[i].moved);
   }
-  cause.bias = Eigen::Map<const Eigen::VectorXd>(moves.data(), std::ssize(moves));
   return cause;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -132,6 +133,13 @@ struct Cause {
   std::optional<Remedy> remedy{};  // what helps, of what was found
   std::string sentence{};          // empty: nothing is said
   SentenceIn sentence_in = SentenceIn::warning;
+
+  /// One more row that it is about, whose value it changes.
+  void Add(std::size_t row, double change) {
+    rows.push_back(row);
+    bias.conservativeResize(std::ssize(rows));
+    bias[bias.size() - 1] = change;
+  }
 };
 
 /// What a fit says of itself, and changes nothing.

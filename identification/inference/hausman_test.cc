@@ -60,27 +60,22 @@ Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& frict
     return DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals));
   }
 
-  // known no better than the noise: by its fewest degrees of freedom
-  const Uncertainty known = CovarianceOf(fit);
-  double fewest = known.degrees_of_freedom;
-  if (known.each_degrees_of_freedom.size() > 0) fewest = known.each_degrees_of_freedom.minCoeff();
-  const double reach = StudentQuantile(fewest, kIntervalLevel) / kNormal95;
+  // known no better than the noise: by its degrees of freedom
+  const double reach =
+      StudentQuantile(CovarianceOf(fit).degrees_of_freedom, kIntervalLevel) / kNormal95;
 
   // d in the values of the table
   Cause cause{.source = Source::structure,
               .action = Action::widen,
               .sentence = ExplainStructure(name, structure.deviations, Action::widen)};
-  std::vector<double> deviations;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& one = fit.parameters[i];
     if (!one.estimated) continue;
-    const double by_coordinate = one.coordinate == Coordinate::logarithm ? one.value : 1;
-    const double difference = structure.differences[std::ssize(deviations)];
-    cause.rows.push_back(i);
-    deviations.push_back(reach * by_coordinate * difference);
+    cause.Add(i,
+              reach * one.ValueByCoordinate(one.value) * structure.differences[cause.bias.size()]);
   }
-  cause.bias = Eigen::VectorXd::Zero(std::ssize(deviations));
-  cause.spread = Eigen::Map<const Eigen::VectorXd>(deviations.data(), std::ssize(deviations));
+  cause.spread = cause.bias;
+  cause.bias.setZero();
   return cause;
 }
 

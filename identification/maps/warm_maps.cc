@@ -25,37 +25,13 @@ namespace {
 
 constexpr WarmingContext kContext{" with the maps", "position-ridge"};
 
-/// What warming takes of the residual, in variances of the noise, one turn after the other.
-class Visibility {
- public:
-  /// cold: squares without warming; torque: [n] to which was fitted, N.m or N
-  Visibility(double cold, Eigen::VectorXd torque)
-      : cold_(cold), torque_(std::move(torque)), samples_(static_cast<double>(torque_.size())) {}
-
-  /// squares: what is left; degrees_of_freedom: samples less parameters.
-  double Of(double squares, double degrees_of_freedom) const {
-    return ExplainedVariances(cold_, squares, degrees_of_freedom, torque_);
-  }
-  /// After a turn that leaves so many squares.
-  void Follow(double squares) {
-    before_last_ = std::exchange(last_, std::exchange(latest_, Of(squares, samples_)));
-  }
-  double latest() const { return latest_; }
-
-  /// Whether further turns would leave it below half of what can be seen. Blocks in turn grow by a geometric series, of which
-  /// three terms tell the limit (Aitken).
-  bool StaysUnseen() const {
-    const double growth = latest_ - last_, before = last_ - before_last_;
-    const double ratio = std::abs(growth) < std::abs(before) ? growth / before : 1;
-    return latest_ + growth * ratio / (1 - ratio) < 0.5 * kVisibleWarming;
-  }
-
- private:
-  double cold_;
-  Eigen::VectorXd torque_;
-  double samples_;
-  double latest_ = 0, last_ = 0, before_last_ = 0;
-};
+/// Whether further turns would leave what warming takes of the residual below half of what can be seen. Blocks in turn grow by a
+/// geometric series, of which two terms tell the limit (Aitken). first, second: after these turns, in variances of the noise
+bool StaysUnseen(double first, double second) {
+  const double growth = second - first;
+  const double ratio = std::abs(growth) < std::abs(first) ? growth / first : 1;
+  return second + growth * ratio / (1 - ratio) < 0.5 * kVisibleWarming;
+}
 
 /// Of law and heat without the weights between them.
 Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
@@ -92,32 +68,33 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
   MapBlock block(input, task);
   if (!block.ChooseGiven({})) return std::nullopt;
   WarmingBlock warming(input, task, initial);
-  Visibility visibility(block.Squares(), Kept(input.measurements.torque, input.selection));
+  const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
+  const auto n = static_cast<double>(torque.size());
+  const auto visible = [&, cold = block.Squares()](double degrees_of_freedom) {
+    return ExplainedVariances(cold, block.Squares(), degrees_of_freedom, torque);
+  };
   WarmMaps warm;
-  bool stands = true;
-  for (int turn = 0; turn < 2 && stands; ++turn) {
-    stands = warming.FitGiven(block);
-    if (stands && !block.FitGiven(warming.energy())) return std::nullopt;
-    if (stands) visibility.Follow(block.Squares());
+  warm.task.identifier = task.identifier;
+  double first = 0;
+  for (int turn = 0; turn < 2; ++turn) {
+    if (!warming.FitGiven(block)) return warm;
+    if (!block.FitGiven(warming.energy())) return std::nullopt;
+    first = std::exchange(warm.visible, visible(n));
   }
-  warm.visible = visibility.latest();
-  if (stands && visibility.StaysUnseen()) return warm;
+  if (StaysUnseen(first, warm.visible)) return warm;
 
   // shape and strength are chosen once more, now that E is known; then all together
-  if (stands && !block.ChooseGiven(warming.energy())) return std::nullopt;
-  if (stands) {
-    const auto joint = std::make_shared<JointFit>(input, task, block, warming);
-    if (!joint->Refine(block)) return std::nullopt;
-    warm.converged = joint->converged();
-    warm.joint = joint;
-  }
+  if (!block.ChooseGiven(warming.energy())) return std::nullopt;
+  const auto joint = std::make_shared<JointFit>(input, task, block, warming);
+  if (!joint->Refine(block)) return std::nullopt;
+  warm.joint = joint;
+  warm.converged = joint->converged();
   warm.warming = warming.fit();
-  if (warm.joint) warm.joint->HeatInto(warm.warming);
+  joint->HeatInto(warm.warming);
   warm.gaps = warming.gaps();
   warm.task = block.Settled();
   warm.fit = block.Complete();
-  const auto n = static_cast<double>(warm.fit.fitted.size());
-  warm.visible = visibility.Of(block.Squares(), n - warm.fit.effective - 2);
+  warm.visible = visible(n - warm.fit.effective - 2);
   return warm;
 }
 

@@ -19,7 +19,7 @@ struct WarmMaps {
   ThermalFit warming;        // its heat: gain, time constant, E(0), jumps
   std::vector<LogGap> gaps;  // where E jumps
   /// Drop of |e|^2 that warming brings, over the noise's variance. Where it stays far below what can be seen,
-  /// nothing else is set.
+  /// nothing else is set but the name in `task`.
   double visible = 0;
   bool converged = false;
   std::shared_ptr<const JointFit> joint{};  // null where no warming was found beside the maps

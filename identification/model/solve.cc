@@ -142,6 +142,21 @@ SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,
   return solved;
 }
 
+BlockScatter ScatterOverBlocks(const MatrixXd& rows, const VectorXd& time, double origin,
+                               double length) {
+  BlockScatter scatter{MatrixXd::Zero(rows.cols(), rows.cols())};
+  const auto block_of = [&](Index i) { return std::floor((time[i] - origin) / length); };
+  for (Index i = 0; i < rows.rows();) {
+    const double block = block_of(i);
+    VectorXd sum = VectorXd::Zero(rows.cols());
+    for (; i < rows.rows() && block_of(i) == block; ++i) sum += rows.row(i).transpose();
+    scatter.squares += sum * sum.transpose();
+    ++scatter.blocks;
+  }
+  scatter.squares *= scatter.blocks / std::max(scatter.blocks - 1, 1.0);
+  return scatter;
+}
+
 SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
                               const SolvedModel& solved) {
   const Selection used{samples.keep, {}};
@@ -159,23 +174,13 @@ SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
   const double step = length / static_cast<double>(samples.time.size() - 1);
   found.block =
       std::clamp(4 * solved.noise.correlation * step, std::min(.5, length / 20), length / 20);
-  MatrixXd meat = MatrixXd::Zero(model.size(), model.size());
-  VectorXd score = VectorXd::Zero(model.size());
-  double blocks = 0;
-  for (Index i = 0; i < e.size();) {
-    const double block = std::floor((time[i] - samples.time[0]) / found.block);
-    score.setZero();
-    for (; i < e.size() && std::floor((time[i] - samples.time[0]) / found.block) == block; ++i) {
-      score += j.row(i).transpose() * (e[i] / scale);
-    }
-    meat += score * score.transpose();
-    ++blocks;
-  }
-  meat *= blocks / std::max(blocks - 1, 1.0);
+  const BlockScatter scatter =
+      ScatterOverBlocks((e / scale).asDiagonal() * j, time, samples.time[0], found.block);
+  MatrixXd meat = scatter.squares;
   meat.diagonal() += precision;
   const MatrixXd inverse = InverseScaled(h);
   found.covariance = inverse * meat * inverse;
-  found.degrees_of_freedom = std::max(blocks - 1, 3.0);
+  found.degrees_of_freedom = std::max(scatter.blocks - 1, 3.0);
   found.effective_parameters = (inverse * data).trace();
   return found;
 }

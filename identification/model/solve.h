@@ -51,6 +51,16 @@ struct SolvedCovariance {
 SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
                               const SolvedModel& solved);
 
+/// What rows say in blocks of time.
+struct BlockScatter {
+  Eigen::MatrixXd
+      squares;  // [p x p] sum over the blocks of s s^T, s the sum of a block's rows, times B / (B - 1)
+  double blocks = 0;  // B
+};
+/// rows: [n x p]; time: [n] s; blocks of `length`, s, from `origin` on
+BlockScatter ScatterOverBlocks(const Eigen::MatrixXd& rows, const Eigen::VectorXd& time,
+                               double origin, double length);
+
 /// Variance about 0 and autocorrelation time of a residual's kept samples. e: [n]
 NoiseScale NoiseScaleOf(const Eigen::VectorXd& e);
 

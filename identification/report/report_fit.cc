@@ -71,11 +71,6 @@ void Set(const FitParameter& row, size_t jump, double value, Friction& friction,
   if (row.role == Role::jump) start.jumps[jump].change = value;
 }
 
-/// What a change of the coordinate by 1 changes of the value, to first order.
-double ValueByCoordinate(const FitParameter& row, double value) {
-  return row.coordinate == Coordinate::logarithm ? value : 1;
-}
-
 /// Slopes of EndAlong over the parameters of law, heat, start and jumps, each in its coordinate, by central
 /// differences of a standard deviation; 0 over all others. [2 x p]
 Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
@@ -88,7 +83,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
     const double deviation = known.Deviation(at.column);
 
     // a step of one standard deviation of the value; one that could turn a sign gives no slope
-    const double step = ValueByCoordinate(row, value) * deviation;
+    const double step = row.ValueByCoordinate(value) * deviation;
     const bool keeps_its_sign = IsNominal(row.role) || row.role == Role::heat;
     if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
 
@@ -114,7 +109,7 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
     errors.has_intervals = errors.has_intervals && known.interval95;
     // causes change the value, not its coordinate
     by_value.col(static_cast<Eigen::Index>(at.row)) =
-        slopes.col(at.column) / ValueByCoordinate(fit.parameters[at.row], known.value);
+        slopes.col(at.column) / fit.parameters[at.row].ValueByCoordinate(known.value);
   }
   for (Eigen::Index i = 0; i < by_value.rows(); ++i) {
     errors.widened[i] = ChangeOf(inference.causes, by_value.row(i), About::parameters).Reach();
@@ -230,7 +225,7 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
     if (!row.estimated || row.name.empty() || !inference.parameters[i].interval95) continue;
     of.parameters.push_back(row.name);
     columns.push_back(ColumnOf(fit, i));
-    slopes.push_back(ValueByCoordinate(row, row.value));
+    slopes.push_back(row.ValueByCoordinate(row.value));
   }
   const Eigen::Map<const Eigen::VectorXd> slope(slopes.data(), std::ssize(slopes));
   of.matrix =

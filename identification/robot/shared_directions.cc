@@ -37,22 +37,6 @@ std::vector<Index> OwnOf(const JointFit& fit) {
   return own;
 }
 
-/// Sum over blocks of time of the squares of their scores. rows: [n x r] of kept samples, each times its residual over the noise
-MatrixXd Meat(const MatrixXd& rows, const VectorXd& time, double block) {
-  MatrixXd meat = MatrixXd::Zero(rows.cols(), rows.cols());
-  double blocks = 0;
-  for (Index i = 0; i < rows.rows();) {
-    const double now = std::floor((time[i] - time[0]) / block);
-    VectorXd score = VectorXd::Zero(rows.cols());
-    for (; i < rows.rows() && std::floor((time[i] - time[0]) / block) == now; ++i) {
-      score += rows.row(i).transpose();
-    }
-    meat += score * score.transpose();
-    ++blocks;
-  }
-  return meat * blocks / std::max(blocks - 1, 1.0);
-}
-
 /// Mean of the joints' log gains.
 double CommonGain(const std::vector<JointFit>& fits, const std::vector<VectorXd>& x) {
   double sum = 0;
@@ -88,7 +72,8 @@ Eliminated Eliminate(const JointFit& fit, const JointColumns& c, const VectorXd&
   e.b = of_z.transpose() * left / scale - e.projected.transpose() * b;
 
   const MatrixXd scores = (left / scale).asDiagonal() * (of_z - of_own * e.projected);
-  e.meat = Meat(scores, Kept(c.samples.time, used), fit.known.block);
+  const VectorXd time = Kept(c.samples.time, used);
+  e.meat = ScatterOverBlocks(scores, time, time[0], fit.known.block).squares;
   // what a joint's own priors leave open
   e.meat += e.projected.transpose() * precision(e.own).asDiagonal() * e.projected;
   return e;

@@ -171,15 +171,12 @@ Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
   Cause cause{.source = Source::late_torque,
               .action = Action::widen,
               .sentence = ExplainUntoldDelay(*late.torque_delay, step)};
-  std::vector<double> moves;
   for (size_t i = 0; i < in_time.parameters.size(); ++i) {
     const FitParameter& row = in_time.parameters[i];
     const auto other = std::ranges::find(late.parameters, row.name, &FitParameter::name);
     if (!row.estimated || row.name.empty() || other == late.parameters.end()) continue;
-    cause.rows.push_back(i);
-    moves.push_back(other->value - row.value);
+    cause.Add(i, other->value - row.value);
   }
-  cause.bias = Eigen::Map<const VectorXd>(moves.data(), std::ssize(moves));
   return cause;
 }
 
