@@ -42,7 +42,7 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   return Picked(std::move(known), places);
 }
 
-/// Adds the warming to a fit of law and maps. known: JointFit::CovarianceOf
+/// Adds the warming to a fit of law and maps. known: WarmMapFit::CovarianceOf
 void AddHeat(const WarmMaps& warm, const Uncertainty& known, const LogSamples& measurements,
              Fit& fit) {
   const ThermalFit& warming = warm.warming;
@@ -85,7 +85,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
 
   // shape and strength are chosen once more, now that E is known; then all together
   if (!block.ChooseGiven(warming.energy())) return std::nullopt;
-  const auto joint = std::make_shared<JointFit>(input, task, block, warming);
+  const auto joint = std::make_shared<WarmMapFit>(input, task, block, warming);
   if (!joint->Refine(block)) return std::nullopt;
   warm.joint = joint;
   warm.converged = joint->converged();

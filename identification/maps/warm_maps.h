@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "identification/maps/identify_maps.h"
-#include "identification/maps/joint_fit.h"
+#include "identification/maps/warm_map_fit.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/thermal_fit.h"
 
@@ -22,10 +22,10 @@ struct WarmMaps {
   /// nothing else is set but the name in `task`.
   double visible = 0;
   bool converged = false;
-  std::shared_ptr<const JointFit> joint{};  // null where no warming was found beside the maps
+  std::shared_ptr<const WarmMapFit> joint{};  // null where no warming was found beside the maps
 };
 
-/// Least squares of law, maps and heat together over the closed loop (joint_fit.h). It begins where two turns of each beside the
+/// Least squares of law, maps and heat together over the closed loop (warm_map_fit.h). It begins where two turns of each beside the
 /// other end: maps and their strength by ridge on what E leaves of the torque; the warming, the law and one factor on the maps
 /// by maximum likelihood (thermal_fit.h). At gaps E jumps, as energy-ml has it.
 /// task.energy is not read; input: must outlive the result; initial: what is known of E(0). Nothing where no fit can be solved.

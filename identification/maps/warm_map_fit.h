@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "identification/maps/joint_rows.h"
 #include "identification/maps/map_blocks.h"
 #include "identification/maps/map_fit.h"
+#include "identification/maps/warm_map_rows.h"
 #include "identification/model/minimise.h"
 #include "identification/uncertainty/uncertainty.h"
 
@@ -13,11 +13,11 @@ namespace warmjoint {
 
 /// argmin |y - f(x)|^2 + s w^T P w + what was known of the heat, f the force of law, maps, heat, gravity and inertia over the closed
 /// loop, under the conditions that set law and maps apart (map_fit.h). Unknowns: law, rigid part, weights, heat, start, jumps.
-class JointFit {
+class WarmMapFit {
  public:
   /// Shapes, strength and what is known of the heat are those of the blocks; input: must outlive this.
-  JointFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
-           const WarmingBlock& warming);
+  WarmMapFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
+             const WarmingBlock& warming);
 
   /// Minimises from the block's latest fit on, and gives it law, weights and E. False where nothing can be solved.
   bool Refine(MapBlock& block);
@@ -25,7 +25,7 @@ class JointFit {
   bool converged() const { return converged_; }
   int iterations() const { return iterations_; }
   const Layout& layout() const { return rows_.layout(); }
-  const JointRows& rows() const { return rows_; }
+  const WarmMapRows& rows() const { return rows_; }
   /// Writes what the fit tells of the heat.
   void HeatInto(ThermalFit& warming) const;
   /// How sure all of it is (uncertainty.h). maps: the block's; residual: [n] that is left, N.m or N
@@ -41,7 +41,7 @@ class JointFit {
   const Selection& selection_;
   Eigen::MatrixXd penalty_;  // [q x q] s P
   double variance_;          // about that of the noise, (N.m)^2 or N^2
-  JointRows rows_;
+  WarmMapRows rows_;
   Eigen::VectorXd prior_,
       mean_;           // [p] the noise's variance over that of each unknown beside the log, or 0
   Eigen::VectorXd x_;  // [p]

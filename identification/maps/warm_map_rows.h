@@ -13,7 +13,7 @@
 namespace warmjoint {
 
 /// What law, maps and heat are made of.
-struct JointParts {
+struct WarmMapParts {
   const Law& law;
   std::vector<FrictionMap> maps{};           // shapes
   Eigen::MatrixXd rigid{};                   // [N x r] of gravity and inertia
@@ -23,10 +23,10 @@ struct JointParts {
 
 /// Rows d(F + G + M a)/dx at the kept samples, made block by block along the log: all of them at once are far larger than it.
 /// For a gain and a time constant the force is linear in all other unknowns, so that the rows give it as well.
-class JointRows {
+class WarmMapRows {
  public:
   /// input: must outlive this.
-  JointRows(const IdentifierInput& input, JointParts parts);
+  WarmMapRows(const IdentifierInput& input, WarmMapParts parts);
 
   /// Sums the rows' products at x, [p].
   void MoveTo(const Eigen::VectorXd& x);
@@ -61,7 +61,7 @@ class JointRows {
   double InitialEnergy() const;
 
   const LogSamples& m_;
-  JointParts parts_;
+  WarmMapParts parts_;
   MapPoints points_;                 // [N x 5]
   Eigen::MatrixXd law_;              // [N x d]
   Eigen::MatrixXd of_loss_;          // [N x d], or empty where the losses have the same

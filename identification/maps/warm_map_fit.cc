@@ -1,4 +1,4 @@
-#include "identification/maps/joint_fit.h"
+#include "identification/maps/warm_map_fit.h"
 
 #include <Eigen/Cholesky>
 #include <utility>
@@ -20,7 +20,7 @@ constexpr double kRests = 1e-6;
 /// Which bounds of the law hold is asked again at each solution.
 constexpr int kMostConditions = 3;
 
-Layout LayoutOf(const Layout& maps, const Layout& heat) {
+Layout JoinedLayout(const Layout& maps, const Layout& heat) {
   return Layout::InOrder({{&Layout::law, maps.law.size},
                           {&Layout::rigid, maps.rigid.size},
                           {&Layout::weights, maps.weights.size},
@@ -51,8 +51,8 @@ VectorXd StepUnder(const Conditions& conditions, const MatrixXd& gram, const Vec
 
 }  // namespace
 
-JointFit::JointFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
-                   const WarmingBlock& warming)
+WarmMapFit::WarmMapFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
+                       const WarmingBlock& warming)
     : selection_(input.selection),
       penalty_(block.solver().penalty()),
       variance_(block.Squares() / static_cast<double>(input.selection.count())),
@@ -60,7 +60,7 @@ JointFit::JointFit(const IdentifierInput& input, const MapTask& task, const MapB
                     .maps = block.fit().maps,
                     .rigid = task.rigid.columns,
                     .jump_samples = Behind(warming.gaps()),
-                    .layout = LayoutOf(block.fit().layout, warming.fit().layout)}) {
+                    .layout = JoinedLayout(block.fit().layout, warming.fit().layout)}) {
   // the heat as the block has it, and what is known of it beforehand
   const ThermalFit& heat = warming.fit();
   prior_ = mean_ = x_ = VectorXd::Zero(layout().size());
@@ -70,7 +70,7 @@ JointFit::JointFit(const IdentifierInput& input, const MapTask& task, const MapB
   x_.tail(count) = heat.x.segment(first, count);
 }
 
-bool JointFit::Refine(MapBlock& block) {
+bool WarmMapFit::Refine(MapBlock& block) {
   const Index linear = layout().weights.end();
   x_.head(linear) = block.fit().x;
   for (int i = 0; i < kMostConditions; ++i) {
@@ -90,7 +90,7 @@ bool JointFit::Refine(MapBlock& block) {
   return true;
 }
 
-void JointFit::MinimiseUnder(const Conditions& conditions) {
+void WarmMapFit::MinimiseUnder(const Conditions& conditions) {
   SquaresProblem problem;
   problem.sums = [&](const VectorXd& x) { return At(x); };
   problem.step = [&](const MatrixXd& gram, const VectorXd& product, const VectorXd& x) {
@@ -104,7 +104,7 @@ void JointFit::MinimiseUnder(const Conditions& conditions) {
   iterations_ += static_cast<int>(found.trace.size()) - 1;
 }
 
-MatrixXd JointFit::Penalised() const {
+MatrixXd WarmMapFit::Penalised() const {
   MatrixXd gram = rows_.gram();
   const Slice& at = layout().weights;
   gram.block(at.begin, at.begin, at.size, at.size) += penalty_;
@@ -112,7 +112,7 @@ MatrixXd JointFit::Penalised() const {
   return gram;
 }
 
-RowSums JointFit::At(const VectorXd& x) {
+RowSums WarmMapFit::At(const VectorXd& x) {
   rows_.MoveTo(x);
   const VectorXd weights = layout().weights.Of(x), pulled = penalty_ * weights;
   const VectorXd off = x - mean_;
@@ -125,12 +125,12 @@ RowSums JointFit::At(const VectorXd& x) {
   return sums;
 }
 
-void JointFit::HeatInto(ThermalFit& warming) const {
+void WarmMapFit::HeatInto(ThermalFit& warming) const {
   const Index first = warming.layout.heat.begin, count = warming.layout.rigid.begin - first;
   warming.x.segment(first, count) = x_.tail(count);
 }
 
-Uncertainty JointFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) const {
+Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) const {
   const MatrixXd penalised = Penalised();
   const VectorXd scale = ScaleOf(penalised);
   const Eigen::LLT<MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());

@@ -1,4 +1,4 @@
-#include "identification/maps/joint_rows.h"
+#include "identification/maps/warm_map_rows.h"
 
 #include <algorithm>
 #include <numeric>
@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-JointRows::JointRows(const IdentifierInput& input, JointParts parts)
+WarmMapRows::WarmMapRows(const IdentifierInput& input, WarmMapParts parts)
     : m_(input.measurements),
       parts_(std::move(parts)),
       points_(PointsOf(m_)),
@@ -39,11 +39,11 @@ JointRows::JointRows(const IdentifierInput& input, JointParts parts)
   place(at.rigid, loop_size_);
 }
 
-double JointRows::InitialEnergy() const {
+double WarmMapRows::InitialEnergy() const {
   return parts_.layout.start.size > 0 ? x_[parts_.layout.energy()] : 0;
 }
 
-ClosedLoop::Rows JointRows::Along(Index first, Index last, LoopEnd& at) const {
+ClosedLoop::Rows WarmMapRows::Along(Index first, Index last, LoopEnd& at) const {
   const Layout& layout = parts_.layout;
   const Index size = last - first;
   const MatrixXd kernels = DenseKernels(parts_.maps, points_, first, last);
@@ -61,7 +61,7 @@ ClosedLoop::Rows JointRows::Along(Index first, Index last, LoopEnd& at) const {
   return rows;
 }
 
-void JointRows::MoveTo(const VectorXd& x) {
+void WarmMapRows::MoveTo(const VectorXd& x) {
   if (x_.size() == x.size() && x_ == x) return;
   x_ = x;
   const Layout& layout = parts_.layout;
@@ -102,13 +102,13 @@ void JointRows::MoveTo(const VectorXd& x) {
   product_ = product(order_);
 }
 
-VectorXd JointRows::OfEnd() const {
+VectorXd WarmMapRows::OfEnd() const {
   VectorXd slopes = VectorXd::Zero(loop_size_ + parts_.layout.rigid.size);
   slopes.head(loop_size_) = begins_.back().at.slopes;
   return slopes(order_);
 }
 
-MatrixXd JointRows::Between(Index first, Index last) const {
+MatrixXd WarmMapRows::Between(Index first, Index last) const {
   MatrixXd rows(last - first, parts_.layout.size());
   if (first == last) return rows;
   // from the block that holds the first of them
@@ -126,7 +126,7 @@ MatrixXd JointRows::Between(Index first, Index last) const {
   return rows;
 }
 
-VectorXd JointRows::Energy() const {
+VectorXd WarmMapRows::Energy() const {
   // law and maps as one column each, whose parameters are 1
   const Layout& at = parts_.layout;
   const VectorXd weights = at.weights.Of(x_), law = at.law.Of(x_);
