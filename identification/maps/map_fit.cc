@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "identification/maps/holes.h"
-#include "identification/ridge/envelope_cholesky.h"
+#include "identification/ridge/ridge.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/weight_prior.h"
 #include "models/friction/prepared_map.h"
@@ -82,7 +82,7 @@ Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
 
 std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::Index free) {
   const Eigen::Index q = gram.rows() - free;
-  EnvelopeCholesky kernels(gram.bottomRightCorner(q, q));
+  ShiftedCholesky kernels(gram.bottomRightCorner(q, q));
   std::vector<Eigen::Index> imitated;
   if (!kernels.Factor(1e-9 * gram.diagonal().tail(q).mean())) return imitated;
   // squares of each column that the kernels can imitate

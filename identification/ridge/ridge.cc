@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 namespace warmjoint {
 namespace {
@@ -149,6 +151,29 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free) {
   }
   evidence.log_evidence = LogEvidence(normal, ridge, free, evidence.alpha, evidence.beta);
   return evidence;
+}
+
+ShiftedCholesky::ShiftedCholesky(const Eigen::MatrixXd& matrix)
+    : factors_(std::make_unique<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>()) {
+  constexpr double unseen = 1e-17;
+  const Eigen::VectorXd scale = matrix.diagonal().cwiseAbs().cwiseSqrt();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      // the diagonal gets the shift, and stands whatever it is
+      if (i != j && std::abs(matrix(i, j)) <= unseen * scale[i] * scale[j]) continue;
+      entries.emplace_back(i, j, matrix(i, j));
+    }
+  }
+  matrix_.resize(matrix.rows(), matrix.cols());
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  factors_->analyzePattern(matrix_);
+}
+
+bool ShiftedCholesky::Factor(double shift) {
+  factors_->setShift(shift);
+  factors_->factorize(matrix_);
+  return factors_->info() == Eigen::Success;
 }
 
 LocalRidge::LocalRidge(const NormalEquations& normal, Eigen::Index free)

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <memory>
 #include <optional>
 #include <vector>
-
-#include "identification/ridge/envelope_cholesky.h"
 
 namespace warmjoint {
 
@@ -75,8 +75,24 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free);
 double LogEvidence(const NormalEquations& normal, const Ridge& ridge, Eigen::Index free,
                    double alpha, double beta);
 
+/// Factors A + shift I = L L^T of matrices most of whose entries are 0, for any number of shifts.
+class ShiftedCholesky {
+ public:
+  /// matrix: [n x n], symmetric. Entries below 1e-17 of sqrt(a_ii a_jj) count as 0.
+  explicit ShiftedCholesky(const Eigen::MatrixXd& matrix);
+
+  /// False where A + shift I is not positive definite to rounding; then there is nothing to solve.
+  bool Factor(double shift);
+  /// (A + shift I)^-1 right, of the latest shift. right: [n x k]
+  Eigen::MatrixXd Solve(const Eigen::MatrixXd& right) const { return factors_->solve(right); }
+
+ private:
+  Eigen::SparseMatrix<double> matrix_;  // [n x n]
+  std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factors_;
+};
+
 /// x(strength) of Ridge, for kernels most pairs of which never meet: the kernels' Gram matrix K is
-/// factored within its envelope, the p free columns F are its border,
+/// factored as a sparse one, the p free columns F are its border,
 ///   [K + s I   B] [w]   [b]
 ///   [B^T       F] [f] = [c].
 class LocalRidge {
@@ -92,7 +108,7 @@ class LocalRidge {
   Eigen::MatrixXd corner_;   // [p x p] F
   Eigen::VectorXd product_;  // [p] c
   Eigen::MatrixXd border_;   // [q x (p + 1)] B, b
-  EnvelopeCholesky kernels_;
+  ShiftedCholesky kernels_;
 };
 
 /// A part of the rows that a ridge on all the others predicts.
