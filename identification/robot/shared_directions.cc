@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "identification/fit_data.h"
+#include "identification/linear/least_squares.h"
 
 namespace warmjoint {
 namespace {
@@ -12,118 +14,170 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 40;
-/// Drop of the cost at which the fit rests: no unknown moves by 1 % of its deviation.
+/// Fall of the squares that the next step promises at which the fit rests: no unknown moves by 1 % of its deviation.
 constexpr double kRests = 1e-4;
 
-/// A joint's equations at its own unknowns and z, with the own ones eliminated.
-struct Eliminated {
-  std::vector<Index> own;  // unknowns that are not of z
-  MatrixXd projected;      // [own x r] own = step - projected * step of z
-  VectorXd step;           // [own] with z at rest
-  double drop = 0;         // of the cost by that step
-  MatrixXd h;              // [r x r] of the data
-  VectorXd b;              // [r]
-  MatrixXd meat;           // [r x r] of the scores
+/// What the kept samples of a joint say at a point. Rows over the noise's standard deviation.
+struct JointSays {
+  MatrixXd derivatives;  // [n x m] by the unknowns that the joint has of all
+  VectorXd left;         // [n]
 };
 
-std::vector<Index> OwnOf(const JointFit& fit) {
-  const Slice& z = fit.at.given.z;
-  std::vector<Index> own;
-  for (Index i = 0; i < fit.model.size(); ++i) {
-    const bool held = std::ranges::find(fit.solved.at_bound, i) != fit.solved.at_bound.end();
-    if (!held && (i < z.begin || i >= z.end())) own.push_back(i);
+/// The squares of all joints over x = [own unknowns of each joint, z], with all priors.
+class SharedSquares {
+ public:
+  SharedSquares(const std::vector<JointFit>& fits, const std::vector<JointColumns>& columns)
+      : fits_(fits), columns_(columns), directions_(fits.front().at.given.z.size) {
+    for (const JointFit& fit : fits) {
+      Places own;
+      const Slice& z = fit.at.given.z;
+      for (Index i = 0; i < fit.model.size(); ++i) {
+        const bool held = std::ranges::find(fit.solved.at_bound, i) != fit.solved.at_bound.end();
+        if (!held && (i < z.begin || i >= z.end())) own.Add(i, own_++);
+      }
+      places_.push_back(std::move(own));
+    }
+    for (std::size_t j = 0; j < fits.size(); ++j) {
+      for (Index k = 0; k < directions_; ++k)
+        places_[j].Add(fits[j].at.given.z.begin + k, own_ + k);
+    }
   }
-  return own;
-}
 
-/// Mean of the joints' log gains.
-double CommonGain(const std::vector<JointFit>& fits, const std::vector<VectorXd>& x) {
-  double sum = 0;
-  for (std::size_t j = 0; j < fits.size(); ++j) sum += x[j][fits[j].at.given.log_gain];
-  return sum / static_cast<double>(fits.size());
-}
+  /// Where z stands.
+  Slice z() const { return {own_, directions_}; }
 
-/// common_gain: about which the joint's log gain has its prior.
-Eliminated Eliminate(const JointFit& fit, const JointColumns& c, const VectorXd& x,
-                     double common_gain) {
-  Eliminated e;
-  const Selection used{c.samples.keep, {}};
-  const ModelRows rows = fit.model.Evaluate(x);
-  const VectorXd left = Kept(VectorXd(c.samples.torque - rows.force), used);
-  const MatrixXd j = Kept(rows.derivatives, used);
-  const double scale = fit.solved.noise.scale();
-  const VectorXd precision = fit.model.PriorPrecision();
-  VectorXd mean = fit.model.PriorMean();
-  mean[fit.at.given.log_gain] = common_gain;
-  e.own = OwnOf(fit);
-  const Slice& z = fit.at.given.z;
-  const MatrixXd of_own = j(Eigen::all, e.own), of_z = j.middleCols(z.begin, z.size);
+  /// Each joint's fit, and a description that is right.
+  VectorXd Start() const {
+    VectorXd x = VectorXd::Zero(own_ + directions_);
+    for (std::size_t j = 0; j < fits_.size(); ++j) {
+      x(places_[j].here) = fits_[j].solved.x(places_[j].of_joint);
+    }
+    z().In(x).setZero();
+    return x;
+  }
 
-  MatrixXd h = of_own.transpose() * of_own / scale;
-  h.diagonal() += precision(e.own);
-  const VectorXd b =
-      of_own.transpose() * left / scale - precision(e.own).cwiseProduct(x(e.own) - mean(e.own));
-  const MatrixXd between = of_own.transpose() * of_z / scale, inverse = InverseScaled(h);
-  e.projected = inverse * between;
-  e.step = inverse * b;
-  e.drop = b.dot(e.step);
-  e.h = of_z.transpose() * of_z / scale - between.transpose() * e.projected;
-  e.b = of_z.transpose() * left / scale - e.projected.transpose() * b;
+  SquaresProblem Problem() const {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    SquaresProblem problem;
+    problem.sums = [this](const VectorXd& x) { return At(x); };
+    problem.rests = kRests;
+    problem.lower = VectorXd::Constant(own_ + directions_, -any);
+    problem.upper = problem.largest_step = -problem.lower;
+    for (std::size_t j = 0; j < fits_.size(); ++j) {
+      for (std::size_t k = 0; k < places_[j].here.size(); ++k) {
+        const Index here = places_[j].here[k];
+        if (here >= own_) continue;
+        const Unknown& row = fits_[j].model.table[static_cast<std::size_t>(places_[j].of_joint[k])];
+        problem.lower[here] = row.lower;
+        problem.upper[here] = row.upper;
+        problem.largest_step[here] = row.largest_step;
+      }
+    }
+    return problem;
+  }
 
-  const MatrixXd scores = (left / scale).asDiagonal() * (of_z - of_own * e.projected);
-  const VectorXd time = Kept(c.samples.time, used);
-  e.meat = ScatterOverBlocks(scores, time, time[0], fit.known.block).squares;
-  // what a joint's own priors leave open
-  e.meat += e.projected.transpose() * precision(e.own).asDiagonal() * e.projected;
-  return e;
-}
+  /// Scores in each joint's blocks of time, and what the priors leave unknown. [p x p]
+  MatrixXd Scatter(const VectorXd& x) const {
+    MatrixXd sum = OfPriors(x).gram;
+    for (std::size_t j = 0; j < fits_.size(); ++j) {
+      const JointSays says = Says(j, x);
+      const ModelSamples& samples = columns_[j].samples;
+      const VectorXd time = Kept(samples.time, {samples.keep, {}});
+      sum(places_[j].here, places_[j].here) +=
+          ScatterOverBlocks(says.left.asDiagonal() * says.derivatives, time, time[0],
+                            fits_[j].known.block)
+              .squares;
+    }
+    return sum;
+  }
+
+ private:
+  /// Unknowns of a joint's model, and where they stand in x.
+  struct Places {
+    std::vector<Index> of_joint, here;
+
+    void Add(Index joint, Index place) {
+      of_joint.push_back(joint);
+      here.push_back(place);
+    }
+  };
+
+  /// The unknowns of joint j's model.
+  VectorXd Of(std::size_t j, const VectorXd& x) const {
+    VectorXd of_joint = fits_[j].solved.x;
+    of_joint(places_[j].of_joint) = x(places_[j].here);
+    return of_joint;
+  }
+
+  JointSays Says(std::size_t j, const VectorXd& x) const {
+    const ModelSamples& samples = columns_[j].samples;
+    const Selection used{samples.keep, {}};
+    const ModelRows rows = fits_[j].model.Evaluate(Of(j, x));
+    const double scale = std::sqrt(fits_[j].solved.noise.scale());
+    return {Kept(rows.derivatives, used)(Eigen::all, places_[j].of_joint) / scale,
+            Kept(VectorXd(samples.torque - rows.force), used) / scale};
+  }
+
+  /// Of each joint's own unknowns and, once, of z. Log gains are known about their mean only.
+  RowSums OfPriors(const VectorXd& x) const {
+    const Index p = x.size(), n = std::ssize(fits_);
+    MatrixXd rows = MatrixXd::Identity(p, p);
+    VectorXd precision = VectorXd::Zero(p), mean = precision;
+    z().In(precision).setOnes();
+    std::vector<Index> gains;
+    double sum = 0;
+    for (std::size_t j = 0; j < fits_.size(); ++j) {
+      const VectorXd own = fits_[j].model.PriorPrecision(), about = fits_[j].model.PriorMean();
+      sum += Of(j, x)[fits_[j].at.given.log_gain];
+      for (std::size_t k = 0; k < places_[j].here.size(); ++k) {
+        const Index here = places_[j].here[k], row = places_[j].of_joint[k];
+        if (here >= own_) continue;
+        precision[here] = own[row];
+        mean[here] = about[row];
+        if (row == fits_[j].at.given.log_gain) gains.push_back(here);
+      }
+    }
+    VectorXd off = x - mean;
+    for (const Index one : gains) {
+      off[one] = x[one] - sum / static_cast<double>(n);
+      for (const Index other : gains) rows(one, other) -= 1 / static_cast<double>(n);
+    }
+    const MatrixXd weighed = precision.asDiagonal() * rows;
+    return {rows.transpose() * weighed, -weighed.transpose() * off, off.cwiseAbs2().dot(precision)};
+  }
+
+  RowSums At(const VectorXd& x) const {
+    RowSums sums = OfPriors(x);
+    for (std::size_t j = 0; j < fits_.size(); ++j) {
+      const JointSays says = Says(j, x);
+      const std::vector<Index>& here = places_[j].here;
+      sums.gram(here, here) += GramOf(says.derivatives);
+      sums.product(here) += says.derivatives.transpose() * says.left;
+      sums.squares += says.left.squaredNorm();
+    }
+    return sums;
+  }
+
+  const std::vector<JointFit>& fits_;
+  const std::vector<JointColumns>& columns_;
+  Index directions_, own_ = 0;
+  std::vector<Places> places_;  // of each joint
+};
 
 }  // namespace
 
 SharedDirections FitShared(const std::vector<JointFit>& fits,
                            const std::vector<JointColumns>& columns) {
+  const SharedSquares squares(fits, columns);
+  const Minimum found = Minimise(squares.Problem(), squares.Start());
+  const MatrixXd inverse = InverseScaled(found.sums.gram);
+  const Slice z = squares.z();
+  const MatrixXd of_z = inverse.middleRows(z.begin, z.size);
+
   SharedDirections shared;
-  const Index r = fits.front().at.given.z.size;
-  shared.z = VectorXd::Zero(r);
-  std::vector<VectorXd> x;
-  for (const JointFit& fit : fits) {
-    x.push_back(fit.solved.x);
-    x.back().segment(fit.at.given.z.begin, r).setZero();
-  }
-  for (int i = 0; i < kMostIterations && !shared.converged; ++i) {
-    std::vector<Eliminated> joints;
-    MatrixXd h = MatrixXd::Identity(r, r), meat = h;
-    VectorXd b = -shared.z;
-    double drop = 0;
-    const double gain = CommonGain(fits, x);
-    for (std::size_t j = 0; j < fits.size(); ++j) {
-      const Eliminated& e = joints.emplace_back(Eliminate(fits[j], columns[j], x[j], gain));
-      h += e.h;
-      b += e.b;
-      meat += e.meat;
-      drop += e.drop;
-    }
-    const VectorXd step = SolveScaled(h, b);
-    // as far as every gain may move
-    double share = 1;
-    std::vector<VectorXd> own;
-    for (std::size_t j = 0; j < fits.size(); ++j) {
-      own.emplace_back(joints[j].step - joints[j].projected * step);
-      for (Index k = 0; k < own[j].size(); ++k) {
-        const auto row = static_cast<std::size_t>(joints[j].own[static_cast<std::size_t>(k)]);
-        share = std::min(share, fits[j].model.table[row].largest_step / std::abs(own[j][k]));
-      }
-    }
-    for (std::size_t j = 0; j < fits.size(); ++j) {
-      x[j](joints[j].own) += share * own[j];
-      x[j].segment(fits[j].at.given.z.begin, r) += share * step;
-    }
-    shared.z += share * step;
-    shared.converged = share == 1 && step.dot(h * step) + drop < kRests;
-    const MatrixXd inverse = InverseScaled(h);
-    shared.covariance = inverse * meat * inverse;
-  }
+  shared.z = z.Of(found.x);
+  shared.covariance = of_z * squares.Scatter(found.x) * of_z.transpose();
+  shared.converged = found.converged;
   shared.degrees_of_freedom = fits.front().known.degrees_of_freedom;
   for (const JointFit& fit : fits) {
     shared.degrees_of_freedom = std::min(shared.degrees_of_freedom, fit.known.degrees_of_freedom);
