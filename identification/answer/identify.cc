@@ -120,20 +120,22 @@ constexpr int kMostRounds = 3;  // why: what a fit to unsettled torque hides sho
 /// The fit to what has settled: the samples of segments lose their first seconds while the residual shows that the torque had not.
 struct SettledFit {
   Fit fit;
-  std::optional<Selection> samples{};  // that it rests on, where some had not settled
-  Settling settling{};                 // of all rounds
+  Settling settling{};                         // of all rounds
+  std::shared_ptr<const Selection> samples{};  // that it rests on, where some had not settled
   std::optional<Fit> sooner{};  // with the samples of the run in which what is left fades away
 };
 
 SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input) {
   const Eigen::VectorXd& time = input.measurements.time;
+  const auto without = [&](const Settling& settling) {
+    return std::make_shared<const Selection>(WithoutSettling(input.selection, time, settling));
+  };
   const auto fit_to = [&](const Selection& samples) {
     return AtBounds(identifier.fit(input.With(samples)), input.measurements);
   };
-  SettledFit settled{AtBounds(identifier.fit(input), input.measurements)};
+  SettledFit settled{fit_to(input.selection)};
   Fit plain;  // to all samples
-  Selection before;
-  Settling more;
+  Settling earlier, more;
   for (int round = 0; round < kMostRounds && !settled.fit.refusal; ++round) {
     const Fit& fit = settled.fit;
     // a view that is not the input's has other samples, and rows of means have none of their own
@@ -146,22 +148,21 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
       return {settled.samples ? std::move(plain) : std::move(settled.fit)};
     }
     if (!settled.samples) plain = fit;
+    earlier = settled.settling;
     more = found;
-    before = settled.samples.value_or(input.selection);
-    settled.samples = WithoutSettling(before, time, more);
-    settled.fit = fit_to(*settled.samples);
-    settled.settling = settled.settling + more;
+    settled.settling = earlier + more;
+    const auto samples = without(settled.settling);
+    settled.fit = fit_to(*samples);
+    settled.samples = samples;
   }
-  if (settled.samples) {
-    settled.sooner = fit_to(WithoutSettling(before, time, more * kShownToSettle));
-  }
+  if (settled.samples) settled.sooner = fit_to(*without(earlier + more * kShownToSettle));
   return settled;
 }
 
 /// What is left of a torque that settles moves law and heat by no more than the samples in which it fades away: of an exponential,
 /// and of what fades quicker, less is left behind these than in them.
 Cause SettlingCause(const SettledFit& settled) {
-  const double longest = std::max(settled.settling.behind, settled.settling.before);
+  const double longest = std::max(settled.settling.after, settled.settling.before);
   Cause cause = OfTheLog(Source::preparation, ExplainSettling(longest));
   const std::vector<FitParameter>& rows = settled.fit.parameters;
   const bool alike = settled.sooner && !settled.sooner->refusal && !settled.fit.refusal &&
@@ -251,6 +252,7 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
                    const LackOfFitSettings& judging) {
   Answer answer;
   SettledFit settled = FitSettled(identifier, SelectSamples(identifier, given));
+  answer.settling = settled.settling;
   answer.settled = settled.samples;
   std::optional<Cause> unsettled;
   if (settled.samples) unsettled = SettlingCause(settled);
@@ -293,6 +295,7 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
   const IdentifierInput input = SelectSamples(identifier, given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.log, input.measurements, numbers);
   estimate.options = input.options.Changed();
+  if (answer.settling.both() > 0) estimate.settling = answer.settling;
   return estimate;
 }
 

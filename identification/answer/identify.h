@@ -3,7 +3,7 @@
 
 #include <warmjoint/estimate.h>
 
-#include <optional>
+#include <memory>
 
 #include "identification/identifier.h"
 #include "identification/inference/inference.h"
@@ -18,8 +18,9 @@ struct Answer {
   Inference by_noise;  // with its friction at speeds
   Inference inferred;  // what the fit's own causes leave of that
   Inference judged;    // and all causes
-  /// The samples that it rests on, where some of those that were given had not settled.
-  std::optional<Selection> settled{};
+  /// What the fit leaves out at the ends of its segments, where the torque had not settled, and the samples that it rests on.
+  Settling settling{};
+  std::shared_ptr<const Selection> settled{};  // null: all; the fit reads it, too
 };
 
 /// The input that an answer rests on: what the identifier selects of `given`, once it has settled. answer: must outlive it.

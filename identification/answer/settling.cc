@@ -144,9 +144,9 @@ double TimeOf(const std::vector<Unsettled>& runs, double beyond_chance,
 
 bool MaySettle(const Settling& settling, const Selection& used, const VectorXd& time) {
   // a torque that fades behind its change alone may take as long as it likes
-  if (settling.behind == 0 || settling.before == 0) return true;
+  if (settling.after == 0 || settling.before == 0) return true;
   const double typical = static_cast<double>(TypicalLength(used)) * MedianStep(time);
-  return settling.behind + settling.before <= 0.5 * typical;
+  return settling.after + settling.before <= 0.5 * typical;
 }
 
 Settling SettlingTime(const Selection& used, const VectorXd& time, const VectorXd& residual) {
@@ -168,7 +168,7 @@ Selection WithoutSettling(Selection selection, const VectorXd& time, const Settl
   constexpr double rounding = 1e-9;  // s, of time stamps
   std::vector<Segment> left;
   for (Segment segment : selection.segments) {
-    const double until = time[segment.begin] + settling.behind - rounding;
+    const double until = time[segment.begin] + settling.after - rounding;
     for (; segment.begin < segment.end && time[segment.begin] < until; ++segment.begin) {
       selection.keep[segment.begin] = false;
     }

@@ -1,25 +1,21 @@
-// How long the torque takes to settle beside a change of speed.
+// How long the torque takes to settle at a change of speed.
 #pragma once
 
+#include <warmjoint/estimate.h>
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
 
 namespace warmjoint {
 
-/// How far from the ends of its segments a torque had not settled after a change of speed, or was about to change, s.
-struct Settling {
-  double behind = 0;  // a change of speed
-  double before = 0;  // the next one
+inline Settling operator+(const Settling& one, const Settling& more) {
+  return {one.after + more.after, one.before + more.before};
+}
+inline Settling operator*(const Settling& one, double share) {
+  return {share * one.after, share * one.before};
+}
 
-  double both() const { return behind + before; }
-  Settling operator+(const Settling& more) const {
-    return {behind + more.behind, before + more.before};
-  }
-  Settling operator*(double share) const { return {share * behind, share * before}; }
-};
-
-/// What the residual of a fit shows of that; 0 where it shows nothing, or no end of it within a quarter of a typical segment.
+/// What the residual of a fit shows of a torque that had not settled; 0 where it shows nothing, or no end of it within a quarter of a typical segment.
 ///
 /// Means z of the residual over runs that grow with the time from the change are compared with those as long from the
 /// segment's middle on, r, and with those as far from the change on its other side, p, where the joint was at the same

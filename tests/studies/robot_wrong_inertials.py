@@ -141,6 +141,15 @@ def report_of(rows, claims):
     return report
 
 
+def described(robot, random):
+    """A description whose masses, places and inertias are off by 10 % each."""
+    wrong = passive(robot)
+    wrong.body_mass[:] *= 1 + .1 * random.standard_normal(wrong.nbody)
+    wrong.body_ipos[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 3))
+    wrong.body_inertia[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 1))
+    return wrong
+
+
 def simulate(robot, kind, seed, motions):
     """Time, positions, torques, the wrong description and the truth of one realization."""
     n = passive(robot).nv
@@ -149,10 +158,7 @@ def simulate(robot, kind, seed, motions):
         motions[seed % 3] = (t, q, v, acc, *torques(passive(robot), q, v, acc))
     t, q, v, acc, rigid, carried = motions[seed % 3]
     truth, random = draw(seed, n)
-    wrong = passive(robot)
-    wrong.body_mass[:] *= 1 + .1 * random.standard_normal(wrong.nbody)
-    wrong.body_ipos[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 3))
-    wrong.body_inertia[:] *= 1 + .1 * random.standard_normal((wrong.nbody, 1))
+    wrong = described(robot, random)
     noise = np.where(np.arange(n) < n // 2, .5, .15)
     torque = rigid + truth["rotor_inertia"] * acc + friction(truth, v, carried) + noise * random.standard_normal(v.shape)
     return t, q, torque, wrong, truth

@@ -153,9 +153,8 @@ FitView MakeFitView(const LogSamples& measurements, const Selection& selection,
     view.fitted = LowPass(view.time, given.force + view.rigid, *lag) - view.rigid;
   }
   // what had not settled is no matter of the fit
-  const Settling settling = SettlingTime(view.selection, view.time, Residuals(view));
-  if (settling.both() > 0) {
-    view.selection = WithoutSettling(view.selection, view.time, settling);
+  if (estimate.settling) {
+    view.selection = WithoutSettling(view.selection, view.time, *estimate.settling);
   }
 
   view.energy = given.energy;

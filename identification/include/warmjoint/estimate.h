@@ -284,6 +284,21 @@ struct CarriedHeat {
   }
 };
 
+/// How far from the ends of its constant-speed segments a torque had not settled after a change of speed, or was about to change:
+/// samples there that the fit leaves out.
+struct Settling {
+  double after = 0;   // a change of speed, s
+  double before = 0;  // the next one, s
+
+  double both() const { return after + before; }
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("after", &after, Needed("s", "from each change of speed on", kNotNegative));
+    a->Field("before", &before, Needed("s", "until the next one", kNotNegative));
+  }
+};
+
 /// Change of the friction (law and heat, rms) by what a model leaves out from which it is refused, as a share,
 /// where nobody says otherwise (`--relevance`).
 inline constexpr double kDefaultRelevance = 0.1;
@@ -314,6 +329,7 @@ struct Estimate {
   std::optional<CarriedHeat> follows;
   /// The files that it tells of, as seen from here; none of a log that was made of vectors.
   std::optional<RecordingSource> recording;
+  std::optional<Settling> settling;
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
@@ -372,6 +388,10 @@ struct Estimate {
         LeftOut("heat at the end of the log, `energy` and `second_energy`, and its stamp, `time`"));
     a->Field("choice", &choice,
              {.meaning = "which structure an identifier chose that compares several"});
+
+    a->Field("settling", &settling,
+             {.meaning = "samples at the ends of constant-speed segments that the fit leaves out, "
+                         "since the torque had not settled there"});
 
     // what it tells of: the project file has a member of its own
     a->Field("follows", &follows,

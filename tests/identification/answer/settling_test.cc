@@ -44,8 +44,8 @@ double SignOf(double velocity) { return velocity > 0 ? 1 : -1; }
 TEST(Settling, TakesAsLongAsTheTorqueFades) {
   // 1 N.m that fades to a third of the noise in 0.5 s
   const Holds holds([](double t, double v) { return SignOf(v) * std::exp(-t / 0.15); });
-  EXPECT_GE(holds.Found().behind, 0.4);
-  EXPECT_LE(holds.Found().behind, 1.2);
+  EXPECT_GE(holds.Found().after, 0.4);
+  EXPECT_LE(holds.Found().after, 1.2);
   EXPECT_EQ(holds.Found().before, 0);
   // without these samples it has settled
   Holds rest = holds;
@@ -56,15 +56,15 @@ TEST(Settling, TakesAsLongAsTheTorqueFades) {
     if (rest.selection.keep[i]) kept[n++] = holds.residual[i];
   }
   EXPECT_EQ(SettlingTime(rest.selection, rest.time, kept).both(), 0);
-  EXPECT_EQ(rest.selection.segments.front().begin, std::llround(holds.Found().behind / kStep));
+  EXPECT_EQ(rest.selection.segments.front().begin, std::llround(holds.Found().after / kStep));
 }
 
 TEST(Settling, SeesWhatHasNoSign) {
   std::mt19937 engine(3);
   std::normal_distribution<double> ringing(0, 1);
   const Holds holds([&](double t, double) { return t < 0.12 ? ringing(engine) : 0; });
-  EXPECT_GE(holds.Found().behind, 0.12);
-  EXPECT_LE(holds.Found().behind, 0.5);
+  EXPECT_GE(holds.Found().after, 0.12);
+  EXPECT_LE(holds.Found().after, 0.5);
 }
 
 TEST(Settling, SeesWhatComesBeforeTheChange) {

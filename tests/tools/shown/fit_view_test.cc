@@ -6,6 +6,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/estimate.h"
@@ -81,6 +82,27 @@ TEST(FitView, ShowsTheFitBehindALagOfTheTorque) {
   EXPECT_GT(Residuals(warm.View()).norm(), 1);
   warm.estimate.parameters.push_back({"torque_lag", lag, "s", {}, {}});
   EXPECT_LT(Residuals(warm.View()).norm(), 1e-9);
+}
+
+TEST(FitView, ShowsTheSamplesThatTheFitRestsOn) {
+  // 3 N.m that fade within seconds of each change of speed, every 20 s
+  Measurements m = test::RecordHour(test::TableOne(), 3);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    m.torque[i] += std::copysign(3 * std::exp(-std::fmod(m.time[i], 20) / 2), m.velocity[i]);
+  }
+  const PreparedLog log = Prepare(m);
+  const Estimate answer = test::Answer("energy-ml", log);
+  ASSERT_EQ(answer.status, Status::ok) << answer.message;
+  ASSERT_TRUE(answer.settling);
+  EXPECT_GT(answer.settling->after, 2);
+  EXPECT_EQ(answer.settling->before, 0);
+
+  // by the file alone
+  const Estimate estimate = EstimateFrom({EstimateToTree(answer), "estimate.json"});
+  const Eigen::VectorXd residuals = Residuals(MakeFitView(log, estimate));
+  ASSERT_EQ(residuals.size(), estimate.metrics->n);
+  EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
+              estimate.metrics->rmse, 1e-9);
 }
 
 TEST(FitView, TellsFrictionAtARoundSpeedNearTheMedianWithItsDeviation) {
