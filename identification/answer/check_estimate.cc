@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
@@ -13,6 +12,8 @@
 #include "identification/lack_of_fit/significance.h"
 #include "identification/linear/least_squares.h"
 #include "identification/report/report_fit.h"
+#include "identification/sentences/assumptions.h"
+#include "identification/sentences/friction.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/preparation/moving_view.h"
+#include "identification/sentences/friction.h"
+#include "identification/sentences/log.h"
 
 namespace warmjoint {
 namespace {

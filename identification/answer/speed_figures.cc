@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
+#include "identification/sentences/friction.h"
+#include "identification/sentences/log.h"
 #include "identification/typical_speeds.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/sign.h"

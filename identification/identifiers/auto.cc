@@ -16,7 +16,6 @@
 #include <memory>
 #include <optional>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/model_comparison.h"
@@ -26,6 +25,7 @@
 #include "identification/preparation/check.h"
 #include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/late_torque.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/torque_delay.h"
 

@@ -22,7 +22,6 @@
 
 #include "identification/alternating/block_descent.h"
 #include "identification/alternating/first_guess.h"
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
@@ -31,6 +30,8 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/identify_maps.h"
+#include "identification/sentences/fit.h"
+#include "identification/sentences/friction.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

@@ -19,7 +19,6 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -30,6 +29,8 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/online/kalman_bank.h"
+#include "identification/sentences/fit.h"
+#include "identification/sentences/friction.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/foundation/robust_noise.h"
 

@@ -21,7 +21,6 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifier.h"
@@ -31,6 +30,7 @@
 #include "identification/nonlinear/lugre_fit.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
+#include "identification/sentences/falls.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/foundation/robust_noise.h"

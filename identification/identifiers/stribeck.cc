@@ -15,7 +15,6 @@
 
 #include <cmath>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/identifier_list.h"
@@ -26,6 +25,7 @@
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/friction.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/thermal_fit.h"

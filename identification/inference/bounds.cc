@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
+#include "identification/sentences/law.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint {

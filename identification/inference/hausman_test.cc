@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/inference/inference.h"
+#include "identification/sentences/fit.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {

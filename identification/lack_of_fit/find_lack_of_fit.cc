@@ -6,11 +6,15 @@
 #include <cmath>
 #include <optional>
 
-#include "identification/explain.h"
 #include "identification/lack_of_fit/examine.h"
 #include "identification/lack_of_fit/remedies.h"
 #include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/table.h"
+#include "identification/sentences/assumptions.h"
+#include "identification/sentences/heat.h"
+#include "identification/sentences/lack_of_fit.h"
+#include "identification/sentences/log.h"
+#include "identification/sentences/moved_parameter.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/warming/gaps.h"
 #include "models/foundation/robust_noise.h"

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/maps/map_model.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/maps.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <utility>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/gravity.h"
@@ -18,6 +17,7 @@
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
+#include "identification/sentences/maps.h"
 #include "identification/uncertainty/tails.h"
 #include "models/recording/measurements.h"
 

@@ -4,13 +4,14 @@
 #include <iterator>
 #include <optional>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
 #include "identification/maps/warm_maps.h"
+#include "identification/sentences/friction.h"
+#include "identification/sentences/maps.h"
 #include "identification/warming/fit_law.h"
 #include "identification/warming/initial_energy.h"
 

@@ -10,12 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/maps/map_blocks.h"
+#include "identification/sentences/friction.h"
+#include "identification/sentences/maps.h"
 #include "identification/warming/fit_law.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/foundation/robust_noise.h"

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
@@ -19,6 +18,8 @@
 #include "identification/inference/inference.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/preparation/check.h"
+#include "identification/sentences/fit.h"
+#include "identification/sentences/friction.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
@@ -17,6 +16,9 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/friction.h"
+#include "identification/sentences/heat.h"
+#include "identification/sentences/late_torque.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/warming/gaps.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "identification/explain.h"
 #include "identification/fit_parameters.h"
+#include "identification/sentences/heat.h"
 #include "identification/warming/gaps.h"
 
 namespace warmjoint {

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "identification/explain.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
@@ -15,6 +14,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/preparation/delayed_motion.h"
+#include "identification/sentences/late_torque.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 

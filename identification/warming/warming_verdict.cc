@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "identification/explain.h"
+#include "identification/sentences/heat.h"
 
 namespace warmjoint {
 

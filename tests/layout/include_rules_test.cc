@@ -133,6 +133,23 @@ TEST(IncludeRules, FoldersOfIdentificationIncludeThoseBeforeThem) {
   }
 }
 
+TEST(IncludeRules, SentencesIncludeTheTopOfIdentificationAndRowsAlone) {
+  // so that any folder may say something
+  const fs::path root = warmjoint::test::SourceFolder();
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(root / "identification/sentences")) {
+    ++files;
+    for (const std::string& header : IncludesOf(entry.path())) {
+      const std::string folder = fs::path(header).parent_path();
+      const bool allowed = !header.starts_with("identification/") || folder == "identification" ||
+                           folder == "identification/sentences" ||
+                           header == "identification/inference/cause.h";
+      EXPECT_TRUE(allowed) << entry.path() << " includes " << header;
+    }
+  }
+  EXPECT_GT(files, 10);
+}
+
 TEST(IncludeRules, PublicHeadersIncludeEachOtherTheStandardLibraryEigenAndTheEngineAlone) {
   const std::regex allowed(R"(warmjoint/\w+\.h|Eigen/Core|mujoco/mujoco\.h|\w+)");
   int headers = 0;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "identification/alternating/first_guess.h"
-#include "identification/explain.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/table.h"

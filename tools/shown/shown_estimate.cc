@@ -9,8 +9,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "identification/explain.h"
 #include "identification/fit_parameters.h"
+#include "identification/sentences/friction.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {

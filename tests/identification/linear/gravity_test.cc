@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "identification/answer/identify.h"
-#include "identification/explain.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/preparation/select.h"
+#include "identification/sentences/friction.h"
 #include "models/foundation/serialize.h"
 #include "tests/support/judging.h"
 #include "tests/support/refusal.h"

@@ -1,10 +1,9 @@
-// Sentences on heat and warming.
+#include "identification/sentences/heat.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "identification/explain.h"
 
 namespace warmjoint {
 namespace {
@@ -13,8 +12,7 @@ namespace {
 std::string ExplainTradeOff(std::string_view known) {
   return fmt::format(
       "thermal_gain and thermal_time_constant cannot be distinguished: {}; record longer, from "
-      "cold "
-      "until friction settles, or with rests",
+      "cold until friction settles, or with rests",
       known);
 }
 
@@ -73,8 +71,8 @@ std::string ExplainUnseenWarming(double lowers, double needed, std::string_view 
 
 std::string ExplainFastWarming(double time_constant, double fastest, std::string_view instead) {
   return fmt::format(
-      "what looks like warming has a time constant of {:.2g} s, and nothing warms within {:.2g} "
-      "s: is the torque or the velocity late or filtered? {} fits without warming",
+      "what looks like warming has a time constant of {:.2g} s, and nothing warms within {:.2g} s: "
+      "is the torque or the velocity late or filtered? {} fits without warming",
       time_constant, fastest, instead);
 }
 
@@ -94,18 +92,6 @@ std::string ExplainRunawayTimeConstant(double duration) {
       fmt::format("the friction still changes at the same rate at the end of the {:.4g} s, so that "
                   "any longer tau fits as well",
                   duration));
-}
-
-std::string ExplainWarmingBesideMaps(int iterations) {
-  return fmt::format("warming with them in {} iterations", iterations);
-}
-
-std::string ExplainMapsOverEnergy(int rounds) {
-  return fmt::format(
-      "the energy state is consistent with the losses of the fit after {} rounds; thermal_gain and "
-      "thermal_time_constant have no interval, since maps over the energy absorb part of their "
-      "effect",
-      rounds);
 }
 
 }  // namespace warmjoint

@@ -1,0 +1,116 @@
+#include "identification/sentences/friction.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "identification/command.h"
+#include "models/friction/laws.h"
+
+namespace warmjoint {
+namespace {
+
+/// What may act beside the friction that a fit holds: a question.
+std::string_view BesideFriction(const Fit& fit) {
+  return fit.gravity ? "do other joints move, or is a sign or a unit wrong?"
+                     : "is there gravity (--gravity sincos), or a wrong sign or unit?";
+}
+
+}  // namespace
+
+std::string ExplainDriving(double time, std::string_view remedy) {
+  return fmt::format("at {:.6g} s the fitted friction drives the joint instead of braking it; {}",
+                     time, remedy);
+}
+
+std::string RemedyForNonDissipative(std::string_view law, FittedGravity gravity) {
+  const bool none = gravity == FittedGravity::none;
+  // levels of their own for both directions
+  const IdentifyCommand levels = IdentifyCommand{"energy-ml"}.With("law", Asymmetric::name);
+  if (law != Asymmetric::name) {
+    return Remedy{"", none ? levels : levels.With("gravity", NameOf(gravity))}.Text();
+  }
+  if (none) {
+    return Remedy{"does the torque hold gravity or another load? ",
+                  levels.With("gravity", NameOf(FittedGravity::paired))}
+        .Text();
+  }
+
+  // both are fitted already: what is left is the sign
+  return "is the sign of the torque reversed (--scale torque=-1)?";
+}
+
+std::string ExplainWorseThanMean(double fit_share, const Fit& fit) {
+  return fmt::format(
+      "the torque's mean follows it better than the friction does (Fit {:.3g} %): {}", fit_share,
+      BesideFriction(fit));
+}
+
+std::string ExplainPoorFit(double fit_share, double least, const Fit& fit) {
+  return fmt::format(
+      "the fit explains little of the torque (Fit {:.3g} %, of {:.0f} % at least): {}", fit_share,
+      least, BesideFriction(fit));
+}
+
+std::string ExplainWorseHeldOut(double fit_share, const Fit& fit) {
+  return fmt::format(
+      "the last part of the log, which a fit to the first has not seen, is predicted worse than by "
+      "its mean (Fit {:.3g} %): the joint changed, or it is not friction; {}",
+      fit_share, BesideFriction(fit));
+}
+
+std::string ExplainMuchLeft(double left, double friction, const Fit& fit) {
+  return fmt::format(
+      "the fit leaves {:.3g} of the torque (rms), more than half of the friction that it finds, "
+      "{:.3g}: {}",
+      left, friction, BesideFriction(fit));
+}
+
+std::string ExplainNoFriction(double share) {
+  return fmt::format(
+      "this torque holds no friction: what was fitted is {:.2g} % of it. A sensor behind the gear "
+      "and the torque of a model show none; log that of the motor, or its current",
+      100 * share);
+}
+
+std::string ExplainNegativeInertia(const FitParameter& inertia,
+                                   const std::array<double, 2>& interval95) {
+  return fmt::format(
+      "inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}: the torque is "
+      "late or early against the motion, has the wrong sign (--scale torque=-1), or another load "
+      "acts",
+      inertia.value, inertia.unit, interval95[0], interval95[1]);
+}
+
+std::string NameOfFriction(const FrictionAtSpeed& at) {
+  std::string name = fmt::format("friction {} at {:.3g}", at.speed < 0 ? "backwards" : "forwards",
+                                 std::abs(at.speed));
+  if (!at.speed_unit.empty()) name += " " + at.speed_unit;
+  if (at.energy) name += *at.energy == 0 ? ", cold" : ", warm";
+  return name;
+}
+
+std::string ExplainUnknownFriction(const std::vector<FrictionAtSpeed>& all) {
+  const FrictionAtSpeed& one = all[all.size() / 2];
+  return fmt::format(
+      "the friction is known to worse than itself at every speed of the log ({} is {:.2g} {}, its "
+      "95 % interval {:.2g} to {:.2g}): record longer, at steadier speeds in both directions",
+      NameOfFriction(one), one.value, one.unit, one.interval95[0], one.interval95[1]);
+}
+
+std::string ExplainLeftOutSpeeds(const std::vector<FrictionAtSpeed>& left_out) {
+  std::vector<std::string> names;
+  for (const FrictionAtSpeed& one : left_out) names.push_back(NameOfFriction(one));
+  return fmt::format("left out, since it is known to worse than itself: {}",
+                     fmt::join(names, "; "));
+}
+
+std::string ExplainOwnLaw(const MovedParameter& moved) {
+  return fmt::format(
+      "the estimate does not fit its log: the same law fits it better with {} changed by {:.3g} "
+      "{}; fit again, and check units, signs and the samples that were used",
+      moved.parameter.name, moved.change, moved.parameter.unit);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,35 @@
+// Of what the tests for lack of fit found in the residual, and what that does to the answer.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identification/sentences/moved_parameter.h"
+
+namespace warmjoint {
+
+/// What a test for lack of fit found.
+struct FoundPart {
+  std::string quantity;                     // that the residual depends on
+  double rms = 0;                           // in the torque's unit
+  double of_friction = 0, of_residual = 0;  // rms and variance, %
+};
+
+/// "the residual depends on ...": each finding with its size, the largest first; what that does, as below; a remedy.
+std::string ExplainFindings(const std::vector<FoundPart>& found, const std::string& unit,
+                            std::string_view effect, std::string_view remedy);
+/// What findings do that change the friction too much: the worst by --relevance, or all together. harm: share
+std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance);
+std::string ExplainTooMuchTogether(double share, double most);
+/// What those do that intervals were widened for. largest: share by which one changes the friction.
+std::string ExplainWidened(double largest);
+inline constexpr const char* kAbsorbedByWarming =
+    ", and the parameters of warming have none, since they may have absorbed part of it";
+
+/// Of findings by tests that reject before adjustment alone, and the parameter that they change most. remedy: a clause
+std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
+                              const MovedParameter& moved, std::string_view remedy);
+inline constexpr const char* kLongerTells = "; a longer recording tells";
+
+}  // namespace warmjoint

@@ -1,0 +1,24 @@
+// Of a torque that is late against the motion: its delay, its lag, and how long it takes to settle.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace warmjoint {
+
+inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none is fitted";
+
+/// Of a torque that is late, s; below 0: early. step: of the log, s
+std::string ExplainDelay(double delay, double step);
+/// Of one that the log may hold and does not tell, which intervals cover.
+std::string ExplainUntoldDelay(double delay, double step);
+/// Of one that a fit leaves out, with the share by which that changes the friction.
+std::string ExplainDelayLeftOut(double delay, double step, double harm,
+                                std::string_view identifier);
+
+/// Of samples left out because the torque lags, s.
+std::string ExplainLeftOutByLag(double lag);
+/// Of samples left out since the torque takes so long, s, to settle after a change of speed.
+std::string ExplainSettling(double settling);
+
+}  // namespace warmjoint

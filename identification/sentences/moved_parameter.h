@@ -1,0 +1,14 @@
+// What sentences of several topics speak of.
+#pragma once
+
+#include "identification/fit.h"
+
+namespace warmjoint {
+
+/// A parameter, and how far something changes it, in its unit.
+struct MovedParameter {
+  const FitParameter& parameter;
+  double change = 0;
+};
+
+}  // namespace warmjoint
