@@ -9,10 +9,9 @@
 // message says why and lists all candidates.
 //
 // not_identifiable where the motion cannot tell viscous from coulomb: then no law can be chosen.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -25,6 +24,7 @@
 #include "identification/preparation/check.h"
 #include "identification/preparation/delayed_motion.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/choice.h"
 #include "identification/sentences/late_torque.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/torque_delay.h"
@@ -39,7 +39,7 @@ std::string WhyTooShort(const IdentifierInput& input) {
   const Eigen::VectorXd& time = input.measurements.time;
   const double duration = time[time.size() - 1] - time[0];
   if (duration >= kShortestWarming) return "";
-  return fmt::format("a warming takes minutes to show, and the log lasts {:.3g} s", duration);
+  return ExplainShortLog(duration);
 }
 
 /// Tries structures, of those that warm where the log is long enough alone.
@@ -63,8 +63,7 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
     if (gravity == kinds.front() || comparison.MayWarmWith(gravity)) {
       TryWarm(WarmStructures(gravity), input, comparison);
     } else {
-      comparison.LeaveOut(WarmStructures(gravity),
-                          "neither gravity nor a warming can be seen by itself");
+      comparison.LeaveOut(WarmStructures(gravity), kNoGravityNorWarming);
     }
   }
 
@@ -102,13 +101,11 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
   if (too_short) {
     comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)}, WhyTooShort(input));
   } else if (!cold) {
-    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)},
-                        "it takes the joint for cold as the log begins");
+    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)}, kTakesColdStartAlone);
   } else if (comparison.MayBendAndWarm(gravity)) {
     comparison.Add({StribeckStructure(PartFit::estimated, gravity)});
   } else {
-    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)},
-                        "neither a bend over the speed nor a warming can be seen by itself");
+    comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)}, kNoBendNorWarming);
   }
 
   // a level for each direction, where one may help
@@ -129,8 +126,7 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
       }
     }
   } else {
-    comparison.LeaveOut(MapStructures(input, gravity),
-                        "nothing is left over place that a map could take");
+    comparison.LeaveOut(MapStructures(input, gravity), kNothingOverPlace);
   }
 }
 
@@ -184,13 +180,12 @@ Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInpu
 /// Why the chosen one.
 std::string Reason(const std::vector<StructureCandidate>& contenders, const Choice& choice,
                    int blocks, const std::string& unit) {
-  const StructureCandidate& chosen = contenders[choice.chosen];
-  std::string reason = fmt::format("chose {}: RMSE {:.4g} {} on {} held-out blocks of time, ",
-                                   chosen.name, std::sqrt(chosen.errors.mean()), unit, blocks);
-  if (choice.chosen == choice.best) return reason + "the smallest of all";
-  return reason + fmt::format("simpler than {} ({:.4g}) and not significantly worse",
-                              contenders[choice.best].name,
-                              std::sqrt(contenders[choice.best].errors.mean()));
+  const auto compared = [&](std::size_t i) {
+    return ComparedStructure{contenders[i].name, std::sqrt(contenders[i].errors.mean())};
+  };
+  const ComparedStructure chosen = compared(choice.chosen);
+  if (choice.chosen == choice.best) return ExplainSmallestError(chosen, unit, blocks);
+  return ExplainSimplest(chosen, compared(choice.best), unit, blocks);
 }
 
 /// What the fit lacks because the motion does not show it, as `check` finds it, each a clause and a semicolon: the slope over
@@ -202,10 +197,10 @@ std::string NotShown(const Fit& fit, const PreparedLog& log) {
   std::string clauses;
   for (const Excitation& one : CheckRecording(log).excitation) {
     if (one.sufficient) continue;
-    if (one.kind == FrictionKind::viscous_coulomb && !slopes) clauses += one.reason + "; ";
-    if (one.kind == FrictionKind::warm_up && !warms) {
-      clauses += fmt::format("no warm-up can be seen: {}; ", one.reason);
+    if (one.kind == FrictionKind::viscous_coulomb && !slopes) {
+      clauses += ExplainUnseenSlope(one.reason);
     }
+    if (one.kind == FrictionKind::warm_up && !warms) clauses += ExplainUnseenWarmUp(one.reason);
   }
   return clauses;
 }
@@ -214,9 +209,9 @@ std::string NotShown(const Fit& fit, const PreparedLog& log) {
 Fit NothingFits(const ModelComparison& comparison, StructureChoice choice) {
   const Inference& first = comparison.First().inferred;
   const Status status = first.status == Status::ok ? Status::not_identifiable : first.status;
-  Fit fit = Refused(kName, status,
-                    fmt::format("none of {} structures fits; {} says: {}", choice.trials.size(),
-                                comparison.First().structure.Name(), first.message));
+  Fit fit = Refused(
+      kName, status,
+      ExplainNothingFits(choice.trials.size(), comparison.First().structure.Name(), first.message));
   fit.choice = std::move(choice);
   return fit;
 }
@@ -247,10 +242,9 @@ Fit FitChosen(const IdentifierInput& input) {
   Structure chosen = *best;
   if (only) {
     chosen = *only;
-    reported.reason = fmt::format("chose {}: it outdoes every other structure", chosen.Name());
+    reported.reason = ExplainOnlyOne(chosen.Name());
   } else if (contenders.empty()) {
-    reported.reason = fmt::format(
-        "chose {} by BIC: none can do without one of the {} blocks of time", chosen.Name(), blocks);
+    reported.reason = ExplainChosenByBic(chosen.Name(), blocks);
   } else {
     const Choice choice = ChooseStructure(contenders, comparison.rows());
     chosen = comparison.Contending(choice.chosen);
@@ -267,7 +261,7 @@ Fit FitChosen(const IdentifierInput& input) {
   // what a reader is told, and the same structure for other samples
   reported.chosen = chosen.Name();
   fit.identifier = kName;
-  fit.summary = fmt::format("{}{}; {}", NotShown(fit, input.log), reported.reason, fit.summary);
+  fit.summary = SummaryOfChoice(NotShown(fit, input.log), reported.reason, fit.summary);
   fit.choice = std::move(reported);
   fit.structure = [sketch = chosen.Sketch(), late](const IdentifierInput& other) {
     return FitOnAll(sketch, late, other);

@@ -14,6 +14,7 @@
 #include "identification/identifiers/structures.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/sentences/choice.h"
 #include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
@@ -118,7 +119,7 @@ Trial Try(const Structure& structure, const IdentifierInput& input) {
   // beyond doubt or perhaps by chance
   trial.inferred = Infer(trial.fit);
   trial.dropped =
-      trial.inferred.status == Status::ok ? "gives no friction" : StatusName(trial.inferred.status);
+      trial.inferred.status == Status::ok ? kGivesNoFriction : StatusName(trial.inferred.status);
   return trial;
 }
 
@@ -259,7 +260,7 @@ void ModelComparison::DropWithoutSlope() {
   for (Trial& trial : trials_) {
     const Trial* sloped = WithSlope(trial);
     if (!sloped || !trial.dropped.empty()) continue;
-    trial.dropped = fmt::format("{} tells the slope, with its interval", sloped->structure.Name());
+    trial.dropped = ExplainMissingSlope(sloped->structure.Name());
   }
 }
 
@@ -296,7 +297,7 @@ bool ModelComparison::HoldOut(Trial& trial, const std::vector<Eigen::Index>& bou
                           trial.structure.Name()));
   trial.errors = trial.structure.ErrorsOn(quick_, bounds);
   if (trial.errors && trial.errors->allFinite()) return true;
-  trial.dropped = "fails without one of the blocks";
+  trial.dropped = kFailsWithoutBlock;
   return false;
 }
 
@@ -362,13 +363,13 @@ bool ModelComparison::Pushes(const Fit& fit) const {
 
 std::string ModelComparison::WhyDominated(const Trial& one, const Trial& other) const {
   if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
-    return fmt::format("outdone by {}, which is simpler", other.structure.Name());
+    return ExplainOutdone(other.structure.Name());
   }
 
   // to leave little counts only with few parameters for so many rows
   if (other.Parameters() < kFewParameters * rows_ &&
       kHopeless * other.MeanSquare() < one.MeanSquare()) {
-    return fmt::format("{} leaves less than half of its residual", other.structure.Name());
+    return ExplainHopeless(other.structure.Name());
   }
   return "";
 }

@@ -143,8 +143,7 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
   if (loss != LossKind::squares) {
     return Refused(
         identifier, Status::bad_data,
-        fmt::format("position={} cannot be had together with loss={}; leave one of them out",
-                    NameOf(input.options.Get<WarmMapOptions>().position), NameOf(loss)));
+        ExplainMapBesideLoss(NameOf(input.options.Get<WarmMapOptions>().position), NameOf(loss)));
   }
   return FitMapModel(identifier, input, ModelOf(input));
 }

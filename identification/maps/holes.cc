@@ -1,6 +1,5 @@
 #include "identification/maps/holes.h"
 
-#include <fmt/format.h>
 #include <warmjoint/friction.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "identification/sentences/maps.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
@@ -101,33 +101,19 @@ struct Hole {
   std::string words;
 };
 
-std::string_view UnitOf(MapQuantity quantity, JointKind joint) {
-  if (quantity == MapQuantity::position) return kPositionUnit.For(joint);
-  if (quantity == MapQuantity::motor_position) return "rad";
-  if (quantity == MapQuantity::velocity) return kVelocityUnit.For(joint);
-  return kTorqueUnit.For(joint);
-}
-
-/// Where a line of a map lies: " backwards", " forwards at 0.5", " at energy -2 N.m", ..., or nothing where the map has one line.
-std::string LineOf(const FrictionMap& map, Index line, JointKind joint) {
-  std::string words;
+/// Where a line of a map lies along its second axis and those after it; empty where the map has one line.
+std::vector<LinePlace> PlacesOf(const FrictionMap& map, Index line) {
+  std::vector<LinePlace> places;
   // axes from the last, which runs fastest, to the second
   for (size_t a = map.axes.size(); a-- > 1;) {
-    const MapQuantity over = map.axes[a].quantity;
     const std::vector<double>& centres = map.axes[a].kernels.centres;
-    const double centre = centres[line % std::ssize(centres)];
+    places.push_back({.over = map.axes[a].quantity,
+                      .centre = centres[line % std::ssize(centres)],
+                      .is_direction = centres.size() <= 2});
     line /= std::ssize(centres);
-    // a velocity is told as a direction, other quantities with their unit
-    if (over == MapQuantity::velocity) {
-      const char* direction = centre < 0 ? "backwards" : "forwards";
-      words = (centres.size() > 2 ? fmt::format(" {} at {:.3g}", direction, std::abs(centre))
-                                  : fmt::format(" {}", direction)) +
-              words;
-    } else {
-      words = fmt::format(" at {} {:.3g} {}", NameOf(over), centre, UnitOf(over, joint)) + words;
-    }
   }
-  return words;
+  std::ranges::reverse(places);
+  return places;
 }
 
 /// The runs of one line of a map.
@@ -146,9 +132,8 @@ void AddHoles(const FrictionMap& map, Index first, Index line, const std::vector
     if (!at_end || i < end) {
       // from half a cell below its first kernel to half a cell above its last
       const double lower = centres[i] - half, upper = centres[end] + half;
-      holes.push_back({upper - lower,
-                       fmt::format("{} {:.3g} to {:.3g} {}{}", NameOf(axis.quantity), lower, upper,
-                                   UnitOf(axis.quantity, joint), LineOf(map, line, joint))});
+      holes.push_back(
+          {upper - lower, NameOfHole({axis.quantity, lower, upper}, PlacesOf(map, line), joint)});
     }
     i = end;
   }
@@ -272,7 +257,7 @@ std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
   std::vector<std::string> names;
   for (size_t i = 0; i < std::min(kMostNamed, holes.size()); ++i) names.push_back(holes[i].words);
   if (holes.size() > kMostNamed) {
-    names.push_back(fmt::format("{} smaller ones", holes.size() - kMostNamed));
+    names.push_back(NameOfSmallerHoles(holes.size() - kMostNamed));
   }
   return names;
 }

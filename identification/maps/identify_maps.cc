@@ -1,6 +1,5 @@
 #include "identification/maps/identify_maps.h"
 
-#include <fmt/format.h>
 #include <warmjoint/estimate.h>
 
 #include <algorithm>
@@ -31,32 +30,15 @@ constexpr double kBeyondDoubt =
 std::optional<std::string> Unseen(MapQuantity quantity, const LogSamples& measurements,
                                   const MapPoints& points) {
   if (quantity == MapQuantity::load && !measurements.load) {
-    return "the recording has no column load; log the load that the joint transmits, or use "
-           "energy-map";
+    return kMapOverUnknownLoad;
   }
   const bool is_unknown =
       quantity == MapQuantity::position ||
       (quantity == MapQuantity::motor_position && !KnowsMotorAngle(measurements));
   if (measurements.position_integrated && is_unknown) {
-    return fmt::format(
-        "the log has no positions, and a map over {} needs them; log them, or use nominal-ls or "
-        "energy-ml",
-        NameOf(quantity));
+    return ExplainMapWithoutPositions(quantity);
   }
   return CannotCarry(quantity, points);
-}
-
-/// "20 position x 2 velocity kernels and 36 motor_position kernels".
-std::string ShapeOf(const std::vector<FrictionMap>& maps) {
-  std::vector<std::string> shapes;
-  for (const FrictionMap& map : maps) {
-    std::vector<std::string> axes;
-    for (const MapAxis& axis : map.axes) {
-      axes.push_back(fmt::format("{} {}", axis.kernels.size(), NameOf(axis.quantity)));
-    }
-    shapes.push_back(fmt::format("{} kernels", fmt::join(axes, " x ")));
-  }
-  return fmt::format("{}", fmt::join(shapes, " and "));
 }
 
 /// The table's rows of the law, without intervals and with a warning where kernels can imitate it.
@@ -152,11 +134,7 @@ Eigen::VectorXd TorqueOfEnergy(const IdentifierInput& input, const Eigen::Vector
   return Kept(direction.cwiseProduct(energy), input.selection);
 }
 
-Refusal Unsolvable() {
-  return {Status::bad_data,
-          "the normal equations cannot be solved: torque or velocity are too large or too small to "
-          "square; check their units"};
-}
+Refusal Unsolvable() { return {Status::bad_data, kUnsolvableMaps}; }
 
 std::optional<ChosenProblem> Choose(const IdentifierInput& input, const MapTask& task) {
   MapProblem problem = ProblemOf(input, task);
@@ -252,10 +230,11 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
   fit.fitted = maps.fitted + TorqueOfEnergy(input, task.energy);
   fit.count = static_cast<int>(maps.x.size());
   fit.effective_parameters = maps.effective;
-  fit.summary = fmt::format(
-      "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
-      "effective parameters",
-      law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
+  fit.summary = SummaryOfMaps({.law = law.name,
+                               .maps = maps.maps,
+                               .samples = fit.torque.size(),
+                               .strength = maps.strength,
+                               .effective = maps.effective});
   if (HoldsGravity(input, task, maps)) {
     fit.causes.push_back(Voids(Status::inadequate_model, kMapHoldsGravity));
   }

@@ -92,9 +92,8 @@ Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   // friction that drives itself by its own heat is no model
   const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());
   if (prediction.first_driving < m.size()) {
-    return Refused(
-        fit.identifier, Status::inadequate_model,
-        ExplainDriving(m.time[prediction.first_driving], "use fewer kernels, or another law"));
+    return Refused(fit.identifier, Status::inadequate_model,
+                   ExplainDriving(m.time[prediction.first_driving], kFewerKernels));
   }
 
   // what the torque is compared with follows from that heat
@@ -167,7 +166,7 @@ Fit FitMapModel(const std::string& name, const IdentifierInput& given, const Map
   // then maps over that E too
   Fit fit = FitOverEnergy(input, begin.task, warms ? &warm : nullptr, model.over_energy);
   if (!warms && GivesFriction(fit)) {
-    fit.causes.push_back(Remark(kWithoutWarming + Infer(warm).message, SentenceIn::message));
+    fit.causes.push_back(Remark(ExplainWithoutWarming(Infer(warm).message), SentenceIn::message));
   }
   return fit;
 }

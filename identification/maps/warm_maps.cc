@@ -24,7 +24,7 @@
 namespace warmjoint {
 namespace {
 
-constexpr WarmingContext kContext{" with the maps", "position-ridge"};
+constexpr WarmingContext kContext{kWithTheMaps, "position-ridge"};
 
 /// Whether further turns would leave what warming takes of the residual below half of what can be seen. Blocks in turn grow by a
 /// geometric series, of which two terms tell the limit (Aitken). first, second: after these turns, in variances of the noise
@@ -106,9 +106,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
     return Refused(name, Status::not_identifiable, *why);
   }
   if (!warm.converged) {
-    return Refused(name, Status::not_converged,
-                   "maps and warming together do not come to rest; does the torque column hold "
-                   "friction?");
+    return Refused(name, Status::not_converged, kMapsDoNotRest);
   }
 
   // law and maps, as sure as the warming beside them leaves them
