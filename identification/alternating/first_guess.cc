@@ -1,11 +1,10 @@
 #include "identification/alternating/first_guess.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "identification/sentences/heat.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {
@@ -154,9 +153,7 @@ FirstGuess GuessThermal(const LogSamples& measurements, const Selection& selecti
   const std::vector<Window>& windows = envelope.windows();
   const size_t count = windows.size();
   if (count < 8) {
-    return {{},
-            "the joint moves too briefly before its first long rest to guess how it warms; "
-            "give start_gain and start_time_constant"};
+    return {{}, kRestsTooSoon};
   }
 
   // the level when cold, by a line through the first two windows, and once settled
@@ -166,17 +163,10 @@ FirstGuess GuessThermal(const LogSamples& measurements, const Selection& selecti
   const double change = settled - cold;
   // it must stand out of the noise and end within the log
   if (std::abs(change) < kVisible * envelope.noise()) {
-    return {{},
-            fmt::format("the friction level changes by {:.3g}, within its noise of {:.3g}: no "
-                        "warming to guess from; give start_gain and start_time_constant",
-                        change, envelope.noise())};
+    return {{}, ExplainLevelInNoise(change, envelope.noise())};
   }
   if (std::abs(settled - before) > kUnsettled * std::abs(change)) {
-    return {{},
-            fmt::format("the friction level never settles: in the last quarter it is still "
-                        "{:.3g} from the quarter before, after a change of {:.3g}; record "
-                        "longer, or give start_gain and start_time_constant",
-                        settled - before, change)};
+    return {{}, ExplainUnsettledLevel(settled - before, change)};
   }
 
   // (25), corrected for the feedback of E on W
@@ -185,9 +175,7 @@ FirstGuess GuessThermal(const LogSamples& measurements, const Selection& selecti
   const TorqueEnvelope description = Describe(envelope, cold, settled);
   const double time_constant = description.time_to_63 * (1 - gain * speed);
   if (!(time_constant > 0)) {
-    return {{},
-            "friction grows with its own losses faster than it settles; give start_gain and "
-            "start_time_constant"};
+    return {{}, kHeatsItself};
   }
   return {Thermal{gain, time_constant}, "", description};
 }

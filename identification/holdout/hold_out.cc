@@ -1,6 +1,5 @@
 #include "identification/holdout/hold_out.h"
 
-#include <fmt/format.h>
 #include <warmjoint/friction_model.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/fit.h"
 #include "models/foundation/low_pass.h"
 
 namespace warmjoint {
@@ -19,8 +19,8 @@ namespace {
 
 /// Why samples that were asked for are not compared.
 std::string WhyNone(const Fit& fit, Eigen::Index asked) {
-  if (asked > 0 && fit.gravity) return "the fit knows gravity at none of the places it reaches";
-  return fit.inertia ? "no sample moves clearly" : "no sample moves at a constant speed";
+  if (asked > 0 && fit.gravity) return kKnowsNoGravityThere;
+  return fit.inertia ? kNothingMoves : kNothingHoldsASpeed;
 }
 
 /// Of the first samples of a log those that were chosen of all.
@@ -68,9 +68,8 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
 
 HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, double fraction,
                 const Fit& all_data) {
-  const std::string part = fmt::format("the first {:.3g} % of the log", 100 * (1 - fraction));
   const auto first = FitFirstPart(identifier, given, fraction, all_data);
-  if (!first) return {{}, fmt::format("{}, or the rest, hold fewer than two samples", part)};
+  if (!first) return {{}, ExplainShortParts(fraction)};
 
   // the test part alone is compared, the prediction runs from the start
   const IdentifierInput input = SelectSamples(identifier, given);
@@ -91,12 +90,11 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
   // a fit without friction predicts nothing; else the rest holds no sample to compare
   const Inference inferred = Infer(first->fit);
   if (!inferred.gives_friction) {
-    return {{}, fmt::format("a fit to {} gives no friction ({})", part, inferred.message)};
+    return {{}, ExplainNoFrictionBefore(fraction, inferred.message)};
   }
-  const std::string why = own_starts && test.keep.count() == 0
-                              ? "each recording begins with a heat of its own"
-                              : WhyNone(first->fit, test.keep.count());
-  return {{}, fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction, why)};
+  const std::string why =
+      own_starts && test.keep.count() == 0 ? kHeatOfItsOwn : WhyNone(first->fit, test.keep.count());
+  return {{}, ExplainNotHeldOut(fraction, why)};
 }
 
 HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
@@ -105,9 +103,8 @@ HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog&
   if (auto metrics = Evaluate(fit, seen.measurements, seen.selection, cold)) {
     return {std::move(metrics), ""};
   }
-  if (!GivesFriction(fit)) return {{}, "the fit gives no friction that could predict them"};
-  return {{},
-          fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()))};
+  if (!GivesFriction(fit)) return {{}, kPredictsNothing};
+  return {{}, ExplainNotPredicted(seen.measurements.source, WhyNone(fit, seen.selection.count()))};
 }
 
 std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) {

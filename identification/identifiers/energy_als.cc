@@ -10,7 +10,6 @@
 // by more than the option `tolerance`.
 // It gives no intervals: W is formed of the noisy torque, so the residual understates the errors
 // (on Table I such intervals would hold the time constant in 72 % of the runs instead of 95 %).
-#include <fmt/format.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -32,6 +31,8 @@
 #include "identification/maps/identify_maps.h"
 #include "identification/sentences/fit.h"
 #include "identification/sentences/friction.h"
+#include "identification/sentences/heat.h"
+#include "identification/sentences/maps.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -132,9 +133,7 @@ struct NominalPart {
 void AddMap(const IdentifierInput& input, NominalPart& part) {
   // a map over position would take gravity up
   if (input.options.Get<GravityOption>().gravity != FittedGravity::none) {
-    part.refusal = Refusal{Status::bad_data,
-                           "position=map cannot be had together with gravity; leave one of them "
-                           "out (basis=position takes gravity up into the map)"};
+    part.refusal = Refusal{Status::bad_data, kMapBesideGravity};
     return;
   }
   // law and map over moving samples, without any warming
@@ -253,9 +252,7 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
                                   const Eigen::VectorXd& friction) {
   if (!last.inside) {
     return Refusal{Status::not_identifiable,
-                   fmt::format("thermal_time_constant grows to {:.3g} s, the largest that these "
-                               "samples can show; record until the friction settles, or with rests",
-                               last.thermal.time_constant)};
+                   ExplainLongestTimeConstant(last.thermal.time_constant)};
   }
   // the first kept sample whose fitted friction pushes instead of braking
   for (Eigen::Index i = 0; i < friction.size(); ++i) {
@@ -272,9 +269,7 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
   const Convergence distance = Judge(states, known.covariance.diagonal().cwiseSqrt());
   const size_t iterations = states.size() - 1;
   if (distance.remaining <= tolerance) {
-    return {true, fmt::format("converged: after {} iterations, at a rate of {:.4f}, the parameters "
-                              "are within {:.2g} % of where they go",
-                              iterations, distance.rate, 100 * distance.remaining)};
+    return {true, ExplainArrived(iterations, distance.rate, distance.remaining)};
   }
   return {false, ExplainStopped(iterations, distance.rate, distance.remaining, tolerance)};
 }
@@ -345,10 +340,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), part.moving);
   const auto cofactor = JointCofactor(part, jacobian, fit.torque);
   if (!cofactor) {
-    fit.refusal = {
-        Status::not_identifiable,
-        "the motion does not distinguish warming from the nominal friction; record from cold, "
-        "with speeds that differ clearly, until the friction settles"};
+    fit.refusal = {Status::not_identifiable, kWarmingIsMixed};
     return fit;
   }
   fit.fitted = Kept(fitted, part.moving);

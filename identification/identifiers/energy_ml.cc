@@ -8,6 +8,8 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/late_torque.h"
+#include "identification/sentences/law.h"
 #include "identification/warming/fit_law.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/load.h"
@@ -25,13 +27,10 @@ Fit FitAsAsked(const IdentifierInput& input) {
   // what cannot be had together
   if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);
   if (AsksForLoad(input)) {
-    return Refused(kEnergyMl, Status::bad_data,
-                   "load is estimated with a law without maps; use position none, or load none");
+    return Refused(kEnergyMl, Status::bad_data, kLoadBesideMaps);
   }
   if (AsksForLag(input.options)) {
-    return Refused(kEnergyMl, Status::bad_data,
-                   "torque_lag is estimated with a law without maps; use position none, or "
-                   "torque_lag none");
+    return Refused(kEnergyMl, Status::bad_data, kLagBesideMaps);
   }
   return FitWithMaps(kEnergyMl, input);
 }

@@ -10,7 +10,6 @@
 // closed loop; none after a single pass, which they would not hold for. not_converged where the
 // last pass moved a parameter by more than its standard deviation; not_identifiable as energy-ml.
 // The trace holds parameters and energy at 50 moments of the last pass.
-#include <fmt/format.h>
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
@@ -240,7 +239,7 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
   fit.causes.push_back(Voids(Status::not_converged, kPassesStillMove));
 }
 
-Refusal RanAway() { return {Status::not_converged, "the filters ran away", FrictionKind::warm_up}; }
+Refusal RanAway() { return {Status::not_converged, kRanAway, FrictionKind::warm_up}; }
 
 /// Why the recording does not tell these parameters; nothing where it does. joint: the Jacobian's.
 std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const KalmanPass& last,
@@ -313,8 +312,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
                                           .fitted = fit.fitted});
   fit.errors.covariance = [known] { return known; };
   fit.summary =
-      fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}", passes.size(),
-                  fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);
+      SummaryOfFilter(passes.size(), fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);
 
   // a law that the data rule out needs no verdict on its passes
   if (Infer(fit).status == Status::ok) JudgePasses(passes, fit);
@@ -324,9 +322,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
 Fit FitOnline(const IdentifierInput& input) {
   const LogSamples& m = input.measurements;
   if (!m.further_starts.empty()) {
-    return Refused(
-        kName, Status::bad_data,
-        "kalman follows one recording; give one, or try --identifier energy-ml for several");
+    return Refused(kName, Status::bad_data, kFollowsOneRecording);
   }
   // the law's columns must be distinct before any warming is thought of
   LinearTask task = BeginLinear(input, 2);

@@ -15,10 +15,9 @@
 // what leaving out every other sample changes (Richardson). inadequate_model where friction rises
 // from rest, or turns leave twice as much as constant speeds and 2 % of the torque. The trace
 // holds the grid.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "identification/fit_data.h"
@@ -207,13 +206,8 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   const Layout at = problem.layout();
   const double stiffness = answer.known.Deviation(at.log_stiffness());
   if (!(stiffness < kImpreciseBristle)) {
-    return fmt::format(
-        "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
-        "{}; reverse slowly and over small distances, so that several samples fall between "
-        "standstill and sliding, or try --identifier stribeck",
-        stiffness < kNothingKnown ? fmt::format("know the stiffness to a factor of {:.3g} only",
-                                                std::exp(1.96 * stiffness))
-                                  : "do not determine the stiffness");
+    return stiffness < kNothingKnown ? ExplainVagueStiffness(std::exp(1.96 * stiffness))
+                                     : ExplainUnknownStiffness();
   }
 
   // the damping, where it is estimated
@@ -221,13 +215,8 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   const Eigen::VectorXd& x = answer.fit.solution.x;
   const double damping = x[at.damping()], deviation = answer.known.Deviation(at.damping());
   if (deviation < kImpreciseBristle * std::abs(damping)) return std::nullopt;
-  return fmt::format(
-      "bristle_damping cannot be estimated: it is {:.3g} with a standard error of {:.3g} {}; "
-      "reverse faster within the {:.2g} {} that the bristle bends, sampled in steps well below "
-      "bristle_damping / bristle_stiffness, or give --set damping=none where it can be neglected",
-      damping, deviation, kViscousUnit.For(m.joint),
-      problem.law->at_rest(at.law.Of(x).data()) / std::exp(x[at.log_stiffness()]),
-      kPositionUnit.For(m.joint));
+  const double bend = problem.law->at_rest(at.law.Of(x).data()) / std::exp(x[at.log_stiffness()]);
+  return ExplainUnknownDamping({.value = damping, .deviation = deviation, .bend = bend}, m.joint);
 }
 
 /// Why the level at rest and stribeck_velocity cannot be told; nothing where they can.
@@ -239,10 +228,9 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
   // the fall must stand out of its own standard error
   const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
   if (!(explained > kVisibleWarming)) {
-    return fmt::format(
-        "no Stribeck effect can be seen: {} is {:.3g} standard errors, below {:.3g}; {}",
-        problem.law->fall_words, std::sqrt(std::max(explained, 0.0)), std::sqrt(kVisibleWarming),
-        SlowSpeeds(input.measurements, SteadySamples(input, 0)));
+    return ExplainSmallFall(problem.law->fall_words, std::sqrt(std::max(explained, 0.0)),
+                            std::sqrt(kVisibleWarming),
+                            SlowSpeeds(input.measurements, SteadySamples(input, 0)));
   }
   return UnidentifiableStribeck(*problem.law, evidence, input.measurements,
                                 SteadySamples(input, 0));
@@ -312,12 +300,9 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   fit.errors.covariance = [known] { return known; };
 
   const Eigen::Index turns = fit.torque.size() - input.selection.count();
-  fit.summary =
-      fmt::format("least squares on {} samples{}", fit.torque.size(),
-                  turns > 0 ? fmt::format(", {} of them around reversals, where the residual is "
-                                          "{:.3g} {} rms; elsewhere it is {:.3g}",
-                                          turns, noise.others, m.torque_unit, noise.kept)
-                            : "");
+  std::optional<AroundReversals> around;
+  if (turns > 0) around = {turns, noise.others, noise.kept};
+  fit.summary = SummaryOfBristle({.count = fit.torque.size()}, around, m.torque_unit);
   JudgeTurns(m, noise, fit);
 }
 

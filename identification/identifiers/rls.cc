@@ -7,7 +7,6 @@
 // does not spoil it. The trace holds the parameters at 50 moments of the recording.
 // Intervals as in uncertainty.h, for the weighted samples; with a warming they hold the noise that
 // comes through the heat, too.
-#include <fmt/format.h>
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
@@ -22,6 +21,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/online/kalman_bank.h"
+#include "identification/sentences/fit.h"
 
 namespace warmjoint {
 namespace {
@@ -206,8 +206,7 @@ Fit FitOnline(const IdentifierInput& given) {
   }
   fit.count = task.count();
   fit.effective_parameters = fit.count;
-  fit.summary = fmt::format("law {} as the last {:.0f} of {} samples show it", law.name,
-                            weights.sum(), y.size());
+  fit.summary = SummaryOfForgetting(law.name, weights.sum(), y.size());
   fit.jacobian = [all = std::move(rows)] { return all; };
   return fit;
 }

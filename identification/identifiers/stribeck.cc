@@ -10,7 +10,6 @@
 // stribeck_velocity explain no more than chance does; where vs is not known to a factor of e, or
 // ks - kc not to a half of itself, which is so when slow speeds are missing. inadequate_model
 // where friction rises from rest instead of falling. The trace holds the scan, by its vs.
-#include <fmt/format.h>
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
@@ -25,6 +24,7 @@
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/falls.h"
 #include "identification/sentences/friction.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/scan_time_constant.h"
@@ -71,11 +71,8 @@ double Explained(const StribeckProblem& problem, double without, const FitPoint&
 
 /// Why they cannot be seen: one sentence.
 std::string Unseen(const IdentifierInput& input, const FallingLaw& law, double explained) {
-  return fmt::format(
-      "no Stribeck effect can be seen: {} and stribeck_velocity explain {:.3g} times the noise "
-      "variance, below {:.3g}; {}",
-      law.rest(), explained > 0 ? explained : 0.0, kVisibleWarming,
-      SlowSpeeds(input.measurements, input.selection));
+  return ExplainUnseenFall(law.rest(), explained > 0 ? explained : 0.0, kVisibleWarming,
+                           SlowSpeeds(input.measurements, input.selection));
 }
 
 /// What the law leaves without warming. (N.m)^2 or N^2
@@ -136,9 +133,9 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   fit.fitted = best.fitted;
   fit.count = static_cast<int>(best.jacobian.cols());
   fit.effective_parameters = fit.count;
-  fit.summary =
-      fmt::format("least squares on {} samples{}, exponent {:.3g} given", fit.torque.size(),
-                  input.measurements.acceleration ? kOfAnyMotion : "", problem.exponent);
+  fit.summary = SummaryOfFall(
+      {.count = fit.torque.size(), .is_any_motion = input.measurements.acceleration.has_value()},
+      problem.exponent);
 
   // how sure it is, and whether that will do
   const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return best.jacobian; }),

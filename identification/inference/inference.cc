@@ -7,6 +7,7 @@
 #include "identification/inference/apply.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
+#include "identification/sentences/fit.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
@@ -109,7 +110,7 @@ Inference ByNoise(const Fit& fit) {
   inference.known = CovarianceOf(fit);
   if (!inference.known.covariance.allFinite()) {
     inference.status = Status::bad_data;
-    inference.message = "torque or velocity is too large to square";
+    inference.message = kTooLargeToSquare;
     return inference;
   }
   inference.parameters = IntervalsOf(fit, inference);

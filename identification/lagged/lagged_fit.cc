@@ -10,6 +10,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/late_torque.h"
 
 namespace warmjoint {
 namespace {
@@ -77,11 +78,10 @@ bool AsksForLag(const Options& options) {
 std::optional<std::string> WhyNoLag(const IdentifierInput& input) {
   if (!AsksForLag(input.options)) return std::nullopt;
   if (input.measurements.acceleration) {
-    return "torque_lag is told by segments of constant speed, which a fit of any motion does not "
-           "look at; use motion constant, or torque_lag none";
+    return kLagInAnyMotion;
   }
   if (input.options.Get<LossOption>().loss == LossKind::huber) {
-    return "torque_lag is estimated by least squares; use loss squares, or torque_lag none";
+    return kLagUnderHuber;
   }
   return std::nullopt;
 }

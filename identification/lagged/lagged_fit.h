@@ -57,7 +57,4 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
 void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd& model,
             const LogSamples& measurements, Fit& fit);
 
-/// What the summary of a fit says that has one.
-inline constexpr const char* kWithLag = " with a lag of the torque";
-
 }  // namespace warmjoint

@@ -1,13 +1,12 @@
 #include "identification/linear/least_squares.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
+#include "identification/sentences/fit.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint {
@@ -91,10 +90,7 @@ Eigen::VectorXd HuberScores(const Eigen::VectorXd& residual, double threshold) {
 std::string DescribeLoss(const Eigen::VectorXd& residual, double threshold) {
   if (std::isinf(threshold)) return "";
   const double far = kFarResidual / kHuberBend * threshold;
-  return fmt::format(
-      "; {} of {} samples lie more than {:.0f} standard deviations off, and Huber's loss bounds "
-      "their pull",
-      (residual.array().abs() > far).count(), residual.size(), kFarResidual);
+  return ExplainOutliers((residual.array().abs() > far).count(), residual.size(), kFarResidual);
 }
 
 }  // namespace warmjoint

@@ -1,8 +1,5 @@
 #include "identification/linear/rigid_part.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -11,6 +8,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/gravity.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/sentences/law.h"
 
 namespace warmjoint {
 namespace {
@@ -58,12 +56,8 @@ std::optional<Refusal> SelectPairs(const IdentifierInput& input, RigidPart& fit)
   if (cells >= kFewestCells && share >= kFewestShare) return std::nullopt;
   return Refusal{
       Status::not_identifiable,
-      fmt::format(
-          "gravity paired: only {:.3g} % of the samples, over {:.2g} rad, were also passed in the "
-          "other direction; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
-          "directions, or use gravity sincos",
-          100 * share, static_cast<double>(cells) * kKnotSpacing, 100 * kFewestShare,
-          kFewestCells * kKnotSpacing)};
+      ExplainFewPairs({.share = share, .range = static_cast<double>(cells) * kKnotSpacing},
+                      {.share = kFewestShare, .range = kFewestCells * kKnotSpacing})};
 }
 
 /// Combinations of the hats that the kept samples fill, orthogonal over them and of mean square 1.
@@ -90,17 +84,13 @@ std::optional<Refusal> PrepareGravity(const IdentifierInput& input, FittedGravit
              : linear                       ? GravityKind::constant
                                             : GravityKind::paired;
   if (linear && asked == FittedGravity::sincos) {
-    return Refusal{Status::bad_data,
-                   "gravity sincos needs an angle and the joint is linear; use gravity paired"};
+    return Refusal{Status::bad_data, kSineOfLinearJoint};
   }
   if (m.position_integrated) {
-    return Refusal{
-        Status::not_identifiable,
-        "the log has no positions, and gravity depends on them; log them, or leave gravity out"};
+    return Refusal{Status::not_identifiable, kGravityWithoutPositions};
   }
   if (!m.position.allFinite()) {
-    return Refusal{Status::bad_data,
-                   "position is not finite throughout, and gravity depends on it; repair it"};
+    return Refusal{Status::bad_data, kGravityWithoutSomePosition};
   }
 
   // hats are replaced by the combinations that the kept samples fill
@@ -188,34 +178,19 @@ Refusal IndistinctColumns(const std::vector<Eigen::Index>& mixed, const LinearTa
   const RigidPart& gravity = task.gravity;
   const Eigen::Index d = task.law_count(), of_law = std::ssize(law.parameters);
   // those of law and load by their names, then gravity and inertia
-  std::vector<std::string> names;
-  bool moves_mass = false, lifts = false;
+  MixedColumns columns;
   for (const Eigen::Index i : mixed) {
-    if (i < of_law) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
-    if (i >= of_law && i < d) names.push_back(NameOf(Role::load));
-    if (i >= d + gravity.gravity_count()) moves_mass = true;
-    if (i >= d && i < d + gravity.gravity_count()) lifts = true;
+    if (i < of_law) columns.names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+    if (i >= of_law && i < d) columns.names.push_back(NameOf(Role::load));
+    if (i >= d + gravity.gravity_count()) columns.has_inertia = true;
+    if (i >= d && i < d + gravity.gravity_count()) columns.gravity = gravity.kind;
   }
   // columns of the law alone have a sentence of their own
-  if (!lifts && !moves_mass) {
-    return {Status::not_identifiable, Indistinct(names, input.measurements, input.selection)};
+  if (!columns.gravity && !columns.has_inertia) {
+    return {Status::not_identifiable,
+            Indistinct(columns.names, input.measurements, input.selection)};
   }
-
-  // what is mixed, in words
-  std::vector<std::string> parts;
-  if (!names.empty()) parts.push_back(fmt::format("{}", fmt::join(names, ", ")));
-  if (lifts) parts.push_back(fmt::format("gravity ({})", NameOf(gravity.kind)));
-  if (moves_mass) parts.emplace_back("inertia");
-
-  // and what motion would tell them apart
-  const bool turns = lifts && gravity.kind != GravityKind::constant;
-  return {
-      Status::not_identifiable,
-      fmt::format(
-          "the motion does not distinguish: {}; {}at two or more speeds in both directions{}, or "
-          "use a law that is alike in both directions, as viscous_coulomb",
-          fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
-          moves_mass ? ", with accelerations that differ" : "")};
+  return {Status::not_identifiable, ExplainMixedColumns(columns)};
 }
 
 }  // namespace warmjoint

@@ -60,9 +60,6 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
 /// [A B].
 Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// What a summary adds of samples that accelerate.
-inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inertia";
-
 /// Law, load, gravity and inertia, all linear in their parameters, on usable data.
 struct LinearTask {
   const Law& law;

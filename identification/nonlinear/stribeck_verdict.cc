@@ -1,30 +1,28 @@
 #include "identification/nonlinear/stribeck_verdict.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+#include <cstddef>
 
 #include "identification/fit_data.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/sentences/falls.h"
+#include "identification/sentences/fit.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr double kImpreciseLogVs = 0.5;  // standard deviation: 95 % within a factor of e
-constexpr double kImpreciseFall = 0.5;   // standard deviation of ks - kc over itself
+constexpr double kImpreciseLogVs = 0.5;       // standard deviation: 95 % within a factor of e
+constexpr double kImpreciseFall = 0.5;        // standard deviation of ks - kc over itself
+constexpr std::size_t kMostIterations = 100;  // why: of the solver (solve_by_ceres.h)
 
 }  // namespace
 
 std::string SlowSpeeds(const LogSamples& measurements, const Selection& selection) {
   const Eigen::ArrayXd speed = Kept(measurements.velocity, selection).col(0).array().abs();
-  const std::string_view unit = kVelocityUnit.For(measurements.joint);
   const double slowest = speed.minCoeff();
-  return fmt::format(
-      "the slowest constant speed is {:.3g} {}; hold several slower ones in both directions as "
-      "well, down to about {:.2g} {}, or use a law without these parameters",
-      slowest, unit, slowest / 10, unit);
+  return ExplainSlowSpeeds(slowest, slowest / 10, measurements.joint);
 }
 
 std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
@@ -42,14 +40,11 @@ std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const Fallin
 }
 
 Refusal NotConverged() {
-  return {Status::not_converged, "the fit has not converged after 100 iterations",
-          FrictionKind::stribeck};
+  return {Status::not_converged, ExplainUnconverged(kMostIterations), FrictionKind::stribeck};
 }
 
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection) {
-  return {Status::not_identifiable,
-          fmt::format("{} and stribeck_velocity cannot be distinguished from coulomb; {}",
-                      law.rest(), SlowSpeeds(measurements, selection))};
+  return {Status::not_identifiable, ExplainNoFall(law.rest(), SlowSpeeds(measurements, selection))};
 }
 
 StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
@@ -72,11 +67,11 @@ std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
   if (!std::isfinite(factor) || !std::isfinite(evidence.fall_deviation)) {
     return NoFall(law, measurements, selection).message;
   }
-  return fmt::format(
-      "{} and stribeck_velocity cannot be distinguished: stribeck_velocity is known to a factor of "
-      "{:.3g} only, {} to {:.3g}; {}",
-      law.rest(), factor, law.fall_words, 1.96 * evidence.fall_deviation,
-      SlowSpeeds(measurements, selection));
+  return ExplainVagueFall({.rest = law.rest(),
+                           .fall = law.fall_words,
+                           .half_width = 1.96 * evidence.fall_deviation,
+                           .velocity_factor = factor},
+                          SlowSpeeds(measurements, selection));
 }
 
 }  // namespace warmjoint

@@ -60,6 +60,20 @@ std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& 
                          : " and are estimated, too");
 }
 
+std::string ExplainLevelInNoise(double change, double noise) {
+  return fmt::format(
+      "the friction level changes by {:.3g}, within its noise of {:.3g}: no warming to guess from; "
+      "give start_gain and start_time_constant",
+      change, noise);
+}
+
+std::string ExplainUnsettledLevel(double still, double change) {
+  return fmt::format(
+      "the friction level never settles: in the last quarter it is still {:.3g} from the quarter "
+      "before, after a change of {:.3g}; record longer, or give start_gain and start_time_constant",
+      still, change);
+}
+
 std::string ExplainUnseenWarming(double lowers, double needed, std::string_view beside,
                                  std::string_view instead) {
   return fmt::format(
@@ -92,6 +106,13 @@ std::string ExplainRunawayTimeConstant(double duration) {
       fmt::format("the friction still changes at the same rate at the end of the {:.4g} s, so that "
                   "any longer tau fits as well",
                   duration));
+}
+
+std::string ExplainLongestTimeConstant(double time_constant) {
+  return fmt::format(
+      "thermal_time_constant grows to {:.3g} s, the largest that these samples can show; record "
+      "until the friction settles, or with rests",
+      time_constant);
 }
 
 }  // namespace warmjoint

@@ -31,6 +31,18 @@ std::string ExplainHeldLosses(double step, double change, Action action);
 std::string ExplainGaps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& time,
                         Action action);
 
+// of a first guess by the torque's envelope that cannot be made
+inline constexpr const char* kRestsTooSoon =
+    "the joint moves too briefly before its first long rest to guess how it warms; give start_gain "
+    "and start_time_constant";
+inline constexpr const char* kHeatsItself =
+    "friction grows with its own losses faster than it settles; give start_gain and "
+    "start_time_constant";
+/// Of a level that changes within its noise, N.m or N.
+std::string ExplainLevelInNoise(double change, double noise);
+/// Of one that is still so far, N.m or N, from that of the quarter before, after a change by so much.
+std::string ExplainUnsettledLevel(double still, double change);
+
 /// Of a log that shows no warming: by how much it lowers the squared residuals, in variances of the noise, where `needed` count. beside: what
 /// the fit has with it, "" or words that begin with a blank; instead: the identifier that fits without
 std::string ExplainUnseenWarming(double lowers, double needed, std::string_view beside,
@@ -43,5 +55,10 @@ std::string ExplainHiddenTimeConstant(double time_constant, double shortest, dou
 std::string ExplainVagueTimeConstant(double factor);
 std::string ExplainUnknownTimeConstant();
 std::string ExplainRunawayTimeConstant(double duration);
+/// Of a time constant, s, at the end of those that the samples can show, and of columns of the warming that the law has, too.
+std::string ExplainLongestTimeConstant(double time_constant);
+inline constexpr const char* kWarmingIsMixed =
+    "the motion does not distinguish warming from the nominal friction; record from cold, with "
+    "speeds that differ clearly, until the friction settles";
 
 }  // namespace warmjoint

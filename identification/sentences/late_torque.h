@@ -6,6 +6,14 @@
 
 namespace warmjoint {
 
+// why a lag is not estimated
+inline constexpr const char* kLagInAnyMotion =
+    "torque_lag is told by segments of constant speed, which a fit of any motion does not look at; "
+    "use motion constant, or torque_lag none";
+inline constexpr const char* kLagUnderHuber =
+    "torque_lag is estimated by least squares; use loss squares, or torque_lag none";
+inline constexpr const char* kLagBesideMaps =
+    "torque_lag is estimated with a law without maps; use position none, or torque_lag none";
 inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none is fitted";
 
 /// Of a torque that is late, s; below 0: early. step: of the log, s

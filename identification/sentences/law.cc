@@ -96,4 +96,28 @@ std::string ExplainRiseFromRest(const Fit& fit) {
       law, LinearLike(fit), HasLevelForEachDirection(law) ? "asymmetric" : "viscous_coulomb");
 }
 
+std::string ExplainMixedColumns(const MixedColumns& mixed) {
+  // what is mixed, in words
+  std::vector<std::string> parts;
+  if (!mixed.names.empty()) parts.push_back(fmt::format("{}", fmt::join(mixed.names, ", ")));
+  if (mixed.gravity) parts.push_back(fmt::format("gravity ({})", NameOf(*mixed.gravity)));
+  if (mixed.has_inertia) parts.emplace_back("inertia");
+
+  // and the motion that distinguishes them
+  const bool turns = mixed.gravity && mixed.gravity != GravityKind::constant;
+  return fmt::format(
+      "the motion does not distinguish: {}; {}at two or more speeds in both directions{}, or use a "
+      "law that is alike in both directions, as viscous_coulomb",
+      fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
+      mixed.has_inertia ? ", with accelerations that differ" : "");
+}
+
+std::string ExplainFewPairs(const PairedSamples& found, const PairedSamples& needed) {
+  return fmt::format(
+      "gravity paired: only {:.3g} % of the samples, over {:.2g} rad, were also passed in the "
+      "other direction; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
+      "directions, or use gravity sincos",
+      100 * found.share, found.range, 100 * needed.share, needed.range);
+}
+
 }  // namespace warmjoint

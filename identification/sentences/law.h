@@ -1,5 +1,7 @@
-// Of a law: its parameters outside of their bounds, and columns that the motion does not distinguish.
+// Of a law with gravity, inertia and load: parameters outside of their bounds, and columns that the motion does not distinguish.
 #pragma once
+
+#include <warmjoint/estimate.h>
 
 #include <array>
 #include <optional>
@@ -24,5 +26,37 @@ std::string ExplainHeld(const std::vector<Excess>& held);
 /// Of a law that does not describe the data: by one of its parameters, or since friction rises from rest.
 std::string ExplainExcess(const Excess& excess, const Fit& fit);
 std::string ExplainRiseFromRest(const Fit& fit);
+
+/// Columns that the motion does not distinguish.
+struct MixedColumns {
+  std::vector<std::string> names;      // of law and load
+  std::optional<GravityKind> gravity;  // where it is one of them
+  bool has_inertia = false;
+};
+/// Of those with gravity or inertia; what the law alone mixes says Indistinct.
+std::string ExplainMixedColumns(const MixedColumns& mixed);
+
+/// Samples at places that were passed in both directions.
+struct PairedSamples {
+  double share = 0;  // of all
+  double range = 0;  // rad
+};
+/// Of paired gravity that has too few of them.
+std::string ExplainFewPairs(const PairedSamples& found, const PairedSamples& needed);
+inline constexpr const char* kSineOfLinearJoint =
+    "gravity sincos needs an angle and the joint is linear; use gravity paired";
+inline constexpr const char* kGravityWithoutPositions =
+    "the log has no positions, and gravity depends on them; log them, or leave gravity out";
+inline constexpr const char* kGravityWithoutSomePosition =
+    "position is not finite throughout, and gravity depends on it; repair it";
+
+// of friction that grows with the load
+inline constexpr const char* kLoadIsUnknown =
+    "load estimated needs the column load, or gravity sincos or paired, which tells what the joint "
+    "carries; the log has no such column and gravity is none";
+inline constexpr const char* kLoadDoesNotRest =
+    "friction that grows with gravity does not come to rest after 40 rounds; use load none";
+inline constexpr const char* kLoadBesideMaps =
+    "load is estimated with a law without maps; use position none, or load none";
 
 }  // namespace warmjoint

@@ -1,13 +1,12 @@
 #include "identification/uncertainty/uncertainty.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <utility>
 
+#include "identification/sentences/fit.h"
 #include "identification/uncertainty/few_segments.h"
 
 namespace warmjoint {
@@ -237,20 +236,12 @@ double ExplainedVariances(double without, double with, double degrees_of_freedom
 }
 
 std::string ColourOf(const NoiseModel& noise) {
-  if (noise.order() == 0) return "";
-  return fmt::format(
-      "; noise is coloured (correlation {:.2f} between neighbours), which the intervals account "
-      "for",
-      noise.correlation);
+  return noise.order() == 0 ? "" : ExplainColour(noise.correlation);
 }
 
 std::string NoiseOf(const Uncertainty& known) {
   if (known.uneven == 0) return ColourOf(known.noise);
-  return fmt::format(
-             "; the noise is uneven (its variance changes with torque or time, {:.2g} standard "
-             "errors beyond chance), which the intervals account for",
-             known.uneven) +
-         ColourOf(known.noise);
+  return ExplainUnevenness(known.uneven) + ColourOf(known.noise);
 }
 
 }  // namespace warmjoint

@@ -20,9 +20,6 @@ namespace warmjoint {
 std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
                                        const Eigen::VectorXd& velocity);
 
-/// What a summary of a fit says of it.
-inline constexpr const char* kWhitened = ", whitened";
-
 /// Where the kept samples stand in time, in sampling intervals (the median step between neighbours
 /// that are kept): ascending from 0. Samples that preparation put in between take no place. A gap,
 /// or the start of another recording, counts a thousand intervals at most, or exactly. [n]

@@ -1,7 +1,5 @@
 #include "identification/warming/fit_law.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,6 +14,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/seen_samples.h"
+#include "identification/sentences/fit.h"
 #include "identification/sentences/friction.h"
 #include "identification/sentences/heat.h"
 #include "identification/sentences/late_torque.h"
@@ -257,16 +256,13 @@ std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
 std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& response) {
   if (!law.fit.has_heat()) {
     if (law.fit.converged) return std::nullopt;
-    return Refusal{Status::not_converged,
-                   "the weights of Huber's loss still move after 100 rounds; use loss squares"};
+    return Refusal{Status::not_converged, kWeightsStillMove};
   }
   // no warming to see, no end of the iterations, or a friction that drives the joint
   if (auto why = WhyNotIdentifiable(law)) return Refusal{Status::not_identifiable, *why};
   if (!law.fit.converged) {
-    return Refusal{
-        Status::not_converged,
-        fmt::format("the fit has not converged after {} iterations", law.fit.trace.size() - 1),
-        FrictionKind::warm_up};
+    return Refusal{Status::not_converged, ExplainUnconverged(law.fit.trace.size() - 1),
+                   FrictionKind::warm_up};
   }
   if (!response.first_driving) return std::nullopt;
   const FittedGravity gravity = law.input().options.OrDefault<GravityOption>().gravity;
@@ -307,13 +303,12 @@ ErrorModel ErrorsOf(const LawFit& law, const Eigen::VectorXd& residual) {
 
 /// What was done: a clause.
 std::string Summary(const LawFit& law) {
-  const std::string motion = law.measurements().acceleration ? kOfAnyMotion : "";
-  const std::string rows = fmt::format("{} samples{}{}{}", law.input().selection.count(), motion,
-                                       law.lag ? kWithLag : "", law.whitening ? kWhitened : "");
-  return law.fit.has_heat()
-             ? fmt::format("maximum likelihood on {}, refined in {} iterations", rows,
-                           law.fit.trace.size() - 1)
-             : fmt::format("law {} by least squares on {}", law.problem.task().law.name, rows);
+  const FittedSamples samples{.count = law.input().selection.count(),
+                              .is_any_motion = law.measurements().acceleration.has_value(),
+                              .is_lagged = law.lag != nullptr,
+                              .is_whitened = law.whitening != nullptr};
+  return law.fit.has_heat() ? SummaryOfLikelihood(samples, law.fit.trace.size() - 1)
+                            : SummaryOfLeastSquares(law.problem.task().law.name, samples);
 }
 
 /// The table of parameters in the order of x: law, heat, E(0), jumps, gravity and inertia.

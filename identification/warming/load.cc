@@ -7,6 +7,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/sentences/law.h"
 
 namespace warmjoint {
 namespace {
@@ -54,8 +55,7 @@ bool AsksForLoad(const IdentifierInput& given) {
 std::optional<std::string> WhyNoLoad(const IdentifierInput& given) {
   if (!AsksForLoad(given) || given.measurements.load) return std::nullopt;
   if (given.options.OrDefault<GravityOption>().gravity != FittedGravity::none) return std::nullopt;
-  return "load estimated needs the column load, or gravity sincos or paired, which tells what the "
-         "joint carries; the log has no such column and gravity is none";
+  return kLoadIsUnknown;
 }
 
 Fit FitUnderLoad(const IdentifierInput& given, const FitInTime& fit_under) {
@@ -75,9 +75,7 @@ Fit FitUnderLoad(const IdentifierInput& given, const FitInTime& fit_under) {
     fit = fit_under(given.On(view));
   }
   if (fit.refusal) return fit;
-  return Refused(
-      fit.identifier, Status::not_converged,
-      "friction that grows with gravity does not come to rest after 40 rounds; use load none");
+  return Refused(fit.identifier, Status::not_converged, kLoadDoesNotRest);
 }
 
 }  // namespace warmjoint
