@@ -139,7 +139,7 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
   if (!estimate.friction) {
     // nothing to follow along the log
     Fit none;
-    none.refusal = Refusal{estimate.status, "the estimate holds no friction"};
+    none.refusal = Refusal{estimate.status, kHoldsNoFriction};
     Inference told;
     told.status = estimate.status;
     estimate.diagnostics = FindLackOfFit(identifier, given, none, told, judging).diagnostics;

@@ -67,7 +67,7 @@ Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitPa
 void AddVelocity(const VelocityNoise& taken, JointKind joint, const Fit& fit,
                  std::vector<Cause>& causes) {
   const FitParameter* const viscous = SlopeOf(fit);
-  std::string slope = MapsSlope(fit) ? "slopes over speed" : "";
+  std::string slope = MapsSlope(fit) ? kSlopesOverSpeed : "";
   if (viscous) slope = viscous->name;
   causes.push_back({.source = Source::velocity_averaged,
                     .sentence = ExplainAveraging(taken, joint, slope),

@@ -1,7 +1,5 @@
 #include "identification/lack_of_fit/examine.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +14,8 @@
 #include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/sentences/findings.h"
+#include "identification/sentences/lack_of_fit.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
@@ -53,7 +53,7 @@ Open Affordable(const std::vector<Finding*>& findings, const Bins& bins, const C
     const Index more = features.columns.cols();
     if (more == 0) continue;
     if (kRowsAColumn * (columns + more) > bins.size()) {
-      finding->reason = fmt::format("{} samples or segments are too few for it", bins.size());
+      finding->reason = ExplainFewRowsOfTest(bins.size());
       continue;
     }
     columns += more;
@@ -117,16 +117,16 @@ void TestInTurn(Turn turn, const Bins& bins, const WeighedFit& begin, const Circ
 
 /// Why nothing can be examined; empty where it can.
 std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
-  if (!model) return "the fit gives no friction";
+  if (!model) return kFitGivesNoFriction;
   if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
-    return "the residual is not finite";
+    return kResidualIsNotFinite;
   }
   if (IsRounding(Kept(model->residual, model->selection).squaredNorm(),
                  Kept(model->torque, model->selection))) {
-    return "the fit is exact: the residual is the rounding of its numbers";
+    return kFitIsExact;
   }
   if (bins.size() < kFewestBins) {
-    return std::to_string(bins.size()) + " samples or segments are too few to examine";
+    return ExplainFewRows(bins.size());
   }
   return "";
 }
@@ -148,7 +148,7 @@ void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
   if (model.has_bristle) {
     for (Finding& finding : table) {
       if (finding.test->turn != first) {
-        finding.reason = "the law has a bristle, whose force follows the distance by itself";
+        finding.reason = kBristleFollowsDistance;
       }
     }
     return;
@@ -375,7 +375,7 @@ std::vector<Finding> NotMade(const std::string& reason) {
   for (const LackOfFitTest& test : LackOfFitTests()) {
     Finding& finding = table.emplace_back();
     finding.test = &test;
-    finding.reason = reason.empty() ? test.absent : reason;
+    finding.reason = reason.empty() ? test.words.absent : reason;
   }
   return table;
 }

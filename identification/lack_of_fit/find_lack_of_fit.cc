@@ -1,7 +1,5 @@
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -235,7 +233,7 @@ LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& inp
   // a fit that is not ok has nothing to examine
   if (by_noise.status != Status::ok) {
     Examination none;
-    none.findings = NotMade(fmt::format("the fit is {}", StatusName(by_noise.status)));
+    none.findings = NotMade(ExplainNotExamined(StatusName(by_noise.status)));
     return {DiagnosticsOf(none, fit, unit), {}, {}};
   }
   std::optional<FittedModel> model =

@@ -1,6 +1,5 @@
 #include "identification/lack_of_fit/remedies.h"
 
-#include <fmt/format.h>
 #include <warmjoint/friction.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/preparation/check.h"
+#include "identification/sentences/remedies.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/excerpt.h"
 #include "models/friction/laws.h"
@@ -92,7 +92,7 @@ size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
 Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option) {
   const size_t kernels = 2 * KernelsOver(advice, quantity);
   if (kernels > kMostKernels) {
-    return {"no map of this program is finer: the joint ripples in another way"};
+    return {kNoFinerMap};
   }
 
   return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
@@ -143,23 +143,19 @@ Remedy WithoutWhatWasDone(const Advice& advice, Remedy remedy) {
     return option != options.end() && option->value == setting.second;
   });
   if (!done) return remedy;
-  return {"the model has that already, and friction follows it in another way"};
+  return {kModelHasThat};
 }
 
 std::string RemedyForWarmStart(const Identifier& identifier) {
-  if (identifier.options.Find<InitialEnergyOptions>()) return "try --start estimated";
-  return "record it from cold, or learn E(0) by energy-ml with --start estimated";
+  if (identifier.options.Find<InitialEnergyOptions>()) return kEstimateStart;
+  return kRecordFromCold;
 }
 
 Remedy RemedyForWarming(const Advice& advice) {
   // no warming yet: one beside whatever else the fit holds
   if (!HasWarming(advice)) {
     if (const double duration = DurationOf(advice); duration < kShortestWarming) {
-      return {
-          fmt::format("within {:.3g} s a warming cannot be distinguished from what else changes "
-                      "(load, sensor, grease): "
-                      "record {:.0f} s or longer, from cold",
-                      duration, kShortestWarming)};
+      return {RemedyForShortLog(duration, kShortestWarming)};
     }
     const IdentifyCommand warm{"energy-ml"};
     if (HasMap(advice, MapQuantity::motor_position)) {
@@ -172,25 +168,21 @@ Remedy RemedyForWarming(const Advice& advice) {
 
   // a warming that is not enough: perhaps the start was warm
   if (TakesColdStart(advice.input.options)) {
-    return {
-        "if the joint was warm at the start, try --start estimated; else one time constant is too "
-        "few, or the surroundings change their temperature"};
+    return {kWarmStartOrOneStage};
   }
-  return {
-      "one time constant is too few, or the surroundings change their temperature; record it at a "
-      "steady ambient temperature"};
+  return {kOneStageTooFew};
 }
 
 Remedy RemedyForStart(const Advice& advice) {
-  return {"was the joint warm at the start? " + RemedyForWarmStart(advice.identifier)};
+  return {AskForWarmStart(RemedyForWarmStart(advice.identifier))};
 }
 
 Remedy RemedyForSpeed(const Advice& advice) {
   if (HasCurve(advice)) {
-    return {"the law has a curve over speed already, and the joint's is another one"};
+    return {kLawHasCurve};
   }
   if (HasMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
-    return {"the map has kernels over speed already, and friction depends on it in another way"};
+    return {kMapHasSpeed};
   }
 
   // a map over position takes kernels over speed beside it, a law gets a curve
@@ -202,7 +194,7 @@ Remedy RemedyForSpeed(const Advice& advice) {
 
 Remedy RemedyForWarmingSlope(const Advice& advice) {
   if (HasMap(advice, MapQuantity::energy)) {
-    return {"the map over energy does not follow it: record more than one warm-up"};
+    return {kRecordMoreWarmUps};
   }
   // beside a map over position, the map over energy has to follow the slope too
   return Try(advice, {advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map"});
@@ -212,14 +204,8 @@ Remedy RemedyForWarmingSlope(const Advice& advice) {
 Remedy RemedyForDirectionOfACurve(const Advice& advice) {
   const Friction& friction = advice.fit.friction;
   if (HasLevelForEachDirection(friction.law)) {
-    const std::string differ =
-        "the law has a level for each direction already: they differ in slope, or in how much more "
-        "the joint bears at rest";
     // heat is common to both
-    if (HasWarming(advice)) return {differ};
-    return {differ +
-            "; identify the samples of each direction as a recording of its own, by "
-            "--identifier stribeck"};
+    return {HasWarming(advice) ? kLawHasBothLevels : kIdentifyEachDirection};
   }
   if (friction.law != LuGre::name) {
     return Try(advice, CurveCommand(AsymmetricStribeck::name, WarmingOf(advice)));
@@ -247,21 +233,20 @@ Remedy RemedyForDirection(const Advice& advice) {
   // then whatever pushes in one direction, which paired gravity takes up
   if (!mapped && !advice.fit.gravity) {
     const IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
-    return {"something pushes in one direction, as a load or an offset of the sensor does: ",
-            command.With("gravity", "paired")};
+    return {kPushesInOneDirection, command.With("gravity", "paired")};
   }
   if (HasMap(advice, MapQuantity::velocity)) {
-    return {"the map separates the directions already, and they differ in another way"};
+    return {kMapHasDirections};
   }
 
   // else the slopes differ, which kernels over speed can follow
   return Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"),
-             "friction differs in slope between the directions: ");
+             kDiffersInSlope);
 }
 
 Remedy RemedyForLoad(const Advice& advice) {
   if (HasMap(advice, MapQuantity::load)) {
-    return {"the map over load does not follow it: friction depends on more than the load"};
+    return {kMoreThanLoad};
   }
   const bool may_grow = advice.fit.friction.maps.empty() && !advice.fit.RowOf(Role::load) &&
                         IsLinear(*FindLaw(advice.fit.friction.law));
@@ -273,37 +258,21 @@ Remedy RemedyForLoad(const Advice& advice) {
   return Try(advice, LinearCommand(like, advice.fit.friction.law).With("load", "estimated"));
 }
 
-Remedy RemedyForTemperature(const Advice&) { return {"record it at a steady temperature"}; }
+Remedy RemedyForTemperature(const Advice&) { return {kSteadyTemperature}; }
 
-Remedy RemedyForStep(const Advice&) {
-  return {
-      "something changed at that moment (load, lubrication, sensor): identify the parts before and "
-      "after it as recordings of their own"};
-}
+Remedy RemedyForStep(const Advice&) { return {kIdentifyPartsOfStep}; }
 
 Remedy RemedyForMemory(const Advice& advice) {
   const double settled = kSettledAfter * advice.finding.period;
-  return {fmt::format(
-      "hold each speed for {0:.2g} s or longer, and leave out what has not settled: --trim {1:.2g}",
-      3 * settled, settled)};
+  return {RemedyByLongHolds(3 * settled, settled)};
 }
 
-Remedy RemedyForHolds(const Advice&) {
-  return {
-      "something changes with the holds (load, settling of the drive, backlash): leave out the "
-      "beginning of each hold, or log what changes as load"};
-}
+Remedy RemedyForHolds(const Advice&) { return {kChangesWithHolds}; }
 
 Remedy RemedyForPeriod(const Advice& advice) {
   const std::vector<std::string>& others = advice.input.measurements.other_joints;
-  if (others.empty()) {
-    return {
-        "something acts on the joint in a rhythm of its own: log it as load, or record without it"};
-  }
-  return {fmt::format(
-      "something acts on the joint in a rhythm of its own, perhaps other joints of the robot ({}): "
-      "record this joint while they rest, or log their force on it as load",
-      ExcerptOfList(others))};
+  if (others.empty()) return {kOwnRhythm};
+  return {RemedyForOtherJoints(ExcerptOfList(others))};
 }
 
 Remedy RemedyForLag(const Advice& advice) {
@@ -313,19 +282,16 @@ Remedy RemedyForLag(const Advice& advice) {
   const bool asked = AsksForLag(advice.input.options);
   // holds are free of it some time constants after they began
   const double trim = RoundedUp(kSettledAfter * advice.finding.lag);
-  const std::string cut = advice.fit.inertia || !(trim > 0)
-                              ? "shift it against the velocity, or log both alike"
-                              : fmt::format("cut the ends of each speed (--trim {:g})", trim);
-  if (!can || asked || advice.fit.torque_lag) return {"is the torque filtered or late? " + cut};
+  const std::string cut = advice.fit.inertia || !(trim > 0) ? kShiftTorque : RemedyByTrim(trim);
+  if (!can || asked || advice.fit.torque_lag) return {AskForLateTorque(cut)};
   IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
   if (law.name != "viscous_coulomb") command = command.With("law", law.name);
-  return Try(advice, command.With("torque_lag", "estimated"),
-             fmt::format("is the torque filtered or late? {}, or ", cut));
+  return Try(advice, command.With("torque_lag", "estimated"), AskForLateTorqueOr(cut));
 }
 
 Remedy RemedyForFading(const Advice& advice) {
   if (HasMap(advice, MapQuantity::energy)) {
-    return {"the map over energy does not follow it: record more than one warm-up"};
+    return {kRecordMoreWarmUps};
   }
   return Try(advice, {"energy-map"});
 }
@@ -333,12 +299,12 @@ Remedy RemedyForFading(const Advice& advice) {
 Remedy RemedyForPosition(const Advice& advice) {
   const bool warm = HasWarming(advice);
   const bool alike = advice.finding.alike > 0.8;
-  const std::string how = alike ? "it acts alike in both directions, as " : "";
+  const RippleActs acts = alike ? RippleActs::alike : RippleActs::otherwise;
   if (alike && MayBeGravity(advice)) {
     const IdentifyCommand command{advice.identifier.options.Has("gravity") ? advice.fit.identifier
                                   : warm                                   ? "energy-ml"
                                                                            : "nominal-ls"};
-    return {how + "gravity does: ", command.With("gravity", "sincos")};
+    return {ExplainByGravity(acts), command.With("gravity", "sincos")};
   }
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
@@ -348,18 +314,14 @@ Remedy RemedyForPosition(const Advice& advice) {
   if (const int gear = GearOf(advice)) {
     return Try(advice,
                WithMap(advice, MapQuantity::motor_position).With("gear", std::to_string(gear)),
-               fmt::format("{}it may be the motor's, with a gear of {} (or as its data "
-                           "sheet says): ",
-                           how, gear));
+               ExplainByMotor(acts, gear));
   }
 
   // ripple that returns more often than a map has kernels for
   if (periods > most) {
-    return {how +
-            fmt::format("it returns {:.0f} times over the travel, and a map follows {} periods at "
-                        "most: record it within {:.2g} {}",
-                        periods, most, most * advice.finding.period,
-                        kPositionUnit.For(advice.input.measurements.joint))};
+    return {RemedyForFineRipple(
+        acts, {.periods = periods, .most = most, .longest = most * advice.finding.period},
+        advice.input.measurements.joint)};
   }
 
   // a finer map, or the first one
@@ -368,7 +330,7 @@ Remedy RemedyForPosition(const Advice& advice) {
   }
   const IdentifyCommand map = WithMap(advice, MapQuantity::position);
   if (!alike) return Try(advice, map);
-  return Try(advice, map.With("basis", "position"), how + "a load does that depends on position: ");
+  return Try(advice, map.With("basis", "position"), ExplainByLoad(acts));
 }
 
 Remedy RemedyForMotorAngle(const Advice& advice) {
@@ -387,7 +349,7 @@ Remedy RemedyForAngleBySpeed(const Advice& advice) {
   const size_t kernels = KernelsOver(advice, MapQuantity::velocity);
   if (kernels <= 2) return Try(advice, command);
   if (kernels > kMostSpeedKernels) {
-    return {"no map of this program is finer over speed: record fewer speeds, each for longer"};
+    return {kNoFinerMapOverSpeed};
   }
   return Try(advice, command.With("velocity_kernels", std::to_string(kernels)));
 }

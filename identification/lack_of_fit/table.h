@@ -12,6 +12,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/growing_fit.h"
 #include "identification/lack_of_fit/significance.h"
+#include "identification/sentences/findings.h"
 
 namespace warmjoint {
 
@@ -50,13 +51,10 @@ enum class Harm { of_moves, of_effect, of_effect_twice, of_direction, of_either,
 /// Over what residuals show what a test looks for.
 enum class SeenOver { time, position, velocity, energy, motor_angle };
 
-/// Why a test is not made whose features the fit takes up whole.
-inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
-
 /// One row of the table.
 struct LackOfFitTest {
-  std::string_view name;    // in estimate.json
-  std::string_view absent;  // why it is not made where there are no features
+  std::string_view name;  // in estimate.json
+  TestWords words;
   Turn turn = Turn::first;
   HeatRelation warming = HeatRelation::independent;
   Harm harm = Harm::of_moves;
@@ -69,8 +67,6 @@ struct LackOfFitTest {
   std::string (*quantity)(const Finding& finding, const LogSamples& measurements) = nullptr;
   /// The law, identifier or recording that helps; names only what is there.
   Remedy (*remedy)(const Advice& advice) = nullptr;
-  // for those who never saw warmjoint: what it asks of the residual, and what helps where the answer is yes
-  std::string_view question, advice;
   /// What a test that looks at samples (lag.h, ripple.h) finds; nothing where it is not made.
   /// residual: [N] tau - F; what is found is taken off it.
   std::optional<Finding> (*at_samples)(const LackOfFitTest& test, const FittedModel& model,

@@ -38,7 +38,9 @@ std::string NameOfFriction(const FrictionAtSpeed& at);
 std::string ExplainUnknownFriction(const std::vector<FrictionAtSpeed>& all);
 std::string ExplainLeftOutSpeeds(const std::vector<FrictionAtSpeed>& left_out);
 
-/// Of an estimate of others whose own law fits its log better. moved: the parameter that is farthest off
+// of an estimate of others
+inline constexpr const char* kHoldsNoFriction = "the estimate holds no friction";
+/// Of one whose own law fits its log better. moved: the parameter that is farthest off
 std::string ExplainOwnLaw(const MovedParameter& moved);
 
 }  // namespace warmjoint

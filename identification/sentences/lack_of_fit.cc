@@ -5,6 +5,18 @@
 
 namespace warmjoint {
 
+std::string ExplainFewRows(Eigen::Index rows) {
+  return fmt::format("{} samples or segments are too few to examine", rows);
+}
+
+std::string ExplainNotExamined(std::string_view status) {
+  return fmt::format("the fit is {}", status);
+}
+
+std::string ExplainFewRowsOfTest(Eigen::Index rows) {
+  return fmt::format("{} samples or segments are too few for it", rows);
+}
+
 std::string ExplainFindings(const std::vector<FoundPart>& found, const std::string& unit,
                             std::string_view effect, std::string_view remedy) {
   std::vector<std::string> words;

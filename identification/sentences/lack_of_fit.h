@@ -1,6 +1,7 @@
 // Of what the tests for lack of fit found in the residual, and what that does to the answer.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,21 @@
 #include "identification/sentences/moved_parameter.h"
 
 namespace warmjoint {
+
+// why nothing can be examined
+inline constexpr const char* kFitGivesNoFriction = "the fit gives no friction";
+inline constexpr const char* kResidualIsNotFinite = "the residual is not finite";
+inline constexpr const char* kFitIsExact =
+    "the fit is exact: the residual is the rounding of its numbers";
+/// rows: samples or segments
+std::string ExplainFewRows(Eigen::Index rows);
+/// Of a fit that is not ok. status: its name
+std::string ExplainNotExamined(std::string_view status);
+
+// why one test is not made
+inline constexpr const char* kBristleFollowsDistance =
+    "the law has a bristle, whose force follows the distance by itself";
+std::string ExplainFewRowsOfTest(Eigen::Index rows);
 
 /// What a test for lack of fit found.
 struct FoundPart {

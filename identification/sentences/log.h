@@ -15,6 +15,7 @@ namespace warmjoint {
 
 /// Of faults (log_faults.h).
 std::string ExplainFaults(const std::vector<std::string>& faults);
+inline constexpr const char* kSlopesOverSpeed = "slopes over speed";  // of maps
 /// Of a velocity that was averaged over each segment, and of what that left of its noise. slope: what slopes over speed; empty: nothing.
 std::string ExplainAveraging(const VelocityNoise& taken, JointKind joint, std::string_view slope);
 std::string ExplainVelocityNoise(const VelocityNoise& taken, std::string_view slope);

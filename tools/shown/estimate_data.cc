@@ -59,8 +59,8 @@ Tree TestsOf(const Estimate& estimate, bool warms) {
                      {"effect", one.effect},
                      {"effect_unit", one.effect_unit},
                      {"p_adjusted", one.p_adjusted},
-                     {"question", row ? std::string(row->question) : one.test},
-                     {"advice", row ? std::string(row->advice)
+                     {"question", row ? std::string(row->words.question) : one.test},
+                     {"advice", row ? std::string(row->words.advice)
                                     : "The residual shows " + one.test + ": look at its pictures."},
                      {"over", cold ? "time" : kOver[static_cast<int>(over)]}});
   }
