@@ -301,7 +301,9 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
 
   const Eigen::Index turns = fit.torque.size() - input.selection.count();
   std::optional<AroundReversals> around;
-  if (turns > 0) around = {turns, noise.others, noise.kept};
+  if (turns > 0) {
+    around = AroundReversals{.samples = turns, .residual = noise.others, .elsewhere = noise.kept};
+  }
   fit.summary = SummaryOfBristle({.count = fit.torque.size()}, around, m.torque_unit);
   JudgeTurns(m, noise, fit);
 }

@@ -205,7 +205,7 @@ Remedy RemedyForDirectionOfACurve(const Advice& advice) {
   const Friction& friction = advice.fit.friction;
   if (HasLevelForEachDirection(friction.law)) {
     // heat is common to both
-    return {HasWarming(advice) ? kLawHasBothLevels : kIdentifyEachDirection};
+    return {HasWarming(advice) ? kLawHasBothLevels : RemedyForBothLevels()};
   }
   if (friction.law != LuGre::name) {
     return Try(advice, CurveCommand(AsymmetricStribeck::name, WarmingOf(advice)));

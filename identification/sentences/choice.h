@@ -20,7 +20,7 @@ std::string ExplainShortLog(double duration);
 // why one that was tried is dropped
 inline constexpr const char* kGivesNoFriction = "gives no friction";
 inline constexpr const char* kFailsWithoutBlock = "fails without one of the blocks";
-/// Of one without slope, beside another that has it.
+/// Of one without slope, where another has it.
 std::string ExplainMissingSlope(std::string_view sloped);
 /// Of one that a simpler one outdoes, and of one that leaves far more than another.
 std::string ExplainOutdone(std::string_view simpler);

@@ -31,6 +31,7 @@ struct VagueFall {
   double half_width = 0;       // of the fall's 95 % interval, N.m or N
   double velocity_factor = 0;  // to which stribeck_velocity is known
 };
+/// Of one, and the remedy.
 std::string ExplainVagueFall(const VagueFall& known, std::string_view remedy);
 
 /// Of a bristle whose stiffness the reversals do not determine, or know to a factor.
@@ -42,6 +43,7 @@ struct UnknownDamping {
   double value = 0, deviation = 0;  // N.m.s/rad or N.s/m
   double bend = 0;                  // how far the bristle bends, rad or m
 };
+/// Of one, and how to reverse.
 std::string ExplainUnknownDamping(const UnknownDamping& damping, JointKind joint);
 
 /// Of a law that misses what happens at turns. Residuals, rms in `unit`

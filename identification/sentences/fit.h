@@ -21,12 +21,13 @@ struct FittedSamples {
 std::string NameOfSamples(const FittedSamples& samples);
 
 // what was done: a clause
+/// Of a law without heat.
 std::string SummaryOfLeastSquares(std::string_view law, const FittedSamples& samples);
-/// iterations: after the first fit
+/// Of law and heat. iterations: after the first fit
 std::string SummaryOfLikelihood(const FittedSamples& samples, std::size_t iterations);
-/// remembered: by the weights, of all samples
+/// Of a law that forgets. remembered: by the weights, of all samples
 std::string SummaryOfForgetting(std::string_view law, double remembered, Eigen::Index samples);
-/// energy: E at the end of the log, in `unit`
+/// Of a filter. energy: E at the end of the log, in `unit`
 std::string SummaryOfFilter(std::size_t passes, Eigen::Index samples, double energy,
                             std::string_view unit);
 
@@ -50,6 +51,7 @@ inline constexpr const char* kForced = "forced: all numbers are void";
 inline constexpr const char* kWeightsStillMove =
     "the weights of Huber's loss still move after 100 rounds; use loss squares";
 inline constexpr const char* kRanAway = "the filters ran away";
+/// Of iterations on law and heat, or on a law that falls.
 std::string ExplainUnconverged(std::size_t iterations);
 /// Of an alternation that arrived. remaining: share by which parameters will still change
 std::string ExplainArrived(std::size_t iterations, double rate, double remaining);
@@ -66,7 +68,8 @@ inline constexpr const char* kNothingMoves = "no sample moves clearly";
 inline constexpr const char* kNothingHoldsASpeed = "no sample moves at a constant speed";
 inline constexpr const char* kHeatOfItsOwn = "each recording begins with a heat of its own";
 inline constexpr const char* kPredictsNothing = "the fit gives no friction that could predict them";
-/// held_out: share of the log, at its end; why: a clause
+/// Of parts of the log with too few samples, of a first part without friction, and of a last one that is not compared. held_out: share
+/// of the log, at its end; why: a clause
 std::string ExplainShortParts(double held_out);
 std::string ExplainNoFrictionBefore(double held_out, std::string_view why);
 std::string ExplainNotHeldOut(double held_out, std::string_view why);

@@ -11,7 +11,7 @@
 namespace warmjoint {
 namespace {
 
-/// What may act beside the friction that a fit holds: a question.
+/// What else may act than the friction that a fit holds: a question.
 std::string_view BesideFriction(const Fit& fit) {
   return fit.gravity ? "do other joints move, or is a sign or a unit wrong?"
                      : "is there gravity (--gravity sincos), or a wrong sign or unit?";

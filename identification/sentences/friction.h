@@ -25,7 +25,7 @@ std::string ExplainWorseThanMean(double fit_share, const Fit& fit);
 /// Of one that explains little of the torque in both directions, and of one that the mean of unseen samples beats, %.
 std::string ExplainPoorFit(double fit_share, double least, const Fit& fit);
 std::string ExplainWorseHeldOut(double fit_share, const Fit& fit);
-/// Of one that leaves much beside its friction, both rms.
+/// Of one that leaves much of the torque, compared with the friction that it finds, both rms.
 std::string ExplainMuchLeft(double left, double friction, const Fit& fit);
 /// Of a torque without friction, which has that share of it, and of an inertia below 0.
 std::string ExplainNoFriction(double share);

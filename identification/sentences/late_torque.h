@@ -18,7 +18,7 @@ inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none
 
 /// Of a torque that is late, s; below 0: early. step: of the log, s
 std::string ExplainDelay(double delay, double step);
-/// Of one that the log may hold and does not tell, which intervals cover.
+/// Of one that the log may hold and does not show clearly, which intervals cover.
 std::string ExplainUntoldDelay(double delay, double step);
 /// Of one that a fit leaves out, with the share by which that changes the friction.
 std::string ExplainDelayLeftOut(double delay, double step, double harm,

@@ -52,8 +52,9 @@ inline constexpr const char* kMapBesideGravity =
 inline constexpr const char* kUnsolvableMaps =
     "the normal equations cannot be solved: torque or velocity are too large or too small to "
     "square; check their units";
+/// Of a map over a quantity that only positions show.
 std::string ExplainMapWithoutPositions(MapQuantity quantity);
-/// position, loss: the words of both options
+/// Of two options that exclude each other, by their words.
 std::string ExplainMapBesideLoss(std::string_view position, std::string_view loss);
 
 inline constexpr const char* kMapHoldsGravity =
@@ -66,7 +67,7 @@ inline constexpr const char* kMotorTurnsWithJoint =
 std::string ExplainHeldBesideMaps(const FitParameter& parameter);
 /// Of parameters, by their names, that maps can imitate.
 std::string ExplainImitated(const std::vector<std::string>& names);
-/// Of friction below 0 at a speed, beside the gravity that the fit has.
+/// Of friction below 0 at a speed. fit: with gravity or without
 std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements,
                                    const Fit& fit);
 /// Of places without data (NameHoles).

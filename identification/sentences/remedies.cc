@@ -23,6 +23,13 @@ std::string AskForWarmStart(std::string_view remedy) {
   return fmt::format("was the joint warm at the start? {}", remedy);
 }
 
+std::string RemedyForBothLevels() {
+  return fmt::format(
+      "{}; identify the samples of each direction as a recording of its own, by --identifier "
+      "stribeck",
+      kLawHasBothLevels);
+}
+
 std::string RemedyForOtherJoints(std::string_view joints) {
   return fmt::format(
       "something acts on the joint in a rhythm of its own, perhaps other joints of the robot ({}): "

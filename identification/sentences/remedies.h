@@ -31,7 +31,7 @@ inline constexpr const char* kOneStageTooFew =
 inline constexpr const char* kSteadyTemperature = "record it at a steady temperature";
 /// Of a log that lasts too short, s, for a warming.
 std::string RemedyForShortLog(double duration, double shortest);
-/// remedy: one of a start that was taken to be cold
+/// Of a start that was taken to be cold. remedy: kEstimateStart or kRecordFromCold
 std::string AskForWarmStart(std::string_view remedy);
 
 // of the speed
@@ -44,10 +44,8 @@ inline constexpr const char* kMapHasSpeed =
 inline constexpr const char* kLawHasBothLevels =
     "the law has a level for each direction already: they differ in slope, or in how much more the "
     "joint bears at rest";
-inline constexpr const char* kIdentifyEachDirection =
-    "the law has a level for each direction already: they differ in slope, or in how much more the "
-    "joint bears at rest; identify the samples of each direction as a recording of its own, by "
-    "--identifier stribeck";
+/// The same of a fit without warming, whose directions can be identified one by one.
+std::string RemedyForBothLevels();
 inline constexpr const char* kMapHasDirections =
     "the map separates the directions already, and they differ in another way";
 inline constexpr const char* kPushesInOneDirection =  // before a command
@@ -73,9 +71,9 @@ std::string RemedyByLongHolds(double hold, double trim);
 
 // of a torque that is filtered or late
 inline constexpr const char* kShiftTorque = "shift it against the velocity, or log both alike";
-/// trim: of each speed, s
+/// What to leave out at the ends of each speed, s.
 std::string RemedyByTrim(double trim);
-/// remedy: one of these two. The same, before a command that may be tried instead.
+/// Whether it is, and one of these two remedies; and the same before a command that may be tried instead.
 std::string AskForLateTorque(std::string_view remedy);
 std::string AskForLateTorqueOr(std::string_view remedy);
 
@@ -92,6 +90,7 @@ struct FineRipple {
   std::size_t most = 0;  // that a map follows
   double longest = 0;    // travel that it follows, rad or m
 };
+/// Of one: the travel to record.
 std::string RemedyForFineRipple(RippleActs acts, const FineRipple& ripple, JointKind joint);
 
 }  // namespace warmjoint
