@@ -10,7 +10,7 @@
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/significance.h"
-#include "identification/linear/least_squares.h"
+#include "identification/model/least_squares.h"
 #include "identification/report/report_fit.h"
 #include "identification/sentences/assumptions.h"
 #include "identification/sentences/friction.h"

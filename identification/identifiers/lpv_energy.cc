@@ -13,10 +13,10 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/map_model.h"
+#include "identification/model/least_squares.h"
 
 namespace warmjoint {
 namespace {

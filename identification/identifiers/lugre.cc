@@ -24,7 +24,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/linear/least_squares.h"
+#include "identification/model/normal_equations.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/nonlinear/lugre_fit.h"
 #include "identification/nonlinear/stribeck_fit.h"

@@ -17,9 +17,9 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/model/least_squares.h"
 #include "identification/online/kalman_bank.h"
 #include "identification/sentences/fit.h"
 

@@ -6,7 +6,8 @@
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/bounds.h"
-#include "identification/linear/least_squares.h"
+#include "identification/linear/huber.h"
+#include "identification/model/normal_equations.h"
 #include "identification/sentences/fit.h"
 #include "identification/uncertainty/tails.h"
 

@@ -8,8 +8,8 @@
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/model/least_squares.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
 

@@ -7,8 +7,8 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/lagged/lag_search.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/model/normal_equations.h"
 #include "identification/seen_samples.h"
 #include "identification/sentences/late_torque.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "identification/identifier.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/model/least_squares.h"
 
 namespace warmjoint {
 

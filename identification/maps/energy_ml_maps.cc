@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "identification/maps/local_rows.h"
 #include "identification/maps/map_model.h"
-#include "identification/ridge/local_rows.h"
 #include "identification/seen_samples.h"
 #include "identification/sentences/maps.h"
 #include "models/recording/measurements.h"

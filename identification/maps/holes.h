@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "identification/ridge/local_rows.h"
-
 namespace warmjoint {
 
 /// Kernels along the first axis: weight k lies at index k / stride of the line k % stride.

@@ -10,7 +10,8 @@
 
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/holes.h"
-#include "identification/ridge/local_rows.h"
+#include "identification/maps/local_rows.h"
+#include "identification/model/normal_equations.h"
 #include "identification/typical_speeds.h"
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/tails.h"

@@ -11,7 +11,9 @@
 #include <set>
 #include <vector>
 
-#include "identification/ridge/ridge.h"
+#include "identification/maps/local_rows.h"
+#include "identification/model/normal_equations.h"
+#include "identification/model/ridge.h"
 
 namespace warmjoint {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/maps/map_fit.h"
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
 

@@ -3,15 +3,15 @@
 
 #include <warmjoint/friction.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "identification/layout.h"
-#include "identification/ridge/local_rows.h"
-#include "identification/ridge/ridge.h"
+#include "identification/maps/local_rows.h"
+#include "identification/model/conditions.h"
+#include "identification/model/normal_equations.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
@@ -23,40 +23,6 @@ std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::In
 /// Those of them that have a bound, which is the law's mark. lower: [free]
 std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index free,
                                       const std::vector<double>& lower);
-
-/// Linear conditions on the unknowns: rows x = values.
-struct Conditions {
-  Eigen::MatrixXd rows;    // [k x d], independent of each other
-  Eigen::VectorXd values;  // [k]
-
-  bool operator==(const Conditions& other) const {
-    // of as many conditions, which Eigen compares
-    return values.size() == other.values.size() && rows == other.rows && values == other.values;
-  }
-};
-
-/// gram x = product under conditions, by the projection onto what they leave.
-class Conditioned {
- public:
-  /// gram: [d x d]
-  Conditioned(const Eigen::MatrixXd& gram, Conditions conditions);
-
-  /// False where there is nothing to solve.
-  bool works() const { return held_.info() == Eigen::Success; }
-  const Conditions& conditions() const { return conditions_; }
-
-  /// product: [d]; returns x, [d]
-  Eigen::VectorXd Solve(const Eigen::VectorXd& product) const;
-  /// [d x d] of rank d - k.
-  Eigen::MatrixXd Inverse() const;
-
- private:
-  Conditions conditions_;
-  double firm_;
-  Eigen::LLT<Eigen::MatrixXd> held_;
-  Eigen::MatrixXd along_;               // [d x k]
-  Eigen::LDLT<Eigen::MatrixXd> small_;  // [k x k]
-};
 
 /// A law that is linear in its parameters, and kernels with a Gaussian prior N(0, s_w^2) on their
 /// weights alone, on the n samples that a selection keeps:

@@ -131,16 +131,10 @@ void WarmMapFit::HeatInto(ThermalFit& warming) const {
 }
 
 Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) const {
-  const MatrixXd penalised = Penalised();
-  const VectorXd scale = ScaleOf(penalised);
-  const Eigen::LLT<MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
-  const Index p = penalised.cols();
-  const MatrixXd inverse =
-      scale.asDiagonal() * factors.solve(MatrixXd::Identity(p, p)) * scale.asDiagonal();
   // independent weights: with those that go together gain and time constant are off by half of what is said
   return warmjoint::CovarianceOf(
       {.rows = [&](Index first, Index last) { return rows_.Between(first, last); },
-       .cofactor = inverse,
+       .cofactor = Cofactor(Penalised()),
        .residual = residual,
        .selection = selection_,
        .fitted = rows_.torque() - residual,

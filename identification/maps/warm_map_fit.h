@@ -6,6 +6,7 @@
 #include "identification/maps/map_blocks.h"
 #include "identification/maps/map_fit.h"
 #include "identification/maps/warm_map_rows.h"
+#include "identification/model/conditions.h"
 #include "identification/model/minimise.h"
 #include "identification/uncertainty/uncertainty.h"
 

@@ -8,7 +8,6 @@
 #include "identification/identifier.h"
 #include "identification/layout.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/ridge/local_rows.h"
 
 namespace warmjoint {
 

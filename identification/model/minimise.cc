@@ -1,9 +1,10 @@
 #include "identification/model/minimise.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
 namespace {
@@ -40,27 +41,6 @@ class Damping {
  private:
   double share_ = 0, growth_ = 2;
 };
-
-/// Where the eigenvalues of a matrix scaled to a unit diagonal count as 0.
-constexpr double kNoInformation = 1e-12;  // why: the rounding of some 1e4 samples' products
-
-struct Scaled {
-  VectorXd scale;
-  MatrixXd vectors;
-  VectorXd inverse;  // of the eigenvalues; 0 where there is no information
-};
-
-Scaled Decompose(const MatrixXd& h) {
-  Scaled found;
-  found.scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(found.scale.asDiagonal() * h *
-                                                       found.scale.asDiagonal());
-  found.vectors = solver.eigenvectors();
-  const VectorXd& values = solver.eigenvalues();
-  const double least = kNoInformation * values.tail(1)[0];
-  found.inverse = (values.array() > least).select(values.cwiseMax(least).cwiseInverse(), 0.0);
-  return found;
-}
 
 /// Unknowns at a bound that the squares push farther out.
 std::vector<Index> PushedOut(const SquaresProblem& problem, const VectorXd& x,
@@ -100,18 +80,6 @@ VectorXd Within(const SquaresProblem& problem, const VectorXd& x) {
 }
 
 }  // namespace
-
-VectorXd SolveScaled(const MatrixXd& h, const VectorXd& b) {
-  const Scaled d = Decompose(h);
-  const VectorXd in = d.vectors.transpose() * d.scale.cwiseProduct(b);
-  return d.scale.cwiseProduct(d.vectors * d.inverse.cwiseProduct(in));
-}
-
-MatrixXd InverseScaled(const MatrixXd& h) {
-  const Scaled d = Decompose(h);
-  const MatrixXd root = d.scale.asDiagonal() * d.vectors * d.inverse.cwiseSqrt().asDiagonal();
-  return root * root.transpose();
-}
 
 Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
   Minimum found;

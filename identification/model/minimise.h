@@ -49,9 +49,4 @@ struct Minimum {
 /// not finite, or fall by none of what the steps promise.
 Minimum Minimise(const SquaresProblem& problem, Eigen::VectorXd x);
 
-/// x = H^-1 b of a positive semidefinite H of any scale; directions that H does not know stay 0.
-Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& b);
-/// The inverse in the same sense.
-Eigen::MatrixXd InverseScaled(const Eigen::MatrixXd& h);
-
 }  // namespace warmjoint

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/model/minimise.h"
 #include "identification/model/model.h"
 
 namespace warmjoint {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "identification/fit_data.h"
-#include "identification/linear/least_squares.h"
+#include "identification/model/least_squares.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/bristle_state.h"

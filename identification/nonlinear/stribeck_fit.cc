@@ -10,8 +10,8 @@
 
 #include "identification/fit_data.h"
 #include "identification/forward/closed_loop.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/model/least_squares.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 
 namespace warmjoint {

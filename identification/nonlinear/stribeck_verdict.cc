@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include "identification/fit_data.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/model/least_squares.h"
 #include "identification/sentences/falls.h"
 #include "identification/sentences/fit.h"
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "identification/fit_data.h"
+#include "identification/model/normal_equations.h"
 #include "identification/robot/robot_joint.h"
 #include "identification/uncertainty/tails.h"
 

@@ -10,6 +10,7 @@
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
+#include "identification/model/normal_equations.h"
 #include "identification/report/report_fit.h"
 #include "identification/robot/explain_robot.h"
 #include "identification/uncertainty/tails.h"

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "identification/fit_data.h"
+#include "identification/model/normal_equations.h"
 #include "identification/robot/find_heat.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"

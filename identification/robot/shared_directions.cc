@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "identification/fit_data.h"
-#include "identification/linear/least_squares.h"
+#include "identification/model/minimise.h"
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
 namespace {

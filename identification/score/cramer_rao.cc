@@ -6,9 +6,9 @@
 
 #include "identification/fit_data.h"
 #include "identification/forward/closed_loop.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
 namespace {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "identification/fit_data.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/model/least_squares.h"
 
 namespace warmjoint {
 namespace {

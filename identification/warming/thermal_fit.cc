@@ -9,8 +9,8 @@
 
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/row_products.h"
-#include "identification/linear/least_squares.h"
 #include "identification/model/minimise.h"
+#include "identification/model/normal_equations.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {

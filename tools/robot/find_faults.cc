@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "identification/model/normal_equations.h"
 #include "identification/model/solve.h"
 #include "sim/robot/regressor.h"
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/model/normal_equations.h"
 #include "identification/robot/report_joint.h"
 #include "identification/robot/shared_directions.h"
 #include "identification/uncertainty/tails.h"

@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "identification/ridge/ridge.h"
+#include "identification/model/normal_equations.h"
+#include "identification/model/ridge.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/evaluate_map.h"
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "identification/linear/least_squares.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
-#include "identification/linear/least_squares.h"
+#include "identification/model/normal_equations.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/tails.h"

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "identification/identifiers/identifier_list.h"
-#include "identification/linear/least_squares.h"
+#include "identification/model/normal_equations.h"
 #include "identification/preparation/select.h"
 #include "identification/score/cramer_rao.h"
 #include "models/foundation/bad_input.h"

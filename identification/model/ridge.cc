@@ -1,4 +1,4 @@
-#include "identification/ridge/ridge.h"
+#include "identification/model/ridge.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -33,53 +33,6 @@ Eigen::VectorXd SolveTridiagonal(const Eigen::VectorXd& diagonal, const Eigen::V
 }
 
 }  // namespace
-
-NormalEquations::NormalEquations(Eigen::Index d)
-    : gram(Eigen::MatrixXd::Zero(d, d)), product(Eigen::VectorXd::Zero(d)) {}
-
-void NormalEquations::Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
-  gram += A.transpose() * A;
-  product += A.transpose() * y;
-  squares += y.squaredNorm();
-  rows += A.rows();
-}
-
-NormalEquations NormalEquations::Plus(const NormalEquations& part) const {
-  NormalEquations sum = *this;
-  sum.gram += part.gram;
-  sum.product += part.product;
-  sum.squares += part.squares;
-  sum.rows += part.rows;
-  return sum;
-}
-
-NormalEquations NormalEquations::Minus(const NormalEquations& part) const {
-  NormalEquations rest = *this;
-  rest.gram -= part.gram;
-  rest.product -= part.product;
-  rest.squares -= part.squares;
-  rest.rows -= part.rows;
-  return rest;
-}
-
-double NormalEquations::Squares(const Eigen::VectorXd& x) const {
-  return squares - 2 * x.dot(product) + x.dot(gram * x);
-}
-
-NormalEquations NormalEquations::Holding(const std::vector<Eigen::Index>& held,
-                                         const Eigen::VectorXd& values) const {
-  std::vector<Eigen::Index> rest;
-  for (Eigen::Index i = 0; i < product.size(); ++i) {
-    if (std::ranges::find(held, i) == held.end()) rest.push_back(i);
-  }
-  NormalEquations reduced(static_cast<Eigen::Index>(rest.size()));
-  // what the held values explain goes off the products and the squares
-  reduced.gram = gram(rest, rest);
-  reduced.product = product(rest) - gram(rest, held) * values;
-  reduced.squares = squares - 2 * values.dot(product(held)) + values.dot(gram(held, held) * values);
-  reduced.rows = rows;
-  return reduced;
-}
 
 Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {
   // free columns that suit each kernel, and those that suit the torque

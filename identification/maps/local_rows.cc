@@ -1,4 +1,4 @@
-#include "identification/ridge/local_rows.h"
+#include "identification/maps/local_rows.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,11 +7,11 @@
 #include <numeric>
 #include <utility>
 
+#include "identification/model/normal_equations.h"
 #include "models/friction/evaluate_map.h"
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint {
-
 namespace {
 
 /// The kernels of one axis that count: neighbours, on a circle across its end.

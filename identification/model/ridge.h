@@ -5,29 +5,10 @@
 #include <Eigen/SparseCholesky>
 #include <memory>
 #include <optional>
-#include <vector>
+
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
-
-/// Normal equations of y = A x + e; sums over rows, so that those of parts add up and those of
-/// millions of samples fit into d^2 numbers.
-struct NormalEquations {
-  Eigen::MatrixXd gram;     // [d x d] A^T A
-  Eigen::VectorXd product;  // [d] A^T y
-  double squares = 0;       // y^T y
-  Eigen::Index rows = 0;
-
-  explicit NormalEquations(Eigen::Index d);
-  /// Adds rows. A: [n x d]; y: [n].
-  void Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y);
-  NormalEquations Plus(const NormalEquations& part) const;
-  NormalEquations Minus(const NormalEquations& part) const;
-  /// |y - A x|^2.
-  double Squares(const Eigen::VectorXd& x) const;
-  /// Those of y - A_held values = A_rest x: the unknowns of the columns `held`, ascending, are known.
-  NormalEquations Holding(const std::vector<Eigen::Index>& held,
-                          const Eigen::VectorXd& values) const;
-};
 
 /// x(strength) = argmin |A x - y|^2 + strength |w|^2, w the last d - free entries of x, for any
 /// number of strengths. The free columns are projected out; what is left is made tridiagonal once

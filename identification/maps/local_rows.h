@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "identification/forward/log_trajectory.h"
-#include "identification/ridge/ridge.h"
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
 

@@ -1,11 +1,11 @@
-#include "identification/ridge/ridge.h"
+#include "identification/model/ridge.h"
 
 #include <gtest/gtest.h>
 #include <warmjoint/friction.h>
 
-#include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/ridge/local_rows.h"
+#include "identification/maps/local_rows.h"
+#include "identification/model/normal_equations.h"
 #include "models/friction/evaluate_map.h"
 #include "tests/support/vectors.h"
 
