@@ -45,7 +45,7 @@ struct FitParameter {
   int displacement_power = 0;     // of rad or m in the unit, beside the torque's
   int time_power = 0;             // of s
   LawPart part = LawPart::other;  // of a row of the law
-  double moved = 0;  // of the value, by the row that holds others at a bound (HoldAtBounds)
+  double moved = 0;  // of the value, by the row that holds others at a bound (HoldActiveBounds)
 
   /// Derivative of the value by the coordinate x in which the fit works, at a value.
   double ValueByCoordinate(double at) const { return coordinate == Coordinate::logarithm ? at : 1; }

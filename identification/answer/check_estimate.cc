@@ -111,15 +111,15 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
   }
 
   // and whether noise may do it
-  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return rows; }),
-                                          .cofactor = step.cofactor,
-                                          .residual = residual - taken,
-                                          .selection = model->selection});
+  const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return rows; }),
+                                                .cofactor = step.cofactor,
+                                                .residual = residual - taken,
+                                                .selection = model->selection});
   // the parameter that is farthest off, in its standard errors
-  const Eigen::ArrayXd deviations = known.covariance.diagonal().array().sqrt();
+  const Eigen::ArrayXd deviations = uncertainty.covariance.diagonal().array().sqrt();
   Eigen::Index most = 0;
   const double z = (step.solution.array().abs() / deviations).maxCoeff(&most);
-  if (static_cast<double>(p) * PValueOfStudent(z, known.degrees_of_freedom) >= kErrorLevel) {
+  if (static_cast<double>(p) * PValueOfStudent(z, uncertainty.degrees_of_freedom) >= kErrorLevel) {
     return std::nullopt;
   }
 

@@ -41,7 +41,7 @@ Cause Floor(Source source, Status status, std::string sentence) {
 
 }  // namespace
 
-std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& known) {
+std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& inference) {
   const auto used = static_cast<double>(fit.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {
@@ -55,7 +55,7 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
     return Floor(Source::no_friction, Status::inadequate_model, ExplainNoFriction(share));
   }
   if (const auto row = fit.RowOf(Role::inertia)) {
-    const auto& interval = known.parameters[*row].interval95;
+    const auto& interval = inference.parameters[*row].interval95;
     if (interval && (*interval)[1] < 0) {
       return Floor(Source::impossible, Status::inadequate_model,
                    ExplainNegativeInertia(fit.parameters[*row], *interval));
@@ -66,7 +66,7 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   const double left = fit.residual().squaredNorm();
   const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
   const double explained = 100 * (1 - std::sqrt(left / by_mean));
-  if (left - by_mean > kWorse * known.known.noise.variance_inflation * left / used) {
+  if (left - by_mean > kWorse * inference.uncertainty.noise.variance_inflation * left / used) {
     return Floor(Source::worse_than_mean, Status::inadequate_model,
                  ExplainWorseThanMean(explained, fit));
   }

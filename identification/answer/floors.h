@@ -16,9 +16,9 @@ namespace warmjoint {
 /// - one number, the mean of the torque, follows this better beyond chance, or, where the joint moves in both directions, less than
 ///   20 % of the torque is explained (Fit);
 /// - what it leaves exceeds half of the friction, in root mean square.
-/// measurements: that were fitted; known: what noise says
+/// measurements: that were fitted; inference: what noise says
 std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& measurements,
-                                const Inference& known);
+                                const Inference& inference);
 
 /// The same by samples that a fit to others has not seen: it predicts them worse than their mean does. several_speeds: whether
 /// they move at several.

@@ -133,7 +133,7 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
     return std::make_shared<const Selection>(WithoutSettling(input.selection, time, settling));
   };
   const auto fit_to = [&](const Selection& samples) {
-    return AtBounds(identifier.fit(input.With(samples)), input.measurements);
+    return EnforceBounds(identifier.fit(input.With(samples)), input.measurements);
   };
   SettledFit settled{fit_to(input.selection)};
   Fit plain;  // to all samples
@@ -308,7 +308,7 @@ Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& i
 
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& given) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  Fit fit = AtBounds(identifier.fit(input), input.measurements);
+  Fit fit = EnforceBounds(identifier.fit(input), input.measurements);
   NameOneSpeed(input.measurements, input.selection, fit);
   Inference by_noise = ByNoise(fit);
   const std::vector<Cause> causes = OwnCauses(fit, by_noise);

@@ -29,12 +29,12 @@ VectorXd ByCoordinates(const Fit& fit, const VectorXd& derivatives) {
 }
 
 /// Quantile for the fewest degrees of freedom of the coordinates that count.
-double QuantileFor(const Uncertainty& known, const VectorXd& slopes) {
-  double fewest = known.degrees_of_freedom;
-  if (known.each_degrees_of_freedom.size() == slopes.size()) {
+double QuantileFor(const Uncertainty& uncertainty, const VectorXd& slopes) {
+  double fewest = uncertainty.degrees_of_freedom;
+  if (uncertainty.each_degrees_of_freedom.size() == slopes.size()) {
     fewest = kInfinity;
     for (Index j = 0; j < slopes.size(); ++j) {
-      if (slopes[j] != 0) fewest = std::min(fewest, known.DegreesOfFreedom(j));
+      if (slopes[j] != 0) fewest = std::min(fewest, uncertainty.DegreesOfFreedom(j));
     }
   }
   return StudentQuantile(fewest, kIntervalLevel);
@@ -72,12 +72,12 @@ std::optional<SpeedFigure> FigureOf(const Fit& fit, const Inference& inferred, c
                                     double speed, double value, VectorXd derivatives,
                                     std::optional<double> energy) {
   const VectorXd slopes = ByCoordinates(fit, derivatives);
-  const Uncertainty& known = inferred.known;
-  if (known.covariance.rows() != slopes.size()) return std::nullopt;
-  const double variance = slopes.dot(known.covariance * slopes);
+  const Uncertainty& uncertainty = inferred.uncertainty;
+  if (uncertainty.covariance.rows() != slopes.size()) return std::nullopt;
+  const double variance = slopes.dot(uncertainty.covariance * slopes);
   if (!std::isfinite(variance)) return std::nullopt;
   const double deviation = std::sqrt(std::max(variance, 0.0));
-  const double half = QuantileFor(known, slopes) * deviation;
+  const double half = QuantileFor(uncertainty, slopes) * deviation;
   return SpeedFigure{{speed,
                       value,
                       deviation,
@@ -86,7 +86,7 @@ std::optional<SpeedFigure> FigureOf(const Fit& fit, const Inference& inferred, c
                       m.torque_unit,
                       energy},
                      std::move(derivatives),
-                     NoiseParts(known, slopes, half)};
+                     NoiseParts(uncertainty, slopes, half)};
 }
 
 /// Derivatives of the resistance at a speed and under a load by the rows of law and load in the table. [P]
@@ -184,7 +184,7 @@ void NameOneSpeed(const LogSamples& m, const Selection& selection, Fit& fit) {
   std::vector<double> speeds;
   for (const SpeedGroup& group : groups) speeds.push_back(group.velocity);
   fit.causes.push_back(
-      Remark(ExplainOneSpeed(names, speeds, std::string(kVelocityUnit.For(m.joint)))));
+      Note(ExplainOneSpeed(names, speeds, std::string(kVelocityUnit.For(m.joint)))));
 }
 
 std::optional<Cause> UnknownFriction(const std::vector<SpeedFigure>& at_speeds,

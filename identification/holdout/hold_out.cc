@@ -63,7 +63,7 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   const Selection chosen = steady ? Within(all.selection, input.selection) : all.selection;
   const IdentifierInput seen = all.With(chosen);
   Fit fit = all_data.structure ? all_data.structure(seen) : identifier.fit(seen);
-  return FirstPart{split, AtBounds(std::move(fit), seen.measurements)};
+  return FirstPart{split, EnforceBounds(std::move(fit), seen.measurements)};
 }
 
 HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, double fraction,
@@ -134,7 +134,7 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
     Selection block = input.selection;
     block.keep = block.keep && !others.keep;
     const IdentifierInput rest = input.With(others);
-    const Fit fit = AtBounds(identifier.fit(rest), rest.measurements);
+    const Fit fit = EnforceBounds(identifier.fit(rest), rest.measurements);
     const auto metrics = Evaluate(fit, input.measurements, block, fit.Start());
     if (!metrics) return std::nullopt;
     errors[static_cast<Eigen::Index>(b)] = metrics->rmse * metrics->rmse;
@@ -160,7 +160,7 @@ TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logge
   if (model.gravity) {
     predicted.torque += model.gravity->Torque(m.position);
     for (Eigen::Index i = 0; i < m.size(); ++i) {
-      bool& keep = predicted.known.keep[i];
+      bool& keep = predicted.covered.keep[i];
       keep = keep && model.gravity->Covers(m.position[i]);
     }
   }
@@ -183,7 +183,7 @@ std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, 
   const Friction& friction = fit.friction;
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), measurements, std::move(test), start);
-  if (predicted.known.count() == 0) return std::nullopt;
+  if (predicted.covered.count() == 0) return std::nullopt;
 
   // all parameters that the model has, weights of kernels included
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
@@ -193,8 +193,8 @@ std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, 
   if (fit.torque_lag) ++parameters;
   if (fit.RowOf(Role::delay)) ++parameters;
   if (fit.RowOf(Role::load)) ++parameters;
-  return ComputeMetrics(Kept(measurements.torque, predicted.known),
-                        Kept(predicted.torque, predicted.known), static_cast<int>(parameters),
+  return ComputeMetrics(Kept(measurements.torque, predicted.covered),
+                        Kept(predicted.torque, predicted.covered), static_cast<int>(parameters),
                         fit.effective_parameters);
 }
 

@@ -68,7 +68,7 @@ struct TorqueModel {
 
 struct TorquePrediction {
   Eigen::VectorXd torque;  // [N] as the log would hold it, N.m or N
-  Selection known;         // of the samples asked for, those where the model knows its gravity
+  Selection covered;       // of the samples asked for, those where the model knows its gravity
   Prediction friction;
 };
 

@@ -173,7 +173,7 @@ Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInpu
   if (!lag || chosen.CanEstimateLag()) return chosen.Fitted(input);
   const Selection settled = Settled(input.measurements, input.selection, *lag);
   Fit fit = chosen.Fitted(input.With(settled));
-  fit.causes.push_back(Remark(ExplainLeftOutByLag(*lag)));
+  fit.causes.push_back(Note(ExplainLeftOutByLag(*lag)));
   return fit;
 }
 
@@ -263,7 +263,7 @@ Fit FitChosen(const IdentifierInput& input) {
   fit.identifier = kName;
   fit.summary = SummaryOfChoice(NotShown(fit, input.log), reported.reason, fit.summary);
   fit.choice = std::move(reported);
-  fit.structure = [sketch = chosen.Sketch(), late](const IdentifierInput& other) {
+  fit.structure = [sketch = chosen.PointEstimate(), late](const IdentifierInput& other) {
     return FitOnAll(sketch, late, other);
   };
   return fit;

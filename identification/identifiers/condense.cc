@@ -89,7 +89,7 @@ CondensedLog Condense(const LogView& all, Index rows) {
   view.selection.keep.resize(count);
   for (Index r = 0; r < count; ++r) view.selection.keep[r] = all.selection.keep[first[r]];
   for (Index& start : view.measurements.further_starts) start = row(start);
-  view.measurements.put_in.clear();
+  view.measurements.inserted.clear();
   // gaps are those of the samples themselves
   view.measurements.gaps = GapsOf(all.measurements.time);
   for (LogGap& gap : *view.measurements.gaps) gap.behind = row(gap.behind);

@@ -267,8 +267,8 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
 
 /// Whether the loop has arrived, and a sentence about it.
 std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
-                                     const Uncertainty& known, double tolerance) {
-  const Convergence distance = Judge(states, known.covariance.diagonal().cwiseSqrt());
+                                     const Uncertainty& uncertainty, double tolerance) {
+  const Convergence distance = Judge(states, uncertainty.covariance.diagonal().cwiseSqrt());
   const size_t iterations = states.size() - 1;
   if (distance.remaining <= tolerance) {
     return {true, ExplainArrived(iterations, distance.rate, distance.remaining)};
@@ -297,14 +297,14 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
   return cofactor;
 }
 
-/// What is known of the rows of the table, law, warming and gravity. known: of (nominal, gain, ln tau).
-Uncertainty OfTable(const NominalPart& part, Uncertainty known) {
+/// What is known of the rows of the table, law, warming and gravity. uncertainty: of (nominal, gain, ln tau).
+Uncertainty OfTable(const NominalPart& part, Uncertainty uncertainty) {
   // the fit has gravity before the warming, the table behind it
   const Layout at = part.layout();
   const Layout table = at.Reordered(&Layout::law, &Layout::heat, &Layout::rigid, &Layout::weights);
   std::vector<Eigen::Index> order = at.PlacesOf(table);
   order.resize(table.weights.begin);
-  return Picked(std::move(known), order);
+  return Picked(std::move(uncertainty), order);
 }
 
 /// Law, warming, gravity and maps of the last state: the model and its table.
@@ -350,15 +350,15 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   fit.effective_parameters = part.effective + 2;
 
   // what is known now, and how far from the end it is
-  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
-                                          .cofactor = *cofactor,
-                                          .residual = fit.residual(),
-                                          .selection = fit.used,
-                                          .fitted = fit.fitted});
-  fit.errors.covariance = [of_table = OfTable(part, known)] { return of_table; };
+  const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                                                .cofactor = *cofactor,
+                                                .residual = fit.residual(),
+                                                .selection = fit.used,
+                                                .fitted = fit.fitted});
+  fit.errors.covariance = [of_table = OfTable(part, uncertainty)] { return of_table; };
   const auto [arrived, message] =
-      Arrival(states, known, input.options.Get<EnergyAlsOptions>().tolerance);
-  if (!arrived) fit.causes.push_back(Voids(Status::not_converged, message));
+      Arrival(states, uncertainty, input.options.Get<EnergyAlsOptions>().tolerance);
+  if (!arrived) fit.causes.push_back(Invalidate(Status::not_converged, message));
   fit.summary = message;
 
   // W is formed of the noisy torque, so the residual understates the errors

@@ -176,20 +176,20 @@ KalmanPrior<D> Again(const KalmanPass& last) {
 template <int D>
 std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<Iterate>& trace) {
   KalmanPrior<D> prior = Ignorance<D>(track);
-  std::vector<KalmanPass> known;
+  std::vector<KalmanPass> made;
   for (int pass = 0; pass < passes; ++pass) {
-    known.push_back(Pass(track, prior, trace));
-    const KalmanPass& last = known.back();
+    made.push_back(Pass(track, prior, trace));
+    const KalmanPass& last = made.back();
     // a pass that went astray counts for nothing and ends them
     if (!last.mean.allFinite() || !last.covariance.allFinite()) {
-      if (pass > 0) known.pop_back();
+      if (pass > 0) made.pop_back();
       break;
     }
-    if (pass > 0 && Settled(known[pass - 1], last)) break;
+    if (pass > 0 && Settled(made[pass - 1], last)) break;
 
     prior = Again<D>(last);
   }
-  return known;
+  return made;
 }
 
 /// Passes until one moves no parameter by more than a tenth of its standard deviation, `most` at
@@ -224,19 +224,19 @@ struct KalmanOptions {
 
 /// One pass is not efficient, and what still moves has not arrived.
 void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
-  const Uncertainty known = CovarianceOf(fit);
+  const Uncertainty uncertainty = CovarianceOf(fit);
   if (passes.size() == 1) {
-    fit.summary += NoiseOf(known);
+    fit.summary += NoiseOf(uncertainty);
     fit.causes.push_back(DropsIntervals(kNoIntervalsOfOnePass));
     return;
   }
 
   // the last pass against the one before, by the standard errors
-  const Eigen::Index p = known.covariance.rows();
+  const Eigen::Index p = uncertainty.covariance.rows();
   const Eigen::VectorXd moved = passes.back().mean - passes[passes.size() - 2].mean;
-  const Eigen::ArrayXd deviation = known.covariance.diagonal().cwiseSqrt();
+  const Eigen::ArrayXd deviation = uncertainty.covariance.diagonal().cwiseSqrt();
   if ((moved.head(p).cwiseAbs().array() <= deviation).all()) return;
-  fit.causes.push_back(Voids(Status::not_converged, kPassesStillMove));
+  fit.causes.push_back(Invalidate(Status::not_converged, kPassesStillMove));
 }
 
 Refusal RanAway() { return {Status::not_converged, kRanAway, FrictionKind::warm_up}; }
@@ -305,12 +305,12 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);
   fit.refusal = WhyRefused(track, fit, last, joint, response, nominal_squares);
   if (fit.refusal) return fit;
-  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
-                                          .cofactor = joint.cofactor,
-                                          .residual = fit.residual(),
-                                          .selection = fit.used,
-                                          .fitted = fit.fitted});
-  fit.errors.covariance = [known] { return known; };
+  const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                                                .cofactor = joint.cofactor,
+                                                .residual = fit.residual(),
+                                                .selection = fit.used,
+                                                .fitted = fit.fitted});
+  fit.errors.covariance = [uncertainty] { return uncertainty; };
   fit.summary =
       SummaryOfFilter(passes.size(), fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);
 

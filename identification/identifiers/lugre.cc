@@ -42,7 +42,7 @@ struct LugreAnswer {
   LugreFit fit;
   /// Of the parameters that are not constant. Those that may be are the last, damping and inertia, so that the others
   /// have their places here.
-  Uncertainty known;
+  Uncertainty uncertainty;
 };
 
 /// Standard deviation of the residual of the kept samples and of the others, N.m or N.
@@ -138,14 +138,14 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
     if (!problem.IsConstant(i)) free.push_back(i);
   }
   const Eigen::MatrixXd jacobian = fit.jacobian(Eigen::all, free);
-  answer.known = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
-                               .cofactor = Cofactor(GramOf(jacobian)),
-                               .residual = fit.residual,
-                               .selection = problem.used});
+  answer.uncertainty = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
+                                     .cofactor = Cofactor(GramOf(jacobian)),
+                                     .residual = fit.residual,
+                                     .selection = problem.used});
   // the sampling's error beside that of the noise
   const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
 
-  answer.known.covariance += shift * shift.transpose();
+  answer.uncertainty.covariance += shift * shift.transpose();
   answer.fit = std::move(fit);
   return answer;
 }
@@ -204,7 +204,7 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<FitPoint>& scan,
 std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const LugreProblem& problem,
                                                  const LugreAnswer& answer) {
   const Layout at = problem.layout();
-  const double stiffness = answer.known.Deviation(at.log_stiffness());
+  const double stiffness = answer.uncertainty.Deviation(at.log_stiffness());
   if (!(stiffness < kImpreciseBristle)) {
     return stiffness < kNothingKnown ? ExplainVagueStiffness(std::exp(1.96 * stiffness))
                                      : ExplainUnknownStiffness();
@@ -213,7 +213,7 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   // the damping, where it is estimated
   if (problem.IsConstant(at.damping())) return std::nullopt;
   const Eigen::VectorXd& x = answer.fit.solution.x;
-  const double damping = x[at.damping()], deviation = answer.known.Deviation(at.damping());
+  const double damping = x[at.damping()], deviation = answer.uncertainty.Deviation(at.damping());
   if (deviation < kImpreciseBristle * std::abs(damping)) return std::nullopt;
   const double bend = problem.law->at_rest(at.law.Of(x).data()) / std::exp(x[at.log_stiffness()]);
   return ExplainUnknownDamping({.value = damping, .deviation = deviation, .bend = bend}, m.joint);
@@ -223,7 +223,7 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
 std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
                                            const LugreProblem& problem, const LugreAnswer& answer) {
   const StribeckEvidence evidence =
-      EvidenceOf(*problem.law, problem.layout(), answer.fit.solution.x, answer.known);
+      EvidenceOf(*problem.law, problem.layout(), answer.fit.solution.x, answer.uncertainty);
 
   // the fall must stand out of its own standard error
   const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
@@ -265,7 +265,7 @@ void JudgeTurns(const LogSamples& m, const NoiseOfGroups& noise, Fit& fit) {
   const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
   if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
   fit.causes.push_back(
-      Voids(Status::inadequate_model, ExplainTurns(noise.others, noise.kept, m.torque_unit)));
+      Invalidate(Status::inadequate_model, ExplainTurns(noise.others, noise.kept, m.torque_unit)));
 }
 
 /// Puts an answer into `fit`, or why it cannot be trusted.
@@ -290,14 +290,14 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   }
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = fit.torque - answer.fit.residual.cwiseProduct(problem.deviation);
-  fit.count =
-      static_cast<int>(answer.known.covariance.rows()) + static_cast<int>(answer.fit.loads.size());
+  fit.count = static_cast<int>(answer.uncertainty.covariance.rows()) +
+              static_cast<int>(answer.fit.loads.size());
   fit.effective_parameters = fit.count;
 
   // over its deviations, which take up what is uneven, a residual tells its colour alone
-  Uncertainty known = answer.known;
-  known.uneven = 0;
-  fit.errors.covariance = [known] { return known; };
+  Uncertainty uncertainty = answer.uncertainty;
+  uncertainty.uneven = 0;
+  fit.errors.covariance = [uncertainty] { return uncertainty; };
 
   const Eigen::Index turns = fit.torque.size() - input.selection.count();
   std::optional<AroundReversals> around;

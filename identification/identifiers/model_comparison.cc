@@ -108,7 +108,7 @@ constexpr double kHopeless = 4;         // of the mean squared error of another
 constexpr double kFewParameters = 0.1;  // of the rows
 
 Trial Try(const Structure& structure, const IdentifierInput& input) {
-  Trial trial{structure, AtBounds(structure.Quick().Fitted(input), input.measurements)};
+  Trial trial{structure, EnforceBounds(structure.Quick().Fitted(input), input.measurements)};
   trial.gives_friction = GivesFriction(trial.fit);
   // the shape that was chosen for a map stays with the structure
   if (!trial.fit.friction.maps.empty()) {

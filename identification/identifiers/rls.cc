@@ -144,13 +144,14 @@ Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
   }
 
   // the noise of all samples comes through the heat
-  Uncertainty known;
-  known.noise = FitNoise(residual, used);
-  known.covariance = cofactor *
-                     ScatterThrough(known.noise, heat.Transposed(weighted), AllOf(rows.rows())) *
-                     cofactor;
-  known.degrees_of_freedom = DegreesOfFreedomOfWeights(weights, known.noise, rows.cols());
-  return known;
+  Uncertainty uncertainty;
+  uncertainty.noise = FitNoise(residual, used);
+  uncertainty.covariance =
+      cofactor * ScatterThrough(uncertainty.noise, heat.Transposed(weighted), AllOf(rows.rows())) *
+      cofactor;
+  uncertainty.degrees_of_freedom =
+      DegreesOfFreedomOfWeights(weights, uncertainty.noise, rows.cols());
+  return uncertainty;
 }
 
 Fit FitOnline(const IdentifierInput& given) {
@@ -201,8 +202,10 @@ Fit FitOnline(const IdentifierInput& given) {
   fit.errors.cofactor = weighted.cofactor;
   fit.errors.weights = weights;
   if (heat) {
-    fit.errors.covariance = [known = ThroughHeat(*heat, rows, weights, residual, weighted.cofactor,
-                                                 input.selection)] { return known; };
+    fit.errors.covariance = [uncertainty = ThroughHeat(*heat, rows, weights, residual,
+                                                       weighted.cofactor, input.selection)] {
+      return uncertainty;
+    };
   }
   fit.count = task.count();
   fit.effective_parameters = fit.count;

@@ -86,13 +86,14 @@ double ColdSquares(const StribeckProblem& problem) {
 
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
 std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
-                                              const StribeckFit& fit, const Uncertainty& known) {
+                                              const StribeckFit& fit,
+                                              const Uncertainty& uncertainty) {
   if (problem.warming == PartFit::none) return std::nullopt;
   const Layout at = problem.layout();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
   return UnidentifiableWarming({.explained = Explained(problem, ColdSquares(problem), fit.solution),
-                                .log_deviation = known.Deviation(at.log_time_constant()),
+                                .log_deviation = uncertainty.Deviation(at.log_time_constant()),
                                 .time_constant = at.ThermalAt(fit.solution.x).time_constant,
                                 .shortest = 2 * problem.intervals.typical,
                                 .longest = 5 * total,
@@ -105,9 +106,9 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.first_driving == m.size()) return;
-  fit.causes.push_back(
-      Voids(Status::inadequate_model,
-            ExplainDriving(m.time[predicted.first_driving], RemedyForNonDissipative(without))));
+  fit.causes.push_back(Invalidate(
+      Status::inadequate_model,
+      ExplainDriving(m.time[predicted.first_driving], RemedyForNonDissipative(without))));
 }
 
 /// Puts the best fit into `fit`, or why it cannot be trusted. without: squares of the law without the Stribeck effect
@@ -139,15 +140,15 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
       problem.exponent);
 
   // how sure it is, and whether that will do
-  const Uncertainty known = CovarianceOf({.rows = RowsFrom([&] { return best.jacobian; }),
-                                          .cofactor = Cofactor(GramOf(best.jacobian)),
-                                          .residual = fit.residual(),
-                                          .selection = fit.used,
-                                          .fitted = fit.fitted});
-  fit.errors.covariance = [known] { return known; };
-  const StribeckEvidence evidence = EvidenceOf(problem.law, at, best.solution.x, known);
+  const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return best.jacobian; }),
+                                                .cofactor = Cofactor(GramOf(best.jacobian)),
+                                                .residual = fit.residual(),
+                                                .selection = fit.used,
+                                                .fitted = fit.fitted});
+  fit.errors.covariance = [uncertainty] { return uncertainty; };
+  const StribeckEvidence evidence = EvidenceOf(problem.law, at, best.solution.x, uncertainty);
   auto why = UnidentifiableStribeck(problem.law, evidence, input.measurements, input.selection);
-  if (!why) why = UnidentifiableHeat(problem, best, known);
+  if (!why) why = UnidentifiableHeat(problem, best, uncertainty);
   if (why) {
     fit.refusal = Refusal{Status::not_identifiable, *why};
     return;

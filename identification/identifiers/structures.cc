@@ -74,7 +74,7 @@ bool Structure::CanEstimateLag() const {
          identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;
 }
 
-Structure Structure::Sketch() const {
+Structure Structure::PointEstimate() const {
   const auto* given = identifier.options.Find<MapOptions>();
   if (!given) return *this;
   MapOptions made = *given;
@@ -88,7 +88,7 @@ bool Structure::CanEstimateDelay() const {
 }
 
 Structure Structure::Quick() const {
-  Structure sketch = Sketch();
+  Structure sketch = PointEstimate();
   // rows of means do not tell it
   if (CanEstimateDelay()) sketch = sketch.With(DelayOption{PartFit::none});
   if (!strength) return sketch;
@@ -193,9 +193,9 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
 
   // whether what the model leaves shows a lag at all
   const TorquePrediction predicted = PredictTorque(without, m, input.selection, start);
-  const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, predicted.known));
-  const Eigen::VectorXd torque = Kept(predicted.torque, predicted.known);
-  const Eigen::VectorXd residual = Kept(m.torque, predicted.known) - torque;
+  const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, predicted.covered));
+  const Eigen::VectorXd torque = Kept(predicted.torque, predicted.covered);
+  const Eigen::VectorXd residual = Kept(m.torque, predicted.covered) - torque;
   if (!ShowsLag(runs, torque, residual)) return std::nullopt;
 
   // then how long it is, by the structure that estimates it

@@ -55,7 +55,7 @@ struct Structure {
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
   /// The same without what only a reader wants: bands along maps.
-  Structure Sketch() const;
+  Structure PointEstimate() const;
   /// A sketch for the rows that structures are compared on.
   Structure Quick() const;
   /// Mean squared errors on blocks that it has not seen (BlockedErrors).

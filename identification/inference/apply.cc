@@ -38,21 +38,22 @@ void Move(const FigureChange& change, double& value, std::array<double, 2>* inte
 }
 
 /// Moves the value of a row of the table to where others are held at a bound: its interval stays that of noise.
-void Hold(const std::vector<Cause>& causes, std::size_t row, ParameterInterval& known) {
+void Hold(const std::vector<Cause>& causes, std::size_t row, ParameterInterval& estimated) {
   for (const Cause& cause : causes) {
     if (cause.action != Action::hold) continue;
     const auto at = std::ranges::find(cause.rows, row) - cause.rows.begin();
-    if (at < std::ssize(cause.rows)) known.value += cause.bias[at];
+    if (at < std::ssize(cause.rows)) estimated.value += cause.bias[at];
   }
 }
 
-void Apply(const FigureChange& change, ParameterInterval& known) {
+void Apply(const FigureChange& change, ParameterInterval& estimated) {
   if (!change.has_interval) {
-    known.std.reset();
-    known.interval95.reset();
+    estimated.std.reset();
+    estimated.interval95.reset();
   }
-  known.widened += change.Reach();
-  Move(change, known.value, known.interval95 ? &*known.interval95 : nullptr, known.parts);
+  estimated.widened += change.Reach();
+  Move(change, estimated.value, estimated.interval95 ? &*estimated.interval95 : nullptr,
+       estimated.parts);
 }
 
 /// What all rows leave of friction at speeds: those that depend on a number without an interval go.

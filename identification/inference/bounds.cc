@@ -18,12 +18,13 @@
 namespace warmjoint {
 namespace {
 
-std::optional<Excess> FindExcess(const FitParameter& parameter, const ParameterInterval& known) {
+std::optional<Excess> FindExcess(const FitParameter& parameter,
+                                 const ParameterInterval& estimated) {
   // a value that is no number counts as below
   const bool below = !(parameter.value >= parameter.lower);
   if (!below && parameter.value <= parameter.upper) return std::nullopt;
   const double bound = below ? parameter.lower : parameter.upper;
-  const auto& interval = known.interval95;
+  const auto& interval = estimated.interval95;
   // beyond doubt where no part of the interval is within the bound
   const bool beyond = interval && (below ? (*interval)[1] < bound : (*interval)[0] > bound);
   return Excess{parameter, interval, bound, below, beyond};
@@ -104,7 +105,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
   return cause;
 }
 
-void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit) {
+void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit) {
   // free gravity and maps have weights beside the table, which would have to follow
   const bool free = fit.gravity && fit.gravity->kind == GravityKind::paired;
   if (free || !fit.friction.maps.empty()) return;
@@ -126,7 +127,7 @@ void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit
   const std::string sentence = ExplainHeld(beyond);
 
   // the others as the covariance has them with these held
-  const Eigen::MatrixXd& covariance = by_noise.known.covariance;
+  const Eigen::MatrixXd& covariance = by_noise.uncertainty.covariance;
   const Eigen::Map<const Eigen::VectorXd> gap(gaps.data(), static_cast<Eigen::Index>(gaps.size()));
   const Eigen::VectorXd before = TorqueOf(fit, measurements);
   Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);

@@ -25,6 +25,6 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 /// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x. The model of the fit follows, so that the residual is
 /// that of what is reported, and a row (Action::hold) moves the values of the answer. A fit stays as it is where one lies beyond with its whole interval, or beside maps (RepeatedFit holds their laws) and free gravity.
 /// by_noise: of the fit, whatever its bounds; measurements: of the fit.
-void HoldAtBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit);
+void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit);
 
 }  // namespace warmjoint

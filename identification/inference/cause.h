@@ -143,12 +143,12 @@ struct Cause {
 };
 
 /// What a fit says of itself, and changes nothing.
-inline Cause Remark(std::string sentence, SentenceIn in = SentenceIn::warning) {
+inline Cause Note(std::string sentence, SentenceIn in = SentenceIn::warning) {
   return {.sentence = std::move(sentence), .sentence_in = in};
 }
 
 /// Why the numbers of a fit, which stand, mean nothing.
-inline Cause Voids(Status status, std::string sentence) {
+inline Cause Invalidate(Status status, std::string sentence) {
   return {.action = Action::refuse, .status = status, .sentence = std::move(sentence)};
 }
 

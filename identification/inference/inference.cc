@@ -35,26 +35,27 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
 ParameterInterval KnownWithin(FitParameter row, double deviation, double quantile) {
   const double held = row.value;
   row.value -= row.moved;
-  ParameterInterval known = Known(row, deviation, quantile);
-  if (!IsNominal(row.role) || (held != row.lower && held != row.upper)) return known;
-  for (double& end : *known.interval95) end = std::clamp(end, row.lower, row.upper);
-  return known;
+  ParameterInterval uncertainty = Known(row, deviation, quantile);
+  if (!IsNominal(row.role) || (held != row.lower && held != row.upper)) return uncertainty;
+  for (double& end : *uncertainty.interval95) end = std::clamp(end, row.lower, row.upper);
+  return uncertainty;
 }
 
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
 std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& inference) {
-  const Uncertainty& known = inference.known;
+  const Uncertainty& uncertainty = inference.uncertainty;
   std::vector<ParameterInterval> all;
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
     ParameterInterval one{parameter.value - parameter.moved, {}, {}, 0};
     if (parameter.estimated) {
-      const double quantile = StudentQuantile(known.DegreesOfFreedom(column), kIntervalLevel);
-      const double deviation = known.Deviation(column++);
+      const double quantile = StudentQuantile(uncertainty.DegreesOfFreedom(column), kIntervalLevel);
+      const double deviation = uncertainty.Deviation(column++);
       if (parameter.has_interval) {
         one = KnownWithin(parameter, deviation, quantile);
-        const Eigen::VectorXd own = Eigen::VectorXd::Unit(known.covariance.rows(), column - 1);
-        one.parts = NoiseParts(known, own, one.HalfWidth());
+        const Eigen::VectorXd own =
+            Eigen::VectorXd::Unit(uncertainty.covariance.rows(), column - 1);
+        one.parts = NoiseParts(uncertainty, own, one.HalfWidth());
       }
     }
     all.push_back(one);
@@ -66,29 +67,30 @@ std::string MessageOf(const Fit& fit, const Inference& inference) {
   // without intervals, the reason stands in the place of the noise
   if (DropIntervals(fit.causes)) return fit.summary;
   const std::string loss = fit.loss_bend ? DescribeLoss(fit.residual(), *fit.loss_bend) : "";
-  return fit.summary + loss + NoiseOf(inference.known);
+  return fit.summary + loss + NoiseOf(inference.uncertainty);
 }
 
 /// Of whitened rows: what colour is left of them counts, too. The degrees of freedom are those of noise of the
 /// colour that was taken off, since from the same samples that colour is known.
 Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   const ErrorModel& errors = fit.errors;
-  Uncertainty known =
+  Uncertainty uncertainty =
       CovarianceOf({.rows = RowsFrom([&] { return whitening.Of(Kept(fit.jacobian(), fit.used)); }),
                     .cofactor = errors.cofactor,
                     .residual = whitening.Of(fit.residual()).col(0),
                     .selection = fit.used,
                     .fitted = fit.fitted,
                     .prior = errors.prior});
-  known.noise = whitening.noise();
+  uncertainty.noise = whitening.noise();
   // what noise of the same variance would do, were it white
   const Eigen::MatrixXd plain = Kept(fit.jacobian(), fit.used);
-  known.white = known.noise.variance * Cofactor(plain.transpose() * plain);
+  uncertainty.white = uncertainty.noise.variance * Cofactor(plain.transpose() * plain);
   const auto samples = static_cast<double>(whitening.size());
   const auto count = static_cast<double>(fit.errors.cofactor.rows());
-  known.degrees_of_freedom = std::min(
-      known.degrees_of_freedom, std::max(samples / known.noise.variance_inflation - count, 1.0));
-  return known;
+  uncertainty.degrees_of_freedom =
+      std::min(uncertainty.degrees_of_freedom,
+               std::max(samples / uncertainty.noise.variance_inflation - count, 1.0));
+  return uncertainty;
 }
 
 }  // namespace
@@ -108,8 +110,8 @@ Inference ByNoise(const Fit& fit) {
   }
 
   // how sure the parameters are
-  inference.known = CovarianceOf(fit);
-  if (!inference.known.covariance.allFinite()) {
+  inference.uncertainty = CovarianceOf(fit);
+  if (!inference.uncertainty.covariance.allFinite()) {
     inference.status = Status::bad_data;
     inference.message = kTooLargeToSquare;
     return inference;
@@ -133,10 +135,10 @@ Inference Infer(const Fit& fit) {
   return Apply(by_noise, OwnCauses(fit, by_noise));
 }
 
-Fit AtBounds(Fit fit, const LogSamples& measurements) {
+Fit EnforceBounds(Fit fit, const LogSamples& measurements) {
   if (fit.refusal || IsRefused(fit.causes) || !LeavesBounds(fit.parameters)) return fit;
   const Inference by_noise = Apply(ByNoise(fit), fit.causes);
-  if (by_noise.status == Status::ok) HoldAtBounds(by_noise, measurements, fit);
+  if (by_noise.status == Status::ok) HoldActiveBounds(by_noise, measurements, fit);
   return fit;
 }
 
@@ -158,23 +160,24 @@ Uncertainty CovarianceOf(const Fit& fit) {
                        .prior = errors.prior});
 }
 
-std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorXd& slopes,
+std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::VectorXd& slopes,
                                   double half) {
   const auto deviation = [&](const Eigen::MatrixXd& covariance) {
     return std::sqrt(std::max(slopes.dot(covariance * slopes), 0.0));
   };
-  const double all = deviation(known.covariance);
-  const bool is_told = known.white.rows() == slopes.size() && known.white.allFinite();
+  const double all = deviation(uncertainty.covariance);
+  const bool is_told = uncertainty.white.rows() == slopes.size() && uncertainty.white.allFinite();
   if (!is_told || !(all > 0)) return {{Source::noise, half}};
 
   // each step as far as it leaves the interval, in its deviations
-  const double quantile = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
-  const bool few = known.by_samples.size() > 0;
+  const double quantile = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
+  const bool few = uncertainty.by_samples.size() > 0;
   const double before =
-      few ? StudentQuantile(known.samples_degrees_of_freedom, kIntervalLevel) : quantile;
+      few ? StudentQuantile(uncertainty.samples_degrees_of_freedom, kIntervalLevel) : quantile;
   const std::pair<Source, double> steps[] = {
-      {Source::white_noise, before * deviation(known.white)},
-      {Source::autocorrelated_noise, few ? before * deviation(known.by_samples) : quantile * all},
+      {Source::white_noise, before * deviation(uncertainty.white)},
+      {Source::autocorrelated_noise,
+       few ? before * deviation(uncertainty.by_samples) : quantile * all},
       {Source::few_segments, quantile * all}};
 
   // one that makes it narrower takes that off what was there

@@ -47,7 +47,7 @@ struct Inference {
   Status status = Status::ok;
   std::string message;
   std::vector<std::string> warnings;
-  Uncertainty known;
+  Uncertainty uncertainty;
   std::vector<ParameterInterval> parameters;  // [P] as the fit's table
   std::vector<SpeedFigure> at_speeds;         // where they are known (speed_figures.h)
   std::vector<Cause> causes;                  // by which it became what it is
@@ -73,11 +73,11 @@ Inference Infer(const Fit& fit);
 
 /// The fit with what noise puts beyond a bound set to it (bounds.h); the fit itself where there is nothing to set, or
 /// the whole interval lies beyond. measurements: of the fit.
-Fit AtBounds(Fit fit, const LogSamples& measurements);
+Fit EnforceBounds(Fit fit, const LogSamples& measurements);
 
 /// What an interval by noise is made of: what white noise makes, what its colour and unevenness add, and what few segments do.
 /// slopes: [p] of the figure by the coordinates; half: of its interval
-std::vector<WidthPart> NoiseParts(const Uncertainty& known, const Eigen::VectorXd& slopes,
+std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::VectorXd& slopes,
                                   double half);
 
 /// Covariance of x, as the fit's error model says, for noise of the colour and the unevenness that

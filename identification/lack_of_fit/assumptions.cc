@@ -36,11 +36,11 @@ void AddHeldLosses(const OverBins& over, Examination& examination) {
   // the force that held losses leave out is the last column
   const Index q = over.derivatives.cols() - 1;
   const WeighedFit without(over.bins.weight, over.derivatives.leftCols(q));
-  const VectorXd bias = without.MovesBy(over.derivatives.rightCols(1));
+  const VectorXd bias = without.BiasBy(over.derivatives.rightCols(1));
 
   // the share of that force in the residual
   const MatrixXd weighted = over.fit.Weighed(over.derivatives);
-  const VectorXd residual = over.fit.Weighed(over.known.residual);
+  const VectorXd residual = over.fit.Weighed(over.circumstances.residual);
   const LeastSquares fit = SolveLeastSquares(weighted, residual);
   const Index free = over.bins.size() - q - 1;
   Action action = Action::cover;
@@ -70,28 +70,28 @@ MatrixXd Drifts(const Bins& bins) {
 
 /// cold_start, slow_drift, dead_band, offset, gaps
 void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
-  const auto& [model, m, bins, derivatives, beside, known] = over;
+  const auto& [model, m, bins, derivatives, beside, circumstances] = over;
   // starts that were not cold, all alike
-  if (known.initial.cols() > 0) {
+  if (circumstances.initial.cols() > 0) {
     const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
-    const VectorXd force = energy * known.initial.rowwise().sum();
-    examination.Add(Source::cold_start, Action::note, beside.MovesBy(force));
+    const VectorXd force = energy * circumstances.initial.rowwise().sum();
+    examination.Add(Source::cold_start, Action::note, beside.BiasBy(force));
   }
 
   // friction that drifts for another reason than its losses
-  const MatrixXd by_drifts = beside.MovesBy(kDrift * examination.friction * Drifts(bins));
+  const MatrixXd by_drifts = beside.BiasBy(kDrift * examination.friction * Drifts(bins));
   examination.Add(Source::slow_drift, Action::note, by_drifts.cwiseAbs().rowwise().maxCoeff());
 
   // a torque sensor that swallows what is small
-  const double band = known.torque.cwiseAbs().minCoeff();
+  const double band = circumstances.torque.cwiseAbs().minCoeff();
   const VectorXd swallowed = -band * bins.velocity.array().sign();
-  examination.Add(Source::dead_band, Action::note, beside.MovesBy(swallowed), band);
+  examination.Add(Source::dead_band, Action::note, beside.BiasBy(swallowed), band);
 
   // an offset, which in one direction looks like friction
   if (bins.velocity.minCoeff() > 0 || bins.velocity.maxCoeff() < 0) {
     const double offset = kOffset * examination.friction;
     examination.Add(Source::offset, Action::widen,
-                    beside.MovesBy(VectorXd::Constant(bins.size(), offset)), offset);
+                    beside.BiasBy(VectorXd::Constant(bins.size(), offset)), offset);
   }
 
   // heat that came or went in gaps of the log
@@ -100,7 +100,7 @@ void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
   const MatrixXd forces = derivatives.middleCols(p, jumps) * model.jump_spread.asDiagonal();
   const WeighedFit without_jumps(bins.weight, derivatives.leftCols(p));
   examination.Add(Source::gaps, Action::widen,
-                  without_jumps.MovesBy(forces).cwiseAbs().rowwise().sum());
+                  without_jumps.BiasBy(forces).cwiseAbs().rowwise().sum());
 }
 
 /// Values between which a factor may lie at all.
@@ -126,7 +126,7 @@ class OpenFactors {
     weighted_ = own_.colwise().squaredNorm();
     fit.TakeOff(left_);
     fit.TakeOff(own_);
-    const Index degrees_of_freedom = left_.size() - fit.apart.basis.cols() - 1;
+    const Index degrees_of_freedom = left_.size() - fit.qr.basis.cols() - 1;
     if (degrees_of_freedom < 1) return;
     white_degrees_of_freedom_ = static_cast<double>(degrees_of_freedom);
     white_quantile_ = Quantile(white_degrees_of_freedom_);
@@ -138,25 +138,25 @@ class OpenFactors {
     const auto own = own_.col(i);
     const double square = own.squaredNorm();
     const bool told = square > kTold * kTold * weighted_[i];
-    if (!fit_.AllApart() || !told) return possible;
+    if (!fit_.IsFullRank() || !told) return possible;
 
     // the force joins the fit for one step of least squares, whose other columns are a basis of the fit's
     const double factor = own.dot(left_) / square;
-    const MatrixXd& basis = fit_.apart.basis;
+    const MatrixXd& basis = fit_.qr.basis;
     const Index p = basis.cols();
     MatrixXd cofactor = MatrixXd::Identity(p + 1, p + 1);
     cofactor(p, p) = 1 / square;
-    const Uncertainty known =
+    const Uncertainty uncertainty =
         CovarianceOf({.rows = RowsFrom([&] { return ConcatColumns(basis, own); }),
                       .cofactor = cofactor,
                       .residual = left_ - factor * own,
                       .selection = AllOf(own.size())});
 
     // as far as noise reaches at that level
-    const double quantile = known.degrees_of_freedom == white_degrees_of_freedom_
+    const double quantile = uncertainty.degrees_of_freedom == white_degrees_of_freedom_
                                 ? white_quantile_
-                                : Quantile(known.degrees_of_freedom);
-    const double reach = quantile * known.Deviation(p);
+                                : Quantile(uncertainty.degrees_of_freedom);
+    const double reach = quantile * uncertainty.Deviation(p);
     const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
     return {within(factor - reach), within(factor + reach)};
   }
@@ -189,17 +189,17 @@ VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
 
 /// open_start, open_curve, open_memory, open_drift
 void AddOpen(const OverBins& over, Examination& examination) {
-  const auto& [model, m, bins, derivatives, fit, known] = over;
+  const auto& [model, m, bins, derivatives, fit, circumstances] = over;
   // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
-  const HeatingForces& heating = known.heating;
-  const VectorXd force = known.torque - known.residual;
-  const Index starts = known.initial.cols(), late = known.late_speeds.cols();
+  const HeatingForces& heating = circumstances.heating;
+  const VectorXd force = circumstances.torque - circumstances.residual;
+  const Index starts = circumstances.initial.cols(), late = circumstances.late_speeds.cols();
   const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kDrifts;
   MatrixXd forces(bins.size(), gain + 1);
-  forces << known.initial, heating.bend, Curve(m, bins), known.late_speeds, heating.drifts,
-      force.cwiseProduct(bins.time);
-  const OpenFactors open(fit, known.residual, forces);
-  const MatrixXd moves = fit.MovesBy(forces);
+  forces << circumstances.initial, heating.bend, Curve(m, bins), circumstances.late_speeds,
+      heating.drifts, force.cwiseProduct(bins.time);
+  const OpenFactors open(fit, circumstances.residual, forces);
+  const MatrixXd moves = fit.BiasBy(forces);
 
   // starts that were not cold
   if (starts > 0) {
@@ -230,7 +230,7 @@ void AddOpen(const OverBins& over, Examination& examination) {
   // and from the last, where the force of the end is taken off
   MatrixXd ends(bins.size(), 2);
   ends << heating.level, force;
-  const MatrixXd at_end = fit.MovesBy(ends);
+  const MatrixXd at_end = fit.BiasBy(ends);
   MatrixXd until_last = from_first;
   until_last.leftCols(kDrifts).colwise() -= at_end.col(0);
   until_last.col(kDrifts) -= at_end.col(1);
@@ -250,12 +250,12 @@ Eigen::VectorXd FarthestMoves(double displacement, double time, const Fit& fit,
   Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
   for (size_t i = 0; i < rows.size(); ++i) {
     const FitParameter& parameter = fit.parameters[rows[i]];
-    const ParameterInterval& known = inference.parameters[rows[i]];
+    const ParameterInterval& estimated = inference.parameters[rows[i]];
     const double factor =
         std::pow(displacement, parameter.displacement_power) * std::pow(time, parameter.time_power);
     // the end of the interval that is farther from 0 moves most
-    const double farthest = std::abs(known.value) + known.HalfWidth();
-    moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, known.value);
+    const double farthest = std::abs(estimated.value) + estimated.HalfWidth();
+    moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, estimated.value);
   }
   return moves;
 }

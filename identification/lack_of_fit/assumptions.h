@@ -16,7 +16,7 @@ struct OverBins {
   const Bins& bins;
   Eigen::MatrixXd derivatives;  // [m x (p + ...)] dF/dx; by jumps at gaps; by heat within the steps
   WeighedFit fit;               // of these
-  Circumstances known;
+  Circumstances circumstances;
 };
 
 /// Adds the rows that follow from numbers of the log alone.

@@ -67,9 +67,9 @@ ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
   const Index n = t.size();
   const double step = rate / static_cast<double>(n - 1);
   ArrayXd decay = ArrayXd::Ones(n);
-  for (Index known = 1; known < n; known *= 2) {
-    const Index more = std::min(known, n - known);
-    decay.segment(known, more) = std::exp(-step * static_cast<double>(known)) * decay.head(more);
+  for (Index done = 1; done < n; done *= 2) {
+    const Index more = std::min(done, n - done);
+    decay.segment(done, more) = std::exp(-step * static_cast<double>(done)) * decay.head(more);
   }
   return decay;
 }
@@ -162,33 +162,34 @@ constexpr double kAlikeSpeeds = 0.02;
 
 Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, const Bins& bins) {
   const Eigen::MatrixXd none(bins.size(), 0);
-  Circumstances known;
-  known.torque = bins.Means(model.torque);
-  known.residual = bins.Means(model.residual);
+  Circumstances circumstances;
+  circumstances.torque = bins.Means(model.torque);
+  circumstances.residual = bins.Means(model.residual);
   const ThermalFilter filter(m.time, m.further_starts);
-  known.energies = Energies(model, m, bins, filter);
-  known.initial = known.loads = known.temperatures = none;
+  circumstances.energies = Energies(model, m, bins, filter);
+  circumstances.initial = circumstances.loads = circumstances.temperatures = none;
 
   // forces with the heat that they make themselves, a slope that warms among them
-  known.heating = HeatingForcesOf(model, m, bins);
+  circumstances.heating = HeatingForcesOf(model, m, bins);
 
   // the start where it is taken to be known, load and temperature where they are logged
-  if (model.by_initial_energy.cols() > 0) known.initial = bins.Means(model.by_initial_energy);
-  if (m.load) known.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
+  if (model.by_initial_energy.cols() > 0)
+    circumstances.initial = bins.Means(model.by_initial_energy);
+  if (m.load) circumstances.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
   if (m.temperature) {
     // about the mean of the log: what a parameter moves by is then friction that the log knows, not that at 0 degC
     const Eigen::VectorXd temperature = bins.Means(*m.temperature);
     const double mean = bins.weight.dot(temperature) / bins.weight.sum();
-    known.temperatures = (temperature.array() - mean).matrix();
+    circumstances.temperatures = (temperature.array() - mean).matrix();
   }
 
   // friction that follows the speed late, by half a hold to an eighth of the log
-  known.duration = m.time[m.size() - 1] - m.time[0];
-  known.hold = MedianHold(model, m);
-  known.past = MemoryTimes(known.hold, known.duration);
+  circumstances.duration = m.time[m.size() - 1] - m.time[0];
+  circumstances.hold = MedianHold(model, m);
+  circumstances.past = MemoryTimes(circumstances.hold, circumstances.duration);
   const Eigen::VectorXd sign = bins.velocity.array().sign();
-  known.late_speeds = sign.asDiagonal() * LateSpeeds(m, known.past, bins, filter);
-  return known;
+  circumstances.late_speeds = sign.asDiagonal() * LateSpeeds(m, circumstances.past, bins, filter);
+  return circumstances;
 }
 
 std::optional<double> OneSpeed(const LogSamples& m) {

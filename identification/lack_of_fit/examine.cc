@@ -32,12 +32,12 @@ constexpr double kRange =
     3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
 
 /// The tests that are still open, with their features beside the present fit.
-struct Open {
+struct Candidates {
   std::vector<Finding*> findings;
   std::vector<Features> features;
 
   size_t size() const { return findings.size(); }
-  void Close(size_t i) {
+  void Remove(size_t i) {
     const auto at = static_cast<std::ptrdiff_t>(i);
     findings.erase(findings.begin() + at);
     features.erase(features.begin() + at);
@@ -45,11 +45,12 @@ struct Open {
 };
 
 /// The tests that there are rows for; the others say why not.
-Open Affordable(const std::vector<Finding*>& findings, const Bins& bins, const Circumstances& known,
-                const GrowingFit& fit, Index columns) {
-  Open open;
+Candidates WithEnoughRows(const std::vector<Finding*>& findings, const Bins& bins,
+                          const Circumstances& circumstances, const GrowingFit& fit,
+                          Index columns) {
+  Candidates candidates;
   for (Finding* const finding : findings) {
-    Features features = finding->test->features(bins, known, fit);
+    Features features = finding->test->features(bins, circumstances, fit);
     const Index more = features.columns.cols();
     if (more == 0) continue;
     if (kRowsAColumn * (columns + more) > bins.size()) {
@@ -57,24 +58,24 @@ Open Affordable(const std::vector<Finding*>& findings, const Bins& bins, const C
       continue;
     }
     columns += more;
-    open.findings.push_back(finding);
-    open.features.push_back(std::move(features));
+    candidates.findings.push_back(finding);
+    candidates.features.push_back(std::move(features));
   }
-  return open;
+  return candidates;
 }
 
 /// Enters what a test found; a test that was not made leaves its row as it is.
-void Enter(std::optional<Finding> made, Finding& row) {
+void Record(std::optional<Finding> made, Finding& row) {
   if (!made) return;
   made->test = row.test;
   row = std::move(*made);
 }
 
 /// The rows of one turn.
-std::vector<Finding*> InTurn(Turn turn, std::vector<Finding>& table) {
+std::vector<Finding*> RowsOf(Stage stage, std::vector<Finding>& table) {
   std::vector<Finding*> rows;
   for (Finding& finding : table) {
-    if (finding.test->turn == turn) rows.push_back(&finding);
+    if (finding.test->stage == stage) rows.push_back(&finding);
   }
   return rows;
 }
@@ -84,32 +85,36 @@ std::vector<Finding*> InTurn(Turn turn, std::vector<Finding>& table) {
 /// leave the last tests out: two rows in three are left to tell the noise.
 /// begin: the fit by mean dF/dx; rest: [N] what is left of tau - F, N.m or N, off which what those that reject and the
 /// parameters take up is taken.
-void TestInTurn(Turn turn, const Bins& bins, const WeighedFit& begin, const Circumstances& known,
-                Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
+void TestStage(Stage stage, const Bins& bins, const WeighedFit& begin,
+               const Circumstances& circumstances, Eigen::VectorXd& rest, ErrorLevel& level,
+               std::vector<Finding>& table) {
   GrowingFit fit(begin, bins.Means(rest), AllOf(bins.size()));
-  Open open = Affordable(InTurn(turn, table), bins, known, fit, begin.norms.size());
-  fit.LearnNoise(open.features);
+  Candidates candidates =
+      WithEnoughRows(RowsOf(stage, table), bins, circumstances, fit, begin.norms.size());
+  fit.LearnNoise(candidates.features);
 
-  while (open.size() > 0) {
+  while (candidates.size() > 0) {
     // the test that rejects with the largest gain
-    size_t best = open.size();
-    for (size_t i = 0; i < open.size(); ++i) {
-      Finding made = fit.Test(open.features[i]);
+    size_t best = candidates.size();
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      Finding made = fit.Test(candidates.features[i]);
       if (!made.made) made.reason = kHeldByTheFit;
       const bool rejects = level.WouldReject(made);
-      Enter(std::move(made), *open.findings[i]);
+      Record(std::move(made), *candidates.findings[i]);
       if (!rejects) continue;
-      if (best == open.size() || open.findings[i]->gain > open.findings[best]->gain) best = i;
+      if (best == candidates.size() ||
+          candidates.findings[i]->gain > candidates.findings[best]->gain)
+        best = i;
     }
-    if (best == open.size()) break;
+    if (best == candidates.size()) break;
 
     // joins the fit; scans look for their best candidate beside it
-    level.Rejects(*open.findings[best]);
-    fit.Take(open.features[best]);
-    open.Close(best);
-    for (size_t i = 0; i < open.size(); ++i) {
-      if (open.features[i].candidates == 1) continue;
-      open.features[i] = open.findings[i]->test->features(bins, known, fit);
+    level.Rejects(*candidates.findings[best]);
+    fit.Take(candidates.features[best]);
+    candidates.Remove(best);
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates.features[i].candidates == 1) continue;
+      candidates.features[i] = candidates.findings[i]->test->features(bins, circumstances, fit);
     }
   }
   bins.TakeOff(fit.Explained(), rest);
@@ -143,11 +148,11 @@ Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
 /// does not tell: of a law that has one nothing more can be said. rest: [N]
 void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
                 std::vector<Finding>& table) {
-  using enum Turn;
-  const auto& [model, m, bins, derivatives, fit, known] = over;
+  using enum Stage;
+  const auto& [model, m, bins, derivatives, fit, circumstances] = over;
   if (model.has_bristle) {
     for (Finding& finding : table) {
-      if (finding.test->turn != first) {
+      if (finding.test->stage != first) {
         finding.reason = kBristleFollowsDistance;
       }
     }
@@ -155,18 +160,18 @@ void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
   }
 
   // samples first: they show what is too fine for bins
-  for (const Turn turn :
+  for (const Stage stage :
        {fading, lag, motor_angle, motor_angle_by_speed, position, position_by_speed}) {
-    for (Finding* const row : InTurn(turn, table)) {
-      Enter(row->test->at_samples(*row->test, model, m, rest, level), *row);
+    for (Finding* const row : RowsOf(stage, table)) {
+      Record(row->test->at_samples(*row->test, model, m, rest, level), *row);
     }
   }
 
   // then what returns with every hold, and last what is periodic in time
   const Bins within = BinsWithinHolds(m, model.selection);
   const WeighedFit fit_within(within.weight, DerivativesOver(within, model));
-  TestInTurn(hold, within, fit_within, known, rest, level, table);
-  TestInTurn(last, bins, fit, known, rest, level, table);
+  TestStage(hold, within, fit_within, circumstances, rest, level, table);
+  TestStage(last, bins, fit, circumstances, rest, level, table);
 }
 
 /// How far changes of a fit's parameters change the friction of law and heat.
@@ -208,15 +213,15 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
   if (finding.moves.size() == 0) return effect;
   const double moved = change.By(finding.moves);
   switch (finding.test->harm) {
-    case Harm::of_moves:
+    case Impact::of_moves:
       return moved;
-    case Harm::of_either:
+    case Impact::of_either:
       return std::max(effect, moved);
-    case Harm::of_drift:
+    case Impact::of_drift:
       return change.HasHeat() ? moved : std::min(moved, kWorstTenth * effect);
-    case Harm::of_effect:
-    case Harm::of_effect_twice:
-    case Harm::of_direction:
+    case Impact::of_effect:
+    case Impact::of_effect_twice:
+    case Impact::of_direction:
       break;
   }
   return effect;
@@ -226,9 +231,9 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
 /// the effect may be in the worst tenth of the log; infinite for those that count by their moves.
 double MostChange(const Finding& finding, const FrictionChange& change,
                   const Examination& examination) {
-  const Harm harm = finding.test->harm;
-  const bool by_moves = harm == Harm::of_moves || harm == Harm::of_either ||
-                        (harm == Harm::of_drift && change.HasHeat());
+  const Impact harm = finding.test->harm;
+  const bool by_moves = harm == Impact::of_moves || harm == Impact::of_either ||
+                        (harm == Impact::of_drift && change.HasHeat());
   return by_moves ? kInfinity : kWorstTenth * examination.Rms(finding) / examination.friction;
 }
 
@@ -252,7 +257,7 @@ BoundedMoves Bounded(const Finding& finding, const FrictionChange& change,
 
 /// Sums up how what was found moves the parameters, and how far that changes the friction: the parameters by all of it, since what
 /// one takes back of another still is in both, the friction by no more than there was.
-void SumMoves(const OverBins& over, Examination& examination) {
+void SumBiases(const OverBins& over, Examination& examination) {
   if (examination.Found().empty()) return;
   const FrictionChange change(over, examination.friction);
   for (Finding& finding : examination.findings) {
@@ -301,8 +306,8 @@ void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examin
   double range = 0;
   for (const Finding& finding : examination.findings) {
     if (!finding.rejected) continue;
-    if (finding.test->turn == Turn::hold) range += kRange * examination.Rms(finding);
-    if (finding.test->harm == Harm::of_direction) range += examination.Rms(finding);
+    if (finding.test->stage == Stage::hold) range += kRange * examination.Rms(finding);
+    if (finding.test->harm == Impact::of_direction) range += examination.Rms(finding);
   }
   if (range == 0) return;
 
@@ -310,12 +315,12 @@ void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examin
   Eigen::MatrixXd means(bins.size(), 2);
   means << bins.velocity.array().sign().matrix(), Eigen::VectorXd::Ones(bins.size());
   examination.Add(Source::hidden_means, Action::widen,
-                  fit.MovesBy(range * means).cwiseAbs().rowwise().sum());
+                  fit.BiasBy(range * means).cwiseAbs().rowwise().sum());
 }
 
 /// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
 void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& examination) {
-  const auto& [model, m, bins, derivatives, fit, known] = over;
+  const auto& [model, m, bins, derivatives, fit, circumstances] = over;
   const double variance = examination.squares / examination.samples;
   if (const double step = HidingStep(m.torque, variance); step > 0) {
     // any error within half a step, at each bin the worst
@@ -326,7 +331,7 @@ void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& e
   const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
   if (rounding.size() == 0) return;
   rest -= rounding;
-  examination.Add(Source::rounding, Action::shift, fit.MovesBy(bins.Means(rounding)));
+  examination.Add(Source::rounding, Action::shift, fit.BiasBy(bins.Means(rounding)));
 }
 
 /// What sizes are measured by: the friction of law and heat, without what a map may hold of gravity.
@@ -405,11 +410,11 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   Eigen::VectorXd rest = model->residual;
   TakeOffRounding(over, rest, examination);
   std::vector<Finding>& table = examination.findings;
-  TestInTurn(Turn::first, bins, over.fit, over.known, rest, level, table);
+  TestStage(Stage::first, bins, over.fit, over.circumstances, rest, level, table);
   TestWithin(over, rest, level, table);
 
   // what all of that does to the parameters
-  SumMoves(over, examination);
+  SumBiases(over, examination);
   AddUnadjusted(over, examination);
   AddHiddenMeans(bins, over.fit, examination);
   return examination;

@@ -108,24 +108,25 @@ Features OfSpeed(const Bins& bins, const Circumstances&, const GrowingFit&) {
   return {curve};
 }
 
-Features OfEnergy(const Bins& bins, const Circumstances& known, const GrowingFit&) {
-  return {Signed(bins, known.energies)};
+Features OfEnergy(const Bins& bins, const Circumstances& circumstances, const GrowingFit&) {
+  return {Signed(bins, circumstances.energies)};
 }
 
-Features OfSpeedByEnergy(const Bins&, const Circumstances& known, const GrowingFit&) {
-  return {known.heating.slope};
+Features OfSpeedByEnergy(const Bins&, const Circumstances& circumstances, const GrowingFit&) {
+  return {circumstances.heating.slope};
 }
 
-Features OfInitialEnergy(const Bins&, const Circumstances& known, const GrowingFit&) {
-  return {known.initial};
+Features OfInitialEnergy(const Bins&, const Circumstances& circumstances, const GrowingFit&) {
+  return {circumstances.initial};
 }
 
-Features OfLoad(const Bins& bins, const Circumstances& known, const GrowingFit&) {
-  return {ConcatColumns(Signed(bins, known.loads), known.loads.leftCols(known.loads.cols() / 2))};
+Features OfLoad(const Bins& bins, const Circumstances& circumstances, const GrowingFit&) {
+  return {ConcatColumns(Signed(bins, circumstances.loads),
+                        circumstances.loads.leftCols(circumstances.loads.cols() / 2))};
 }
 
-Features OfTemperature(const Bins& bins, const Circumstances& known, const GrowingFit&) {
-  return {Signed(bins, known.temperatures)};
+Features OfTemperature(const Bins& bins, const Circumstances& circumstances, const GrowingFit&) {
+  return {Signed(bins, circumstances.temperatures)};
 }
 
 Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
@@ -139,14 +140,17 @@ Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
   return {drift};
 }
 
-Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
+Features OfSpeedMemory(const Bins& bins, const Circumstances& circumstances,
+                       const GrowingFit& fit) {
   // without a warming in the fit its heat, which follows the speed late, too, would look like that
-  if (known.past.empty() || known.heating.slope.cols() == 0) return {MatrixXd(bins.size(), 0)};
-  const MatrixXd& all = known.late_speeds;
+  if (circumstances.past.empty() || circumstances.heating.slope.cols() == 0)
+    return {MatrixXd(bins.size(), 0)};
+  const MatrixXd& all = circumstances.late_speeds;
   // the time constant that explains most beside the fit
   Index best = 0;
   fit.ExplainedBy(all).maxCoeff(&best);
-  return {all.col(best), static_cast<int>(all.cols()), known.past[static_cast<size_t>(best)]};
+  return {all.col(best), static_cast<int>(all.cols()),
+          circumstances.past[static_cast<size_t>(best)]};
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
@@ -197,15 +201,16 @@ Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) 
   return {BothDirections(bins, phase)};
 }
 
-Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
+Features OfPeriod(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit) {
   // no more cycles than the bins resolve, or than one a hold
-  const double most = std::min(static_cast<double>(bins.size()) / kBinsACycle,
-                               known.hold > 0 ? known.duration / known.hold : kInfinity);
+  const double most =
+      std::min(static_cast<double>(bins.size()) / kBinsACycle,
+               circumstances.hold > 0 ? circumstances.duration / circumstances.hold : kInfinity);
   const Index count = static_cast<Index>(most / kCyclesApart) - kFirstCycles + 1;
   if (count < 1) return {MatrixXd(bins.size(), 0)};
   const double cycles = StrongestCycles(bins, fit, count);
   return {BothDirections(bins, Waves(2 * kPi * cycles * bins.time.array())),
-          static_cast<int>(count), known.duration / cycles};
+          static_cast<int>(count), circumstances.duration / cycles};
 }
 
 }  // namespace warmjoint

@@ -95,7 +95,7 @@ std::string QuantityOf(const Finding& finding, const Examined& of) {
 
 /// How far a finding changes the friction, beside --relevance: half of that is allowed of what its effect understates.
 double Counted(const Finding& finding) {
-  return (finding.test->harm == Harm::of_effect_twice ? 2 : 1) * finding.harm;
+  return (finding.test->harm == Impact::of_effect_twice ? 2 : 1) * finding.harm;
 }
 
 /// Why what was found is too much to live with; nothing where it is not.

@@ -78,7 +78,7 @@ WeighedFit::WeighedFit(const VectorXd& samples, const MatrixXd& derivatives)
       root(weight.cwiseSqrt()),
       norms(Weighed(derivatives).colwise().norm().cwiseMax(kNoNorm)),
       columns(Normed(derivatives)),
-      apart(Orthonormal(columns, kApart)) {}
+      qr(Orthonormal(columns, kApart)) {}
 
 MatrixXd WeighedFit::Normed(const MatrixXd& some) const {
   MatrixXd weighed = Weighed(some);
@@ -89,19 +89,19 @@ MatrixXd WeighedFit::Normed(const MatrixXd& some) const {
 }
 
 MatrixXd WeighedFit::TakeOff(Eigen::Ref<MatrixXd> weighed) const {
-  const MatrixXd shared = apart.basis.transpose() * weighed;
-  weighed.noalias() -= apart.basis * shared;
+  const MatrixXd shared = qr.basis.transpose() * weighed;
+  weighed.noalias() -= qr.basis * shared;
   return shared;
 }
 
-MatrixXd WeighedFit::MovesBy(const MatrixXd& forces) const {
-  const MatrixXd mix = norms.cwiseInverse().asDiagonal() * apart.mix;
-  const MatrixXd shared = apart.basis.transpose() * Weighed(forces);
+MatrixXd WeighedFit::BiasBy(const MatrixXd& forces) const {
+  const MatrixXd mix = norms.cwiseInverse().asDiagonal() * qr.r_inverse;
+  const MatrixXd shared = qr.basis.transpose() * Weighed(forces);
   return -mix * shared;
 }
 
 VectorXd WeighedFit::MostMoves() const {
-  const MatrixXd of_rows = apart.mix * (root.asDiagonal() * apart.basis).transpose();
+  const MatrixXd of_rows = qr.r_inverse * (root.asDiagonal() * qr.basis).transpose();
   return of_rows.cwiseAbs().rowwise().sum().cwiseQuotient(norms);
 }
 
@@ -233,7 +233,7 @@ Finding GrowingFit::Test(const Features& features) const {
 
   // the parameters give way by what the features share with the fit
   const VectorXd& norms = fit_.norms;
-  const MatrixXd give = -fit_.apart.mix.topRows(norms.size()) * (shared * own.mix);
+  const MatrixXd give = -fit_.qr.r_inverse.topRows(norms.size()) * (shared * own.r_inverse);
   finding.moves = (give * b).cwiseQuotient(norms);
   finding.move_spread = norms.cwiseInverse().asDiagonal() * give * RootOf(evidence.scatter);
   return finding;
@@ -241,14 +241,14 @@ Finding GrowingFit::Test(const Features& features) const {
 
 void GrowingFit::Take(const Features& features) {
   fit_.columns = ConcatColumns(fit_.columns, fit_.Normed(features.columns));
-  fit_.apart = Orthonormal(fit_.columns, kApart);
+  fit_.qr = Orthonormal(fit_.columns, kApart);
   Refit();
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
   const MatrixXd weighed = fit_.Weighed(columns);
   const VectorXd squares = weighed.colwise().squaredNorm();
-  const VectorXd held = (fit_.apart.basis.transpose() * weighed).colwise().squaredNorm();
+  const VectorXd held = (fit_.qr.basis.transpose() * weighed).colwise().squaredNorm();
   return ExplainedBeside(squares, held, weighed.transpose() * left_);
 }
 
@@ -256,12 +256,12 @@ VectorXd GrowingFit::ExplainedBySteps(const std::vector<Index>& part, Index plac
                                       const VectorXd& height) const {
   // squares, products with what is left, and products with the basis of the rows of each part
   const VectorXd weighed = fit_.Weighed(height);
-  MatrixXd sums = MatrixXd::Zero(2 + fit_.apart.basis.cols(), places + 1);
+  MatrixXd sums = MatrixXd::Zero(2 + fit_.qr.basis.cols(), places + 1);
   for (Index i = 0; i < size(); ++i) {
     auto of_part = sums.col(part[static_cast<size_t>(i)]);
     of_part[0] += weighed[i] * weighed[i];
     of_part[1] += weighed[i] * left_[i];
-    of_part.tail(sums.rows() - 2) += weighed[i] * fit_.apart.basis.row(i).transpose();
+    of_part.tail(sums.rows() - 2) += weighed[i] * fit_.qr.basis.row(i).transpose();
   }
 
   // and of all rows behind each place

@@ -27,7 +27,7 @@ struct WeighedFit {
   Eigen::VectorXd root;     // [m] of that
   Eigen::VectorXd norms;    // [p] of the weighed derivatives
   Eigen::MatrixXd columns;  // [m x (p + ...)] weighed, of norm 1
-  Basis apart;              // of the columns
+  Basis qr;                 // of the columns
 
   /// Columns weighed. [m x q]
   Eigen::MatrixXd Weighed(const Eigen::MatrixXd& some) const { return root.asDiagonal() * some; }
@@ -39,11 +39,11 @@ struct WeighedFit {
   Eigen::MatrixXd TakeOff(Eigen::Ref<Eigen::MatrixXd> weighed) const;
   /// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is
   /// known, -(J^T W J)^-1 J^T W f. forces: [m x q]; returns [p x q].
-  Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces) const;
+  Eigen::MatrixXd BiasBy(const Eigen::MatrixXd& forces) const;
   /// The most that a force of 1 N.m or N at most in each row moves x, [p].
   Eigen::VectorXd MostMoves() const;
   /// Whether no parameter is a mix of the others.
-  bool AllApart() const { return apart.basis.cols() == norms.size(); }
+  bool IsFullRank() const { return qr.basis.cols() == norms.size(); }
 };
 
 /// The fit beside which features are tested.

@@ -106,14 +106,15 @@ Basis Orthonormal(MatrixXd columns, double distinct) {
   }
 
   // R^-1, its rows where the columns were; Eigen walks off a null pointer where there is nothing to solve
-  MatrixXd mix = MatrixXd::Zero(q, rank);
+  MatrixXd r_inverse = MatrixXd::Zero(q, rank);
   if (rank > 0) {
     MatrixXd inverse = MatrixXd::Identity(rank, rank);
     R.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(inverse);
-    for (Index j = 0; j < rank; ++j) mix.row(order[static_cast<std::size_t>(j)]) = inverse.row(j);
+    for (Index j = 0; j < rank; ++j)
+      r_inverse.row(order[static_cast<std::size_t>(j)]) = inverse.row(j);
   }
   columns.conservativeResize(Eigen::NoChange, rank);
-  return {std::move(columns), std::move(mix)};
+  return {std::move(columns), std::move(r_inverse)};
 }
 
 }  // namespace warmjoint

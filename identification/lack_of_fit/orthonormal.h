@@ -5,10 +5,10 @@
 
 namespace warmjoint {
 
-/// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
+/// An orthonormal basis of columns, and how it is made of them: basis = columns * r_inverse.
 struct Basis {
-  Eigen::MatrixXd basis;  // [m x r]
-  Eigen::MatrixXd mix;    // [q x r]
+  Eigen::MatrixXd basis;      // [m x r]
+  Eigen::MatrixXd r_inverse;  // [q x r]
 };
 
 /// A QR decomposition with pivots by Gram's and Schmidt's method (Golub and Van Loan, Matrix Computations, 5.2.8), a column of which little is left

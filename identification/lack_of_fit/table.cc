@@ -55,9 +55,9 @@ std::string BySpeed(const Finding& finding, const LogSamples& measurements) {
 }  // namespace
 
 const std::vector<LackOfFitTest>& LackOfFitTests() {
-  using enum Turn;
+  using enum Stage;
   using enum HeatRelation;
-  using enum Harm;
+  using enum Impact;
   static const std::vector<LackOfFitTest> tests{
       {"direction", kTestOfDirection, first, independent, of_direction, SeenOver::velocity,
        OfDirection, Say<kOnDirection>, RemedyForDirection},

@@ -27,7 +27,7 @@ struct Advice {
 /// When a test looks: at what is known to act on friction first, then at what changes within each
 /// segment of constant speed, at samples, where each test has a turn of its own, and then at bins
 /// within them, then at what stays.
-enum class Turn {
+enum class Stage {
   first,
   fading,
   lag,
@@ -46,7 +46,7 @@ enum class HeatRelation { independent, confounded, starts };
 /// size, its effect, where that is friction or where moves do not show it; or the larger; twice its effect where that
 /// understates it, as of a lag. Of a direction its own size, by which the friction of either direction is off. Of a drift beside
 /// a law without heat the smaller of the moves and sqrt(10) times the effect, with heat the moves.
-enum class Harm { of_moves, of_effect, of_effect_twice, of_direction, of_either, of_drift };
+enum class Impact { of_moves, of_effect, of_effect_twice, of_direction, of_either, of_drift };
 
 /// Over what residuals show what a test looks for.
 enum class SeenOver { time, position, velocity, energy, motor_angle };
@@ -55,13 +55,13 @@ enum class SeenOver { time, position, velocity, energy, motor_angle };
 struct LackOfFitTest {
   std::string_view name;  // in estimate.json
   TestWords words;
-  Turn turn = Turn::first;
+  Stage stage = Stage::first;
   HeatRelation warming = HeatRelation::independent;
-  Harm harm = Harm::of_moves;
+  Impact harm = Impact::of_moves;
   SeenOver over = SeenOver::time;
   /// Features over the bins, the best of several candidates beside the fit; of a test that looks
   /// at samples: none.
-  Features (*features)(const Bins& bins, const Circumstances& known,
+  Features (*features)(const Bins& bins, const Circumstances& circumstances,
                        const GrowingFit& fit) = nullptr;
   /// What the residual depends on, in a message.
   std::string (*quantity)(const Finding& finding, const LogSamples& measurements) = nullptr;

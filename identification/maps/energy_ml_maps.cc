@@ -131,10 +131,10 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
                          const LogSamples& measurements, Fit& fit) {
   for (const int direction : {1, 0}) {
     const auto found = DominantHarmonics(motor, covariance, direction);
-    fit.causes.push_back(Remark(ExplainMotorRipple(direction == 1, found, measurements.torque_unit),
-                                SentenceIn::message));
+    fit.causes.push_back(Note(ExplainMotorRipple(direction == 1, found, measurements.torque_unit),
+                              SentenceIn::message));
   }
-  if (!KnowsMotorAngle(measurements)) fit.causes.push_back(Remark(kMotorTurnsWithJoint));
+  if (!KnowsMotorAngle(measurements)) fit.causes.push_back(Note(kMotorTurnsWithJoint));
 }
 
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {

@@ -54,9 +54,9 @@ void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, 
   }
   for (const FitParameter& row : fit.parameters) {
     const bool held = row.has_interval && row.value == row.lower;
-    if (held) fit.causes.push_back(Remark(ExplainHeldBesideMaps(row)));
+    if (held) fit.causes.push_back(Note(ExplainHeldBesideMaps(row)));
   }
-  if (!imitated.empty()) fit.causes.push_back(Remark(ExplainImitated(imitated)));
+  if (!imitated.empty()) fit.causes.push_back(Note(ExplainImitated(imitated)));
 }
 
 /// The samples that law and maps are fitted to; without maps.
@@ -80,19 +80,20 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
 
 /// Bands of a fit of law and maps, and friction at speeds.
 void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
-              const Uncertainty& known, Fit& fit) {
+              const Uncertainty& uncertainty, Fit& fit) {
   const Law& law = *task.law;
   const MapProblem problem = ProblemOf(input, task);
-  MakeBands(law, problem, maps, known, fit);
+  MakeBands(law, problem, maps, uncertainty, fit);
   WidenUnresolved(maps.maps.front(), input.measurements,
-                  StudentQuantile(known.degrees_of_freedom, kIntervalLevel), fit.bands.front());
-  fit.friction_at_speeds = FrictionAtSpeeds(law, maps, known, problem.points);
+                  StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel),
+                  fit.bands.front());
+  fit.friction_at_speeds = FrictionAtSpeeds(law, maps, uncertainty, problem.points);
   // beyond doubt below 0 in the mean of its places
   const auto drives = std::ranges::find_if(
       fit.friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
   if (drives != fit.friction_at_speeds.end()) {
-    fit.causes.push_back(
-        Voids(Status::inadequate_model, ExplainDrivingFriction(*drives, input.measurements, fit)));
+    fit.causes.push_back(Invalidate(Status::inadequate_model,
+                                    ExplainDrivingFriction(*drives, input.measurements, fit)));
   }
 }
 
@@ -205,10 +206,10 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   // and whether it is gravity that a fit with both needs
   const std::optional<MapChoice> choice = ChooseAndFit(input, with);
   if (!choice) return false;
-  const Uncertainty known = MapCovariance(choice->problem, choice->fit);
+  const Uncertainty uncertainty = MapCovariance(choice->problem, choice->fit);
   const Eigen::Index first = choice->fit.layout.rigid.begin;
-  return std::abs(choice->fit.x[first]) > kBeyondDoubt * known.Deviation(first) ||
-         std::abs(choice->fit.x[first + 1]) > kBeyondDoubt * known.Deviation(first + 1);
+  return std::abs(choice->fit.x[first]) > kBeyondDoubt * uncertainty.Deviation(first) ||
+         std::abs(choice->fit.x[first + 1]) > kBeyondDoubt * uncertainty.Deviation(first + 1);
 }
 
 /// All but errors and bands.
@@ -236,34 +237,34 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
                                .strength = maps.strength,
                                .effective = maps.effective});
   if (HoldsGravity(input, task, maps)) {
-    fit.causes.push_back(Voids(Status::inadequate_model, kMapHoldsGravity));
+    fit.causes.push_back(Invalidate(Status::inadequate_model, kMapHoldsGravity));
   }
   // places without data
   const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
-  if (!holes.empty()) fit.causes.push_back(Remark(ExplainHoles(holes)));
+  if (!holes.empty()) fit.causes.push_back(Note(ExplainHoles(holes)));
   return fit;
 }
 
 /// Of the law and what stands beside it, without the weights.
-Uncertainty OfTable(Uncertainty known, const MapFit& maps) {
-  known.covariance = known.covariance.topLeftCorner(maps.free(), maps.free()).eval();
-  return known;
+Uncertainty OfTable(Uncertainty uncertainty, const MapFit& maps) {
+  uncertainty.covariance = uncertainty.covariance.topLeftCorner(maps.free(), maps.free()).eval();
+  return uncertainty;
 }
 
 }  // namespace
 
 Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
-          const Uncertainty& known) {
-  if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
+          const Uncertainty& uncertainty) {
+  if (!uncertainty.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, maps);
-  fit.errors.covariance = [of_table = OfTable(known, maps)] { return of_table; };
+  fit.errors.covariance = [of_table = OfTable(uncertainty, maps)] { return of_table; };
   if (task.settings.bands == MapBands::none || !GivesFriction(fit)) return fit;
-  AddBands(input, task, maps, known, fit);
+  AddBands(input, task, maps, uncertainty, fit);
   // what a motor's map shows, which comes first
   const FrictionMap& first = maps.maps.front();
   if (first.axes.front().quantity != MapQuantity::motor_position) return fit;
   const auto count = static_cast<Eigen::Index>(first.size());
-  DescribeMotorRipple(first, known.covariance.block(maps.free(), maps.free(), count, count),
+  DescribeMotorRipple(first, uncertainty.covariance.block(maps.free(), maps.free(), count, count),
                       input.measurements, fit);
   return fit;
 }

@@ -20,7 +20,7 @@ struct MapTask {
   MapOptions settings;
   /// Shapes of the maps to choose from, at least one.
   MapShapes candidates{};
-  /// [N] E, N.m or N, as far as it is known: sign(v) E is taken off the torque. Empty: 0.
+  /// [N] E, N.m or N, as far as it is uncertainty: sign(v) E is taken off the torque. Empty: 0.
   Eigen::VectorXd energy{};
   /// Gravity and inertia beside law and maps, free of any prior; no columns: none.
   RigidPart rigid{};
@@ -80,9 +80,9 @@ Refusal Unsolvable();
 
 /// Law and maps as a fit without warming; where they make a friction, with bands. The table has the
 /// law's parameters; those that the kernels can imitate get no interval and a warning, for only the
-/// prior's taste tells them from a map. known: of law and weights first (MapCovariance), and maybe more.
+/// prior's taste tells them from a map. uncertainty: of law and weights first (MapCovariance), and maybe more.
 Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
-          const Uncertainty& known);
+          const Uncertainty& uncertainty);
 
 /// The same without bands. How sure it is costs as much as the fit: that is found where it is asked for.
 Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice);

@@ -215,10 +215,10 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
   if (!twice) return std::nullopt;
 
   // of the fit's own equations the torques change the products alone
-  NormalEquations known(fit.x.size());
-  known.gram = fit.gram;
-  known.rows = own.torque.size();
-  RepeatedFit own_fits(own, std::move(known), fit.strength);
+  NormalEquations normal(fit.x.size());
+  normal.gram = fit.gram;
+  normal.rows = own.torque.size();
+  RepeatedFit own_fits(own, std::move(normal), fit.strength);
 
   // the same noise to both, on top of what was measured, where bounds hold as they do there
   StartStream stream({});
@@ -260,14 +260,15 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
 }  // namespace
 
 void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
-               const Uncertainty& known, Fit& fit) {
+               const Uncertainty& uncertainty, Fit& fit) {
   const MapPoints& kept = problem.points;
-  const std::optional<FinerFit> finer = FitFiner(problem, maps, known.noise);
+  const std::optional<FinerFit> finer = FitFiner(problem, maps, uncertainty.noise);
   // typical speed, covariance of law and weights, and reach of the interval
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
-  const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(maps.x.size(), maps.x.size());
-  const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
+  const Eigen::MatrixXd covariance =
+      uncertainty.covariance.topLeftCorner(maps.x.size(), maps.x.size());
+  const double reach = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
   const MeanRows means(maps.maps, kept);
   const std::optional<MeanRows> finer_means =
       finer ? std::optional<MeanRows>(std::in_place, finer->twice.maps, kept) : std::nullopt;
@@ -386,9 +387,11 @@ Eigen::RowVectorXd MeanOver(const std::vector<Index>& group, const Law& law, con
 }  // namespace
 
 std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
-                                              const Uncertainty& known, const MapPoints& kept) {
-  const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
-  const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
+                                              const Uncertainty& uncertainty,
+                                              const MapPoints& kept) {
+  const Eigen::MatrixXd covariance =
+      uncertainty.covariance.topLeftCorner(fit.x.size(), fit.x.size());
+  const double reach = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
   std::vector<FrictionAtSpeed> all;
   for (const SpeedGroup& group : TypicalSpeeds(kept.col(kVelocity))) {
     // linear in law and weights, so that its variance follows from their covariance

@@ -25,10 +25,10 @@ namespace warmjoint {
 ///     E (f - f2)^2 = bias^2 + var (f - f2),
 /// of which the second part is known from draws of noise and taken off. What is left, averaged over two neighbours on
 /// each side along the first axis and at least 0, joins the variance.
-/// problem: of the fit, its maps and rows are not read; known: about law, weights and maybe more.
+/// problem: of the fit, its maps and rows are not read; uncertainty: about law, weights and maybe more.
 /// Sets the fit's bands and bands_by_law.
 void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
-               const Uncertainty& known, Fit& fit);
+               const Uncertainty& uncertainty, Fit& fit);
 
 /// Widens the band of a map over the motor's turn and speed by what the log cannot show of it: where in the turn a ripple is,
 /// which it knows to a sample, since a torque that was filtered for its rate comes about as late. A harmonic of amplitude c
@@ -45,8 +45,9 @@ void WidenUnresolved(const FrictionMap& motor, const LogSamples& measurements, d
 /// a linear function of law and weights x, whose variance is a C a^T with their covariance C. The speeds about which the
 /// samples gather that are at 5, 50 and 95 % of |v|; one that is near another stands once. Of many samples every so
 /// manieth counts. The warming E is left out.
-/// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
+/// uncertainty: about law, weights and maybe more; kept: [n x 5] points of the fit.
 std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
-                                              const Uncertainty& known, const MapPoints& kept);
+                                              const Uncertainty& uncertainty,
+                                              const MapPoints& kept);
 
 }  // namespace warmjoint

@@ -41,7 +41,7 @@ std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& 
   // whether both E(0) contradict each other
   const std::string unlike = ContradictsExpected(expected, found.value, *found.std);
   if (unlike.empty()) return std::nullopt;
-  fit.causes.push_back(Remark(unlike));
+  fit.causes.push_back(Note(unlike));
   return fit;
 }
 
@@ -100,7 +100,7 @@ Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   fit.fitted = Kept(prediction.force, fit.used);
   fit.count += static_cast<int>(heat.size());
   fit.effective_parameters += static_cast<double>(heat.size());
-  fit.causes.push_back(Remark(ExplainMapsOverEnergy(rounds), SentenceIn::message));
+  fit.causes.push_back(Note(ExplainMapsOverEnergy(rounds), SentenceIn::message));
   return fit;
 }
 
@@ -166,7 +166,7 @@ Fit FitMapModel(const std::string& name, const IdentifierInput& given, const Map
   // then maps over that E too
   Fit fit = FitOverEnergy(input, begin.task, warms ? &warm : nullptr, model.over_energy);
   if (!warms && GivesFriction(fit)) {
-    fit.causes.push_back(Remark(ExplainWithoutWarming(Infer(warm).message), SentenceIn::message));
+    fit.causes.push_back(Note(ExplainWithoutWarming(Infer(warm).message), SentenceIn::message));
   }
   return fit;
 }

@@ -28,23 +28,23 @@ constexpr WarmingContext kContext{kWithTheMaps, "position-ridge"};
 
 /// Whether further turns would leave what warming takes of the residual below half of what can be seen. Blocks in turn grow by a
 /// geometric series, of which two terms tell the limit (Aitken). first, second: after these turns, in variances of the noise
-bool StaysUnseen(double first, double second) {
+bool IsInsignificant(double first, double second) {
   const double growth = second - first;
   const double ratio = std::abs(growth) < std::abs(first) ? growth / first : 1;
   return second + growth * ratio / (1 - ratio) < 0.5 * kVisibleWarming;
 }
 
 /// Of law and heat without the weights between them.
-Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
-  std::vector<Eigen::Index> places(static_cast<size_t>(known.covariance.cols()));
+Uncertainty WithoutWeights(Uncertainty uncertainty, const MapFit& maps) {
+  std::vector<Eigen::Index> places(static_cast<size_t>(uncertainty.covariance.cols()));
   std::iota(places.begin(), places.end(), 0);
   places.erase(places.begin() + maps.layout.weights.begin,
                places.begin() + maps.layout.weights.end());
-  return Picked(std::move(known), places);
+  return Picked(std::move(uncertainty), places);
 }
 
-/// Adds the warming to a fit of law and maps. known: WarmMapFit::CovarianceOf
-void AddHeat(const WarmMaps& warm, const Uncertainty& known, const LogSamples& measurements,
+/// Adds the warming to a fit of law and maps. uncertainty: WarmMapFit::CovarianceOf
+void AddHeat(const WarmMaps& warm, const Uncertainty& uncertainty, const LogSamples& measurements,
              Fit& fit) {
   const ThermalFit& warming = warm.warming;
   fit.friction.thermal = warming.thermal();
@@ -53,11 +53,11 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const LogSamples& m
   // rows of the heat, with errors that law, maps and warming share
   const std::vector<FitParameter> rows = HeatTable(warming, warm.gaps, measurements);
   Append(rows, fit);
-  fit.errors.covariance = [table = WithoutWeights(known, warm.fit)] { return table; };
+  fit.errors.covariance = [table = WithoutWeights(uncertainty, warm.fit)] { return table; };
   fit.count += static_cast<int>(rows.size());
   fit.effective_parameters += static_cast<double>(rows.size());
-  fit.causes.insert(fit.causes.begin(), Remark(ExplainWarmingBesideMaps(warm.joint->iterations()),
-                                               SentenceIn::message));
+  fit.causes.insert(fit.causes.begin(),
+                    Note(ExplainWarmingBesideMaps(warm.joint->iterations()), SentenceIn::message));
   RemarkOnHeat(warming, warm.gaps, measurements, fit);
 }
 
@@ -82,7 +82,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
     if (!block.FitGiven(warming.energy())) return std::nullopt;
     first = std::exchange(warm.visible, visible(n));
   }
-  if (StaysUnseen(first, warm.visible)) return warm;
+  if (IsInsignificant(first, warm.visible)) return warm;
 
   // shape and strength are chosen once more, now that E is known; then all together
   if (!block.ChooseGiven(warming.energy())) return std::nullopt;
@@ -112,12 +112,12 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // law and maps, as sure as the warming beside them leaves them
   const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
                                    TorqueOfEnergy(input, warm.task.energy);
-  const Uncertainty known = warm.joint->CovarianceOf(warm.fit, residual);
-  Fit fit = AsFit(input, warm.task, warm.fit, known);
+  const Uncertainty uncertainty = warm.joint->CovarianceOf(warm.fit, residual);
+  Fit fit = AsFit(input, warm.task, warm.fit, uncertainty);
   if (fit.refusal) return fit;
 
   // the warming; the friction predicts its own energy from here on
-  const double log_deviation = known.Deviation(warm.joint->layout().log_time_constant());
+  const double log_deviation = uncertainty.Deviation(warm.joint->layout().log_time_constant());
   const double time_constant = warm.warming.thermal().time_constant;
   if (auto why = UnidentifiableWarming({.explained = warm.visible,
                                         .log_deviation = log_deviation,
@@ -126,9 +126,9 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
                                        kContext)) {
     return Refused(name, Status::not_identifiable, *why);
   }
-  AddHeat(warm, known, m, fit);
+  AddHeat(warm, uncertainty, m, fit);
   const Eigen::VectorXd of_end = warm.joint->rows().OfEnd();
-  fit.end_energy_std = std::sqrt(of_end.dot(known.covariance * of_end));
+  fit.end_energy_std = std::sqrt(of_end.dot(uncertainty.covariance * of_end));
   if (!GivesFriction(fit)) return fit;
   // a friction that drives itself by its own heat is no model
   const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;

@@ -15,7 +15,7 @@ Eigen::VectorXd TableOf(const Eigen::VectorXd& x, double exponent) {
 
 /// p: {kv, kc, ks}, both directions alike.
 template <typename L>
-FallingLaw Alike() {
+FallingLaw OfOneLevel() {
   return {*FindLaw(L::name),
           *FindLaw(ViscousCoulomb::name),
           Stribeck::name,
@@ -32,7 +32,7 @@ FallingLaw Alike() {
 
 /// p: {kv, kc+, kc-, kr}
 template <typename L>
-FallingLaw Apart() {
+FallingLaw OfTwoDirections() {
   return {*FindLaw(L::name),
           *FindLaw(Asymmetric::name),
           AsymmetricStribeck::name,
@@ -51,8 +51,8 @@ FallingLaw Apart() {
 }  // namespace
 
 const FallingLaw& FindFallingLaw(std::string_view name) {
-  static const FallingLaw laws[] = {Alike<Stribeck>(), Apart<AsymmetricStribeck>(), Alike<LuGre>(),
-                                    Apart<AsymmetricLuGre>()};
+  static const FallingLaw laws[] = {OfOneLevel<Stribeck>(), OfTwoDirections<AsymmetricStribeck>(),
+                                    OfOneLevel<LuGre>(), OfTwoDirections<AsymmetricLuGre>()};
   const auto* found =
       std::ranges::find_if(laws, [&](const FallingLaw& one) { return one.law.name == name; });
   assert(found != std::end(laws));

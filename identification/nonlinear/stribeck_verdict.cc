@@ -48,10 +48,10 @@ Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Sele
 }
 
 StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
-                            const Uncertainty& known) {
-  const Eigen::MatrixXd covariance = at.law.Block(known.covariance);
+                            const Uncertainty& uncertainty) {
+  const Eigen::MatrixXd covariance = at.law.Block(uncertainty.covariance);
   return {law.fall.dot(at.law.Of(x)), std::sqrt(law.fall.dot(covariance * law.fall)),
-          known.Deviation(at.log_vs())};
+          uncertainty.Deviation(at.log_vs())};
 }
 
 std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,

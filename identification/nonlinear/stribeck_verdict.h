@@ -35,9 +35,9 @@ Refusal NotConverged();
 /// Why no scan finds a fall from the level at rest. selection: samples at constant speed.
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection);
 
-/// What a fit says of its effect. at: of x; known: of law and ln vs, at least, where x has them.
+/// What a fit says of its effect. at: of x; uncertainty: of law and ln vs, at least, where x has them.
 StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
-                            const Uncertainty& known);
+                            const Uncertainty& uncertainty);
 
 /// Why ks and stribeck_velocity cannot be distinguished: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.

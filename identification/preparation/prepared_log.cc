@@ -32,7 +32,7 @@ LogView Head(const LogView& all, double time) {
     segment.end = std::min(segment.end, n);
     head.selection.segments.push_back(segment);
   }
-  std::erase_if(head.measurements.put_in, [n](Index one) { return one >= n; });
+  std::erase_if(head.measurements.inserted, [n](Index one) { return one >= n; });
   return head;
 }
 
@@ -66,7 +66,7 @@ void Append(const LogView& next, double step, LogView& stack) {
   LogSamples& all = stack.measurements;
   const Index n = all.size();
   all.further_starts.push_back(n);
-  for (const Index one : more.put_in) all.put_in.push_back(one + n);
+  for (const Index one : more.inserted) all.inserted.push_back(one + n);
   all.source += " + " + more.source;
   std::ranges::move(Named(more.source, more.notes), std::back_inserter(all.notes));
   std::ranges::move(Named(more.source, more.doubts), std::back_inserter(all.doubts));
@@ -161,9 +161,9 @@ std::vector<SampleRange> LogSamples::Recordings() const { return CutAt(further_s
 
 std::vector<Index> LogSamples::Logged() const {
   std::vector<Index> logged;
-  auto next = put_in.begin();
+  auto next = inserted.begin();
   for (Index i = 0; i < size(); ++i) {
-    if (next != put_in.end() && *next == i) {
+    if (next != inserted.end() && *next == i) {
       ++next;
     } else {
       logged.push_back(i);

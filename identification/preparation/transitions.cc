@@ -81,7 +81,7 @@ class Path {
 /// The samples that a version of a log puts in.
 std::vector<InsertedSample> InsertedIn(const LogSamples& log) {
   std::vector<InsertedSample> inserted;
-  for (const Index i : log.put_in) {
+  for (const Index i : log.inserted) {
     const Index logged = i - std::ssize(inserted);  // samples in front of it
     inserted.push_back({logged - 1, log.time[i], log.position[i], log.velocity[i]});
   }
@@ -115,7 +115,7 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
   for (size_t i = 0; i < inserted.size(); ++i) {
     const InsertedSample& one = inserted[i];
     const Index n = one.after + 1 + static_cast<Index>(i);
-    log.put_in.push_back(n);
+    log.inserted.push_back(n);
     log.time[n] = one.time;
     log.position[n] = one.position;
     log.velocity[n] = one.velocity;

@@ -76,12 +76,12 @@ void Set(const FitParameter& row, size_t jump, double value, Friction& friction,
 /// differences of a standard deviation; 0 over all others. [2 x p]
 Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
                                     const Friction& friction, const LogSamples& m) {
-  const Uncertainty& known = inference.known;
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, known.covariance.rows());
+  const Uncertainty& uncertainty = inference.uncertainty;
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, uncertainty.covariance.rows());
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
     const FitParameter& row = fit.parameters[at.row];
     const double value = inference.parameters[at.row].value;
-    const double deviation = known.Deviation(at.column);
+    const double deviation = uncertainty.Deviation(at.column);
 
     // a step of one standard deviation of the value; one that could turn a sign gives no slope
     const double step = row.ValueByCoordinate(value) * deviation;
@@ -102,15 +102,15 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 /// From the covariance of the parameters, to first order. slopes: [q x p], over the coordinates.
 FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
                             const Eigen::MatrixXd& slopes) {
-  FigureErrors errors{slopes * inference.known.covariance * slopes.transpose(),
+  FigureErrors errors{slopes * inference.uncertainty.covariance * slopes.transpose(),
                       Eigen::VectorXd::Zero(slopes.rows()), true};
   Eigen::MatrixXd by_value = Eigen::MatrixXd::Zero(slopes.rows(), std::ssize(inference.parameters));
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
-    const ParameterInterval& known = inference.parameters[at.row];
-    errors.has_intervals = errors.has_intervals && known.interval95;
+    const ParameterInterval& estimated = inference.parameters[at.row];
+    errors.has_intervals = errors.has_intervals && estimated.interval95;
     // causes change the value, not its coordinate
     by_value.col(static_cast<Eigen::Index>(at.row)) =
-        slopes.col(at.column) / fit.parameters[at.row].ValueByCoordinate(known.value);
+        slopes.col(at.column) / fit.parameters[at.row].ValueByCoordinate(estimated.value);
   }
   for (Eigen::Index i = 0; i < by_value.rows(); ++i) {
     errors.widened[i] = ChangeOf(inference.causes, by_value.row(i), About::parameters).Reach();
@@ -129,7 +129,7 @@ Eigen::Index ColumnOf(const Fit& fit, size_t row) {
 Eigen::Matrix2d HeatCovariance(const Fit& fit, const Inference& inference, size_t gain,
                                size_t tau) {
   const std::array<Eigen::Index, 2> rows{ColumnOf(fit, gain), ColumnOf(fit, tau)};
-  return inference.known.covariance(rows, rows);
+  return inference.uncertainty.covariance(rows, rows);
 }
 
 void Move(double shift, double widened, EstimatedParameter& parameter) {
@@ -159,7 +159,8 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   const double cooling = -std::expm1(-h / fitted.time_constant);
   if (known_gain.interval95 && known_tau.interval95) {
     const Eigen::Matrix2d covariance = HeatCovariance(fit, inference, gain_row, tau_row);
-    const double quantile = StudentQuantile(inference.known.degrees_of_freedom, kIntervalLevel);
+    const double quantile =
+        StudentQuantile(inference.uncertainty.degrees_of_freedom, kIntervalLevel);
     // ke = k (1 - te) by k and by ln tau
     const Eigen::Vector2d by_gain(cooling, -fitted.gain * by_pole);
     gain.std = std::sqrt(by_gain.dot(covariance * by_gain));
@@ -188,9 +189,9 @@ std::vector<EstimatedParameter> ParametersOf(const Fit& fit, const Inference& in
   const std::optional<size_t> tau = fit.RowOf(Role::heat, 1);
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
-    const ParameterInterval& known = inference.parameters[i];
+    const ParameterInterval& estimated = inference.parameters[i];
     if (!row.name.empty()) {
-      all.push_back({row.name, known.value, row.unit, known.std, known.interval95});
+      all.push_back({row.name, estimated.value, row.unit, estimated.std, estimated.interval95});
     }
     // the pair of the sampling interval follows the time constant
     if (tau != i) continue;
@@ -229,8 +230,8 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
     slopes.push_back(row.ValueByCoordinate(row.value));
   }
   const Eigen::Map<const Eigen::VectorXd> slope(slopes.data(), std::ssize(slopes));
-  of.matrix =
-      slope.asDiagonal() * inference.known.covariance(columns, columns).eval() * slope.asDiagonal();
+  of.matrix = slope.asDiagonal() * inference.uncertainty.covariance(columns, columns).eval() *
+              slope.asDiagonal();
   return of;
 }
 
@@ -284,7 +285,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
 
   // E of both stages at the end of the log: by the fit's own recursion, or along the motion
   Eigen::Vector2d end;
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.known.covariance.rows());
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.uncertainty.covariance.rows());
   if (fit.end_energy) {
     const EndEnergy own = fit.end_energy();
     end = {own.value, 0};
@@ -301,7 +302,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   // when, and a row for each stage
   std::vector<EstimatedParameter> state;
   if (m.further_starts.empty()) state.push_back({"time", m.time[m.size() - 1], "s", {}, {}});
-  const double reach = StudentQuantile(inference.known.degrees_of_freedom, kIntervalLevel);
+  const double reach = StudentQuantile(inference.uncertainty.degrees_of_freedom, kIntervalLevel);
   for (int stage = 0; stage < (friction.second_thermal ? 2 : 1); ++stage) {
     EstimatedParameter one{
         stage == 0 ? "energy" : "second_energy", end[stage], m.torque_unit, {}, {}};

@@ -38,8 +38,9 @@ double ValueOf(const JointFit& fit, Index row) {
 
 /// Half width of an interval that noise gives a combination of rows.
 double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
-  const double deviation = std::sqrt(std::max(0.0, weights.dot(fit.known.covariance * weights)));
-  return StudentQuantile(fit.known.degrees_of_freedom, kIntervalLevel) * deviation;
+  const double deviation =
+      std::sqrt(std::max(0.0, weights.dot(fit.uncertainty.covariance * weights)));
+  return StudentQuantile(fit.uncertainty.degrees_of_freedom, kIntervalLevel) * deviation;
 }
 
 /// Whether the log tells the gain. Where it does not, its value is that of the other joints, and the curvature of the fit says little of how far off that may be.
@@ -128,12 +129,12 @@ Fit FitOf(const JointFit& fit, const JointColumns& c) {
     made.parameters.push_back(ParameterOf(fit, row));
   }
   made.count = static_cast<int>(fit.model.size());
-  made.effective_parameters = fit.known.effective_parameters;
-  Uncertainty known;
-  known.covariance = fit.known.covariance;
-  known.degrees_of_freedom = fit.known.degrees_of_freedom;
-  known.noise.variance = known.noise.innovation = fit.solved.noise.variance;
-  made.errors.covariance = [known] { return known; };
+  made.effective_parameters = fit.uncertainty.effective_parameters;
+  Uncertainty uncertainty;
+  uncertainty.covariance = fit.uncertainty.covariance;
+  uncertainty.degrees_of_freedom = fit.uncertainty.degrees_of_freedom;
+  uncertainty.noise.variance = uncertainty.noise.innovation = fit.solved.noise.variance;
+  made.errors.covariance = [uncertainty] { return uncertainty; };
   if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
   return made;
 }
@@ -174,7 +175,7 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const Jo
 
   // what is to be known beside the numbers
   const auto say = [&](std::string sentence) {
-    causes.push_back(Remark(std::move(sentence), SentenceIn::any_answer));
+    causes.push_back(Note(std::move(sentence), SentenceIn::any_answer));
   };
   if (fit.at.given.sign < 0) say(ExplainTurnedSign(c.joint));
   const Index rotor = fit.at.rotor.begin;
@@ -200,7 +201,7 @@ EstimatedParameter MeanRow(const JointFit& fit, const JointColumns& c, bool has_
   const double value = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
   EstimatedParameter row{std::string(kCoulombRow.name), value, c.torque_unit, {}, {}};
   if (!has_interval) return row;
-  row.std = reach / StudentQuantile(fit.known.degrees_of_freedom, kIntervalLevel);
+  row.std = reach / StudentQuantile(fit.uncertainty.degrees_of_freedom, kIntervalLevel);
   row.interval95 = {{value - reach, value + reach}};
   return row;
 }
@@ -214,7 +215,7 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
   train.keep.tail(n - cut) = false;
   Selection test{c.samples.keep, {}};
   test.keep.head(cut) = false;
-  if (static_cast<double>(train.keep.count()) < kFewest + fit.known.effective_parameters ||
+  if (static_cast<double>(train.keep.count()) < kFewest + fit.uncertainty.effective_parameters ||
       test.count() < kFewest) {
     return std::nullopt;
   }
@@ -223,7 +224,7 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
   const VectorXd measured = Kept(c.samples.torque, test);
   found.metrics =
       ComputeMetrics(measured, measured - Kept(again.residual, test),
-                     static_cast<int>(fit.model.size()), fit.known.effective_parameters);
+                     static_cast<int>(fit.model.size()), fit.uncertainty.effective_parameters);
   Selection moving = test;
   constexpr double at_rest = .02;  // of the top speed
   moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;

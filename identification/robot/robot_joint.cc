@@ -164,7 +164,7 @@ JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuest
   JointFit fit;
   AddBlocks(c, guess, q, false, level, fit);
   SolveFresh(c, fit);
-  fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+  fit.uncertainty = CovarianceOf(fit.model, c.samples, fit.solved);
   return fit;
 }
 
@@ -178,7 +178,7 @@ JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuest
   x.head(rise) = cold.solved.x.head(rise);
   x.tail(size - rise) = cold.solved.x.tail(size - rise);
   fit.solved = Solve(fit.model, c.samples, x);
-  fit.known = CovarianceOf(fit.model, c.samples, fit.solved);
+  fit.uncertainty = CovarianceOf(fit.model, c.samples, fit.solved);
   return fit;
 }
 
@@ -197,10 +197,10 @@ void FindBeyond(const JointColumns& c, JointFit& fit) {
     unbound.table[static_cast<std::size_t>(i)].lower = -kInfinity;
   }
   const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
-  const SolvedCovariance known = CovarianceOf(unbound, c.samples, free);
-  const double reach = StudentQuantile(known.degrees_of_freedom, kIntervalLevel);
+  const SolvedCovariance uncertainty = CovarianceOf(unbound, c.samples, free);
+  const double reach = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
   for (const Index i : fit.solved.at_bound) {
-    if (free.x[i] + reach * std::sqrt(known.covariance(i, i)) >= 0) continue;
+    if (free.x[i] + reach * std::sqrt(uncertainty.covariance(i, i)) >= 0) continue;
     fit.beyond.push_back(fit.model.table[static_cast<std::size_t>(i)].name);
   }
 }
@@ -253,7 +253,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
     JointFit slow = FitSlow(c, guess, q, level, fit);
     const Index rise = slow.at.law.end() - 1;
     const double reach =
-        StudentQuantile(slow.known.degrees_of_freedom, 1 - q.error_level / q.joints);
+        StudentQuantile(slow.uncertainty.degrees_of_freedom, 1 - q.error_level / q.joints);
     if (slow.Value(rise) > reach * slow.Deviation(rise) && Predicts(slow, fit, c)) {
       fit = std::move(slow);
     }
@@ -265,7 +265,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       JointFit warm = fit;
       AddHeat(c, heat, warm);
       SolveOn(c, warm);
-      warm.known = CovarianceOf(warm.model, c.samples, warm.solved);
+      warm.uncertainty = CovarianceOf(warm.model, c.samples, warm.solved);
       // the fit has to say the same, within the time constants that were tried
       const Index gain = warm.at.heat->begin;
       const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&

@@ -74,13 +74,13 @@ struct JointFit {
   Model model;
   JointPlaces at;
   SolvedModel solved;
-  SolvedCovariance known;
+  SolvedCovariance uncertainty;
   double warming =
       0;  // by how many deviations friction changes with the heat of its losses, at the best tau
   std::vector<std::string> beyond;  // rows of the law whose whole interval lies beyond their bound
 
   double Value(Eigen::Index row) const { return solved.x[row]; }
-  double Deviation(Eigen::Index row) const { return std::sqrt(known.covariance(row, row)); }
+  double Deviation(Eigen::Index row) const { return std::sqrt(uncertainty.covariance(row, row)); }
 };
 
 /// The fit. guess: of its gain.

@@ -86,7 +86,7 @@ class SharedSquares {
       const VectorXd time = Kept(samples.time, {samples.keep, {}});
       sum(places_[j].here, places_[j].here) +=
           ScatterOverBlocks(says.left.asDiagonal() * says.derivatives, time, time[0],
-                            fits_[j].known.block)
+                            fits_[j].uncertainty.block)
               .squares;
     }
     return sum;
@@ -179,9 +179,10 @@ SharedDirections FitShared(const std::vector<JointFit>& fits,
   shared.z = z.Of(found.x);
   shared.covariance = of_z * squares.Scatter(found.x) * of_z.transpose();
   shared.converged = found.converged;
-  shared.degrees_of_freedom = fits.front().known.degrees_of_freedom;
+  shared.degrees_of_freedom = fits.front().uncertainty.degrees_of_freedom;
   for (const JointFit& fit : fits) {
-    shared.degrees_of_freedom = std::min(shared.degrees_of_freedom, fit.known.degrees_of_freedom);
+    shared.degrees_of_freedom =
+        std::min(shared.degrees_of_freedom, fit.uncertainty.degrees_of_freedom);
   }
   return shared;
 }

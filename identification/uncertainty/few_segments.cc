@@ -113,9 +113,9 @@ double FewestFreedom(const Selection& selection, Index p) {
 }
 
 void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& residual,
-                   const Selection& selection, Uncertainty& known) {
-  known.by_samples = known.covariance;
-  known.samples_degrees_of_freedom = known.degrees_of_freedom;
+                   const Selection& selection, Uncertainty& uncertainty) {
+  uncertainty.by_samples = uncertainty.covariance;
+  uncertainty.samples_degrees_of_freedom = uncertainty.degrees_of_freedom;
   // the scatter of what each segment says takes the place of an assumed noise
   const Index p = cofactor.rows();
   MatrixXd scatter = MatrixXd::Zero(p, p);
@@ -128,11 +128,11 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
 
   // Of white noise the variance of parameter j is a sum of squares e^T P e, P over the segments with
   // P_gh = [g = h] b_g^T b_g - u_g^T C u_h, b_g column j of B and u_g that of X_g^T B.
-  known.each_degrees_of_freedom.setOnes(p);
-  known.degrees_of_freedom = 1;
+  uncertainty.each_degrees_of_freedom.setOnes(p);
+  uncertainty.degrees_of_freedom = 1;
   // as few segments as parameters tell no scatter
   if (static_cast<Index>(shares.size()) <= p) return;
-  const VectorXd before = known.covariance.diagonal();
+  const VectorXd before = uncertainty.covariance.diagonal();
   MatrixXd covariance = cofactor * scatter * cofactor;
   // variance and degrees of freedom of each parameter
   for (Index j = 0; j < p; ++j) {
@@ -146,7 +146,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
       P(g, g) += shares[static_cast<size_t>(g)].own(j, j);
     }
     if (P.trace() > kNone * cofactor(j, j)) {
-      known.each_degrees_of_freedom[j] = FreedomOf(P, cofactor(j, j));
+      uncertainty.each_degrees_of_freedom[j] = FreedomOf(P, cofactor(j, j));
       continue;
     }
     // the segments say nothing of this one: its error stays
@@ -155,8 +155,8 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
     covariance.col(j) *= scale;
     covariance(j, j) = before[j];
   }
-  known.covariance = covariance;
-  known.degrees_of_freedom = known.each_degrees_of_freedom.minCoeff();
+  uncertainty.covariance = covariance;
+  uncertainty.degrees_of_freedom = uncertainty.each_degrees_of_freedom.minCoeff();
 }
 
 }  // namespace warmjoint

@@ -28,8 +28,9 @@ double FewestFreedom(const Selection& selection, Eigen::Index p);
 /// with the deviation as it was where the segments are no more than the parameters, and their scatter
 /// tells nothing. Linear in the number of samples.
 /// X: [n x p] rows of the fit at the kept samples, whitened where they were; cofactor: C; residual:
-/// [n]; known: of the same fit.
+/// [n]; uncertainty: of the same fit.
 void CountSegments(const Eigen::MatrixXd& X, const Eigen::MatrixXd& cofactor,
-                   const Eigen::VectorXd& residual, const Selection& selection, Uncertainty& known);
+                   const Eigen::VectorXd& residual, const Selection& selection,
+                   Uncertainty& uncertainty);
 
 }  // namespace warmjoint

@@ -26,28 +26,28 @@ double Correlation(const Eigen::VectorXd& centred, const Eigen::Ref<const Eigen:
 
 /// [n x 2] or [n x 1]: time, |f|
 Eigen::MatrixXd Circumstances(Eigen::Index n, const Eigen::VectorXd& fitted) {
-  Eigen::MatrixXd known(n, fitted.size() > 0 ? 2 : 1);
-  known.col(0).setLinSpaced(0, 1);
-  if (fitted.size() > 0) known.col(1) = fitted.cwiseAbs();
-  return known;
+  Eigen::MatrixXd columns(n, fitted.size() > 0 ? 2 : 1);
+  columns.col(0).setLinSpaced(0, 1);
+  if (fitted.size() > 0) columns.col(1) = fitted.cwiseAbs();
+  return columns;
 }
 
 /// By how many deviations r^2 goes with a column. Of coloured noise, fewer samples count.
-double Unevenness(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
+double Unevenness(const Eigen::VectorXd& residual, const Eigen::MatrixXd& circumstances,
                   const NoiseModel& noise) {
   Eigen::VectorXd squares = residual.cwiseAbs2();
   squares.array() -= squares.mean();
   double most = 0;
-  for (const auto& column : known.colwise()) {
+  for (const auto& column : circumstances.colwise()) {
     most = std::max(most, std::abs(Correlation(squares, column)));
   }
   return most * std::sqrt(static_cast<double>(residual.size()) / noise.variance_inflation);
 }
 
 /// The line through |r|, as a share of the residual's rms. [n]
-Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known) {
-  Eigen::MatrixXd columns(known.rows(), known.cols() + 1);
-  columns << Eigen::VectorXd::Ones(known.rows()), known;
+Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& circumstances) {
+  Eigen::MatrixXd columns(circumstances.rows(), circumstances.cols() + 1);
+  columns << Eigen::VectorXd::Ones(circumstances.rows()), circumstances;
   const Eigen::VectorXd size = residual.cwiseAbs();
   const Eigen::VectorXd line = columns * columns.colPivHouseholderQr().solve(size);
   const Eigen::VectorXd level = line.cwiseMax(kLeastLevel * size.mean());
@@ -63,8 +63,8 @@ struct Scatter {
 };
 
 /// White noise that is even or not.
-Eigen::MatrixXd WhiteScatter(const FittedRows& fit, const Uncertainty& known) {
-  if (known.uneven == 0) return known.noise.variance * fit.pull->gram;
+Eigen::MatrixXd WhiteScatter(const FittedRows& fit, const Uncertainty& uncertainty) {
+  if (uncertainty.uneven == 0) return uncertainty.noise.variance * fit.pull->gram;
   // each row by its own residual
   const Index n = fit.residual.size(), d = fit.cofactor.rows();
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(d, d);
@@ -79,30 +79,31 @@ Eigen::MatrixXd WhiteScatter(const FittedRows& fit, const Uncertainty& known) {
 
 /// Coloured noise; of uneven one the rows are weighted by its level, and the colour is that of the rest.
 Eigen::MatrixXd ColouredScatter(const FittedRows& fit, const Eigen::MatrixXd& circumstances,
-                                Uncertainty& known) {
+                                Uncertainty& uncertainty) {
   const Index d = fit.cofactor.rows();
-  if (known.uneven == 0) return ScatterThrough(known.noise, fit.rows, d, fit.selection);
+  if (uncertainty.uneven == 0) return ScatterThrough(uncertainty.noise, fit.rows, d, fit.selection);
   const Eigen::VectorXd level = Levels(fit.residual, circumstances);
-  known.noise = FitNoise(fit.residual.cwiseQuotient(level), fit.selection);
+  uncertainty.noise = FitNoise(fit.residual.cwiseQuotient(level), fit.selection);
   const auto weighted = [&](Index first, Index last) -> Eigen::MatrixXd {
     return level.segment(first, last - first).asDiagonal() * fit.rows(first, last);
   };
-  return ScatterThrough(known.noise, weighted, d, fit.selection);
+  return ScatterThrough(uncertainty.noise, weighted, d, fit.selection);
 }
 
 /// Of rows that count by weights.
 Uncertainty OfWeighted(const FittedRows& fit) {
-  Uncertainty known;
-  known.noise = FitNoise(fit.residual, fit.selection);
+  Uncertainty uncertainty;
+  uncertainty.noise = FitNoise(fit.residual, fit.selection);
   const auto weighted = [&](Index first, Index last) -> Eigen::MatrixXd {
     return fit.weights.segment(first, last - first).asDiagonal() * fit.rows(first, last);
   };
   const Index d = fit.cofactor.rows();
-  known.covariance = fit.cofactor *
-                     ScatterThrough(known.noise, weighted(0, fit.residual.size()), fit.selection) *
-                     fit.cofactor;
-  known.degrees_of_freedom = DegreesOfFreedomOfWeights(fit.weights, known.noise, d);
-  return known;
+  uncertainty.covariance =
+      fit.cofactor *
+      ScatterThrough(uncertainty.noise, weighted(0, fit.residual.size()), fit.selection) *
+      fit.cofactor;
+  uncertainty.degrees_of_freedom = DegreesOfFreedomOfWeights(fit.weights, uncertainty.noise, d);
+  return uncertainty;
 }
 
 /// Of an exact log: its numbers are as sure as the rounding of doubles lets them be.
@@ -123,37 +124,38 @@ double TakenBesidePull(const Eigen::MatrixXd& hat, const Eigen::MatrixXd& spread
 }
 
 /// By the noise, by the pull and by what was known.
-void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertainty& known) {
+void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertainty& uncertainty) {
   const Eigen::MatrixXd& C = fit.cofactor;
   const auto n = static_cast<double>(fit.residual.size());
   const Eigen::MatrixXd hat = C * fit.pull->gram, spread = C * scatter;
-  const double taken = TakenBesidePull(hat, spread, known.noise.variance, n);
+  const double taken = TakenBesidePull(hat, spread, uncertainty.noise.variance, n);
   Eigen::MatrixXd by_noise(C.rows(), C.rows());
   by_noise.triangularView<Eigen::Lower>() = n / (n - taken) * spread * C;
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
-  known.covariance = by_noise + CovarianceByPull(*fit.pull, C, hat, by_noise);
+  uncertainty.covariance = by_noise + CovarianceByPull(*fit.pull, C, hat, by_noise);
   // what was known beforehand errs as a measurement of that weight does
   if (fit.prior.size() > 0) {
-    known.covariance += known.noise.variance * (C * fit.prior.asDiagonal() * C);
+    uncertainty.covariance += uncertainty.noise.variance * (C * fit.prior.asDiagonal() * C);
   }
   // independent samples less effective parameters
-  known.degrees_of_freedom = std::max(n / known.noise.variance_inflation - hat.trace(), 1.0);
+  uncertainty.degrees_of_freedom =
+      std::max(n / uncertainty.noise.variance_inflation - hat.trace(), 1.0);
 }
 
 /// By the noise and by what was known.
-void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& known) {
+void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& uncertainty) {
   const Eigen::MatrixXd& C = fit.cofactor;
   const auto n = static_cast<double>(fit.residual.size());
   const auto d = static_cast<double>(C.rows());
   // what the fit took up counts in samples, of coloured noise at most half of them
   double taken = d;
-  known.degrees_of_freedom = n - d;
-  if (known.noise.order() > 0) {
-    taken = std::min((C * scatter).trace() / known.noise.variance, 0.5 * n);
-    known.degrees_of_freedom = std::max(n / known.noise.variance_inflation - d, 1.0);
+  uncertainty.degrees_of_freedom = n - d;
+  if (uncertainty.noise.order() > 0) {
+    taken = std::min((C * scatter).trace() / uncertainty.noise.variance, 0.5 * n);
+    uncertainty.degrees_of_freedom = std::max(n / uncertainty.noise.variance_inflation - d, 1.0);
   }
-  if (fit.prior.size() > 0) scatter.diagonal() += known.noise.variance * fit.prior;
-  known.covariance = n / (n - taken) * (C * scatter * C);
+  if (fit.prior.size() > 0) scatter.diagonal() += uncertainty.noise.variance * fit.prior;
+  uncertainty.covariance = n / (n - taken) * (C * scatter * C);
 }
 
 }  // namespace
@@ -173,35 +175,36 @@ Uncertainty CovarianceOf(const FittedRows& fit) {
   if (fit.fitted.size() > 0 && IsRounding(squares, fit.fitted + fit.residual)) {
     return OfRounding(fit);
   }
-  Uncertainty known;
-  known.noise = FitNoise(fit.residual, fit.selection);
+  Uncertainty uncertainty;
+  uncertainty.noise = FitNoise(fit.residual, fit.selection);
   const Index n = fit.residual.size(), d = fit.cofactor.rows();
   // whether the residual grows with time or with friction
   const Eigen::MatrixXd circumstances = Circumstances(n, fit.fitted);
-  const double uneven = Unevenness(fit.residual, circumstances, known.noise);
-  if (uneven > kUneven) known.uneven = uneven;
+  const double uneven = Unevenness(fit.residual, circumstances, uncertainty.noise);
+  if (uneven > kUneven) uncertainty.uneven = uneven;
 
-  const bool is_white = known.noise.order() == 0;
+  const bool is_white = uncertainty.noise.order() == 0;
   const auto scatter = [&] {
-    return is_white ? WhiteScatter(fit, known) : ColouredScatter(fit, circumstances, known);
+    return is_white ? WhiteScatter(fit, uncertainty)
+                    : ColouredScatter(fit, circumstances, uncertainty);
   };
   if (fit.pull) {
-    BesidePull(fit, scatter(), known);
-    return known;
+    BesidePull(fit, scatter(), uncertainty);
+    return uncertainty;
   }
-  known.white = squares / std::max(static_cast<double>(n - d), 1.0) * fit.cofactor;
-  if (is_white && known.uneven == 0) {
+  uncertainty.white = squares / std::max(static_cast<double>(n - d), 1.0) * fit.cofactor;
+  if (is_white && uncertainty.uneven == 0) {
     // (J^T R J + v P) C is the variance times the identity
-    known.degrees_of_freedom = static_cast<double>(n - d);
-    known.covariance = squares / known.degrees_of_freedom * fit.cofactor;
+    uncertainty.degrees_of_freedom = static_cast<double>(n - d);
+    uncertainty.covariance = squares / uncertainty.degrees_of_freedom * fit.cofactor;
   } else {
-    OfSquares(fit, scatter(), known);
+    OfSquares(fit, scatter(), uncertainty);
   }
   const bool has_prior = fit.prior.size() > 0 && !fit.prior.isZero();
   if (!has_prior && HasFewSegments(fit.selection, d)) {
-    CountSegments(fit.rows(0, n), fit.cofactor, fit.residual, fit.selection, known);
+    CountSegments(fit.rows(0, n), fit.cofactor, fit.residual, fit.selection, uncertainty);
   }
-  return known;
+  return uncertainty;
 }
 
 double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
@@ -211,11 +214,12 @@ double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseMode
   return std::max(effective / noise.variance_inflation - static_cast<double>(d), 1.0);
 }
 
-Uncertainty Picked(Uncertainty known, const std::vector<Eigen::Index>& places) {
-  for (Eigen::MatrixXd* const one : {&known.covariance, &known.white, &known.by_samples}) {
+Uncertainty Picked(Uncertainty uncertainty, const std::vector<Eigen::Index>& places) {
+  for (Eigen::MatrixXd* const one :
+       {&uncertainty.covariance, &uncertainty.white, &uncertainty.by_samples}) {
     if (one->size() > 0) *one = (*one)(places, places).eval();
   }
-  return known;
+  return uncertainty;
 }
 
 double RoundingVariance(const Eigen::VectorXd& torque) {
@@ -239,9 +243,9 @@ std::string ColourOf(const NoiseModel& noise) {
   return noise.order() == 0 ? "" : ExplainColour(noise.correlation);
 }
 
-std::string NoiseOf(const Uncertainty& known) {
-  if (known.uneven == 0) return ColourOf(known.noise);
-  return ExplainUnevenness(known.uneven) + ColourOf(known.noise);
+std::string NoiseOf(const Uncertainty& uncertainty) {
+  if (uncertainty.uneven == 0) return ColourOf(uncertainty.noise);
+  return ExplainUnevenness(uncertainty.uneven) + ColourOf(uncertainty.noise);
 }
 
 }  // namespace warmjoint

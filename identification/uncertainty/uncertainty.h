@@ -35,7 +35,7 @@ struct Uncertainty {
 };
 
 /// That of some parameters. places: [q] of them, in the order of the result
-Uncertainty Picked(Uncertainty known, const std::vector<Eigen::Index>& places);
+Uncertainty Picked(Uncertainty uncertainty, const std::vector<Eigen::Index>& places);
 
 /// A fit x = argmin (y - f(x))^T W (y - f(x)) + x^T P x about its solution, as the errors of x follow from it.
 struct FittedRows {
@@ -88,6 +88,6 @@ double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseMode
 std::string ColourOf(const NoiseModel& noise);
 
 /// The same, after one on noise that is not even: "; noise is uneven (...), which ...".
-std::string NoiseOf(const Uncertainty& known);
+std::string NoiseOf(const Uncertainty& uncertainty);
 
 }  // namespace warmjoint

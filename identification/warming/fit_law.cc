@@ -147,10 +147,10 @@ void Whiten(LawFit& law) {
   if (!white.converged) return;
 
   // back to the plain fit where whitening changes too much, or leaves the bounds
-  const Uncertainty known = law.problem.CovarianceOf(plain, left);
+  const Uncertainty uncertainty = law.problem.CovarianceOf(plain, left);
   law.unwhitened =
-      FindDisagreement({plain.x, known.covariance}, {white.x, innovation * white.cofactor},
-                       known.degrees_of_freedom);
+      FindDisagreement({plain.x, uncertainty.covariance}, {white.x, innovation * white.cofactor},
+                       uncertainty.degrees_of_freedom);
   const Law& nominal = law.problem.task().law;
   if (law.unwhitened || LeavesBounds(LawParameters(nominal, white.law(), law.measurements()))) {
     return;
@@ -399,8 +399,8 @@ Fit FitLawInTime(const std::string& name, const IdentifierInput& given, PartFit 
   }
   const bool lacks_lag = AsksForLag(input.options) && !law.lag;
   Fit fit = Conclude(std::move(law));
-  if (lacks_lag) fit.causes.push_back(Remark(kNoLagSeen, SentenceIn::message));
-  if (!contradiction.empty()) fit.causes.push_back(Remark(contradiction));
+  if (lacks_lag) fit.causes.push_back(Note(kNoLagSeen, SentenceIn::message));
+  if (!contradiction.empty()) fit.causes.push_back(Note(contradiction));
   return fit;
 }
 
@@ -434,9 +434,9 @@ void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
   std::vector<LogGap> within = gaps;
   std::erase_if(within, IsStart);
   if (!within.empty())
-    fit.causes.push_back(Remark(ExplainGaps(within, measurements.time, Action::note)));
+    fit.causes.push_back(Note(ExplainGaps(within, measurements.time, Action::note)));
   if (warm.initial.is_expected() && !measurements.further_starts.empty()) {
-    fit.causes.push_back(Remark(kOthersBeginCold));
+    fit.causes.push_back(Note(kOthersBeginCold));
   }
 }
 

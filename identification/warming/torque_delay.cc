@@ -185,8 +185,9 @@ Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
 bool IsLate(const Fit& fit) {
   if (!fit.RowOf(Role::delay)) return false;
   // the last of the estimated rows
-  const Uncertainty known = CovarianceOf(fit);
-  return std::abs(*fit.torque_delay) > kCertain * known.Deviation(known.covariance.rows() - 1);
+  const Uncertainty uncertainty = CovarianceOf(fit);
+  return std::abs(*fit.torque_delay) >
+         kCertain * uncertainty.Deviation(uncertainty.covariance.rows() - 1);
 }
 
 bool MayBeLate(const IdentifierInput& given) {
@@ -231,7 +232,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
         in_time.causes.push_back(UntoldDelay(fit, in_time, step));
         return in_time;
       }
-      fit.causes.push_back(Remark(ExplainDelay(*fit.torque_delay, step)));
+      fit.causes.push_back(Note(ExplainDelay(*fit.torque_delay, step)));
     }
     return fit;
   }
@@ -240,7 +241,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
 
 void TakeDelay(double delay, const LogSamples& m, Fit& fit) {
   fit.torque_delay = delay;
-  fit.causes.push_back(Remark(ExplainDelay(delay, MedianStep(m.time))));
+  fit.causes.push_back(Note(ExplainDelay(delay, MedianStep(m.time))));
 }
 
 }  // namespace warmjoint

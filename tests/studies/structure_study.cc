@@ -60,7 +60,7 @@ std::optional<Eigen::VectorXd> ErrorsOn(const PreparedLog& log, const Fit& fit) 
   for (int block = 0; block < kBlocks; ++block) {
     const auto first = bounds[static_cast<std::size_t>(block)];
     const auto length = bounds[static_cast<std::size_t>(block) + 1] - first;
-    const auto kept = predicted.known.keep.segment(first, length).cast<double>();
+    const auto kept = predicted.covered.keep.segment(first, length).cast<double>();
     errors[block] = (squares.segment(first, length) * kept).sum() / std::max(kept.sum(), 1.0);
   }
   return errors;

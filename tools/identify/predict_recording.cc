@@ -116,7 +116,7 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Th
   }
   Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}};
   // samples that all parts of the model know
-  const Selection& known = predicted.torque.known;
+  const Selection& known = predicted.torque.covered;
   if (known.count() == 0) {
     Refuse({m.source}, "no sample can be compared: {} of {} samples {}{}", view.selection.count(),
            m.size(), stored.model.inertia ? "move clearly" : "move at a constant speed",
@@ -149,7 +149,7 @@ std::string PredictedToCsv(const Predicted& predicted) {
   for (const Eigen::Index i : m.Logged()) {
     csv += fmt::format("{},{},{},{},{},{},{},{:d}\n", m.time[i], m.position[i], m.velocity[i],
                        m.torque[i], torque.torque[i], m.torque[i] - torque.torque[i],
-                       torque.friction.energy[i], torque.known.keep[i]);
+                       torque.friction.energy[i], torque.covered.keep[i]);
   }
   return csv;
 }

@@ -109,7 +109,7 @@ nb::dict PredictInPython(nb::handle estimate, const Log& log, const std::vector<
   dict["time"] = column(predicted.measurements.time);
   dict["torque"] = column(predicted.torque.torque);
   dict["energy"] = column(predicted.torque.friction.energy);
-  dict["compared"] = column(predicted.torque.known.keep.cast<double>().matrix());
+  dict["compared"] = column(predicted.torque.covered.keep.cast<double>().matrix());
   dict["metrics"] = FieldsToPython(predicted.metrics);
   return dict;
 }

@@ -36,7 +36,7 @@ struct LogSamples : Measurements {
   std::optional<std::vector<LogGap>> gaps;
 
   /// Samples that were not logged but put in, ascending (InsertSamples).
-  std::vector<Eigen::Index> put_in;
+  std::vector<Eigen::Index> inserted;
 
   /// The list of recordings: where the samples of each stand. [R >= 1]
   std::vector<SampleRange> Recordings() const;

@@ -80,7 +80,7 @@ TEST(Apply, MovesFrictionAtASpeedByWhatParametersDoTogether) {
   const Inference left = Apply(inference, {{.without_speed = {0}}});
   ASSERT_EQ(left.at_speeds.size(), 1u);
   EXPECT_EQ(left.at_speeds[0].at.speed, 1);
-  EXPECT_TRUE(Apply(inference, {Voids(Status::bad_data, "faulty")}).at_speeds.empty());
+  EXPECT_TRUE(Apply(inference, {Invalidate(Status::bad_data, "faulty")}).at_speeds.empty());
 }
 
 TEST(Apply, TellsPartsThatAddUpToTheHalfWidth) {
@@ -210,7 +210,7 @@ TEST(BeyondBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
   EXPECT_EQ(judged.Judge().status, Status::ok);
 }
 
-TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
+TEST(EnforceBounds, HoldsWhatNoisePutsBeyond) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
   Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
   int held = 0, voided = 0, covered = 0;

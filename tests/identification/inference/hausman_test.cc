@@ -119,13 +119,13 @@ TEST(StructureCause, LetsIntervalsReachAsFarAsTheWhitenedFit) {
   const Inference inference = Infer(fit);
   EXPECT_EQ(inference.warnings.size(), 1u);
   const ParameterInterval& coulomb = inference.parameters[0];
-  const double reach = StudentQuantile(before.known.degrees_of_freedom, kIntervalLevel) * 0.2;
+  const double reach = StudentQuantile(before.uncertainty.degrees_of_freedom, kIntervalLevel) * 0.2;
   EXPECT_DOUBLE_EQ(coulomb.value, 15);
   EXPECT_NEAR(coulomb.HalfWidth(), before.parameters[0].HalfWidth() + reach, 1e-12);
   EXPECT_EQ(coulomb.parts.back().by, Source::structure);
   EXPECT_NEAR(coulomb.parts.back().half_width, reach, 1e-12);
   // noise stays noise
-  EXPECT_EQ(inference.known.covariance, before.known.covariance);
+  EXPECT_EQ(inference.uncertainty.covariance, before.uncertainty.covariance);
 }
 
 TEST(StructureCause, IsOfTheValueOfALogarithm) {

@@ -113,7 +113,7 @@ TEST(PreparedLog, KnowsWhichSamplesWereLogged) {
   const Measurements m = test::Carried({.rate = 10, .acceleration = 5}).log;
   for (const PreparedLog& log : {Prepare(m), Prepare(std::vector{m, m})}) {
     const LogSamples& all = log.constant_speed().measurements;
-    ASSERT_FALSE(all.put_in.empty());
+    ASSERT_FALSE(all.inserted.empty());
     EXPECT_EQ(Eigen::VectorXd(all.time(all.Logged())), log.raw().measurements.time);
   }
 }

@@ -135,7 +135,7 @@ TEST(RobotJoint, JointsTogetherTellWhatTheDescriptionHasWrong) {
     // as sure as either alone at least
     for (const JointFit& fit : fits) {
       const Slice& at = fit.at.given.z;
-      const VectorXd alone = fit.known.covariance.diagonal().segment(at.begin, at.size);
+      const VectorXd alone = fit.uncertainty.covariance.diagonal().segment(at.begin, at.size);
       EXPECT_LT(shared.covariance.diagonal().sum(), 1.1 * alone.sum());
     }
   }
