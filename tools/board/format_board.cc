@@ -45,7 +45,7 @@ std::string TablesAndNotes(const Leaderboard& board, std::string (*write)(const 
   // variants beside each other, where there are some
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
-    text += fmt::format("Rms NPE in each variant, beside the bound:\n\n{}\n", write(groups, 1));
+    text += fmt::format("Rms NPE in each variant, and the bound:\n\n{}\n", write(groups, 1));
   }
   text += write(AgreementTable(board), board.groups.empty() ? 1 : 2) + "\n";
   const Table parameters = ParameterTable(board);

@@ -21,10 +21,10 @@ inline constexpr std::array kClaimFigures{
     ClaimFigure{"npe_discrete", "", "the same over ke and te"},
     ClaimFigure{"rmse", "N.m", "root mean square of the residual"},
     ClaimFigure{"mae", "N.m", "mean of its size"},
-    ClaimFigure{"fit", "%", "share of the torque that the fit tells"},
+    ClaimFigure{"fit", "%", "share of the torque that the fit explains"},
     ClaimFigure{"fpe", "(N.m)^2", "final prediction error"}};
 
-/// What another source claims for a row of the leaderboard, printed beside ours.
+/// What another source claims for a row of the leaderboard, printed next to ours.
 struct Claim {
   std::string source;
   std::map<std::string, double> figures;  // by their names in kClaimFigures
