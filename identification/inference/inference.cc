@@ -35,10 +35,10 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
 ParameterInterval KnownWithin(FitParameter row, double deviation, double quantile) {
   const double held = row.value;
   row.value -= row.moved;
-  ParameterInterval uncertainty = Known(row, deviation, quantile);
-  if (!IsNominal(row.role) || (held != row.lower && held != row.upper)) return uncertainty;
-  for (double& end : *uncertainty.interval95) end = std::clamp(end, row.lower, row.upper);
-  return uncertainty;
+  ParameterInterval estimated = Known(row, deviation, quantile);
+  if (!IsNominal(row.role) || (held != row.lower && held != row.upper)) return estimated;
+  for (double& end : *estimated.interval95) end = std::clamp(end, row.lower, row.upper);
+  return estimated;
 }
 
 /// One for each row of the table; those that were given, or that noise does not tell, have none.

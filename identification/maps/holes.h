@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "identification/forward/log_trajectory.h"
+
 namespace warmjoint {
 
 /// Kernels along the first axis: weight k lies at index k / stride of the line k % stride.

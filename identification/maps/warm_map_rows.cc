@@ -6,6 +6,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/maps/local_rows.h"
 
 namespace warmjoint {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
+#include "identification/forward/log_trajectory.h"
 #include "identification/identifier.h"
 #include "identification/layout.h"
 #include "identification/linear/linear_laws.h"
