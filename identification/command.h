@@ -17,11 +17,11 @@ struct IdentifyCommand {
   /// With one setting more.
   IdentifyCommand With(std::string_view key, std::string_view value) const;
   bool Sets(std::string_view key) const;
-  /// "NAME --set KEY=VALUE ...", behind --identifier.
+  /// "NAME --set KEY=VALUE ...", as it follows --identifier.
   std::string Text() const;
 };
 
-/// What helps: words, or the command that follows them.
+/// A remedy: words, or words and the command that follows them.
 struct Remedy {
   std::string words;
   std::optional<IdentifyCommand> command{};

@@ -14,7 +14,7 @@ namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
-/// A file as it is called from the folder of another one; as it is where it is no file of a folder.
+/// The path of a file relative to the folder of another one; as it is where it is not a regular file.
 std::string SeenFrom(const fs::path& file, const fs::path& other) {
   std::error_code ignored;
   if (other.empty() || IsStandardOutput(other) || !fs::is_regular_file(file, ignored)) return file;
@@ -22,8 +22,8 @@ std::string SeenFrom(const fs::path& file, const fs::path& other) {
   return relative.empty() ? file : relative;
 }
 
-/// Where a file lies that another one names: seen from its folder, or as it is, or beside it; its name where
-/// it is nowhere.
+/// The path of a file that another one names: relative to the other's folder, or as it is written, or next to the other. The
+/// name as it is written where there is no such file.
 std::string Found(const fs::path& name, const fs::path& other) {
   const fs::path folder = other.parent_path();
   for (const fs::path& path : {folder / name, name, folder / name.filename()}) {
@@ -33,7 +33,7 @@ std::string Found(const fs::path& name, const fs::path& other) {
   return name;
 }
 
-/// Calls each file that an estimate tells of as `name` does, beside the estimate's own.
+/// Names each file of an estimate's recording as `name` does. own: the estimate's own file
 void NameFiles(std::string (*name)(const fs::path& file, const fs::path& own), const fs::path& own,
                Estimate& estimate) {
   if (!estimate.recording) return;

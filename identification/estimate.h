@@ -10,7 +10,7 @@ namespace warmjoint {
 /// The estimate as a file in `target`'s folder has it; empty: recordings are named as they are.
 Tree EstimateToTree(Estimate estimate, const std::filesystem::path& target = {});
 
-/// EstimateFromJson and ReadEstimate of what was parsed.
+/// The common part of EstimateFromJson and ReadEstimate, after parsing.
 Estimate EstimateFrom(const Node& node);
 
 }  // namespace warmjoint

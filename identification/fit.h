@@ -1,4 +1,4 @@
-// What an identifier returns: the fitted model as a value, with all that later steps read.
+// The result of an identifier: the fitted model as a value, with all that later steps read.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -22,17 +22,17 @@ namespace warmjoint {
 
 class IdentifierInput;
 
-/// What a parameter is part of.
+/// The part of the model to which a parameter belongs.
 enum class Role { law, load, heat, start, jump, gravity, inertia, lag, delay };
 
-/// Whether it is part of Fn, the friction of a cold joint: law and load, whose values have physical bounds.
+/// Whether a role is part of Fn, the friction of a cold joint: law and load, whose values have physical bounds.
 inline bool IsNominal(Role role) { return role == Role::law || role == Role::load; }
 
 /// The coordinate x in which a fit works, and the one whose errors are about normal: the value for
 /// both, the logarithm of a positive value for both, or x the value and its logarithm normal.
 enum class Coordinate { value, logarithm, positive };
 
-/// One row of a fit's table of parameters. The name stands in estimate.json.
+/// One row of a fit's table of parameters. The name is that in estimate.json.
 struct FitParameter {
   std::string name;
   Role role = Role::law;
@@ -41,8 +41,8 @@ struct FitParameter {
   Coordinate coordinate = Coordinate::value;
   double lower = -kInfinity, upper = kInfinity;  // physical bounds of the value
   bool estimated = true;          // has a column of the Jacobian; else its value was given
-  bool has_interval = true;       // false where only a prior or an option tells it
-  int displacement_power = 0;     // of rad or m in the unit, beside the torque's
+  bool has_interval = true;       // false where only a prior or an option determines it
+  int displacement_power = 0;     // of rad or m in the unit, in addition to the unit of torque
   int time_power = 0;             // of s
   LawPart part = LawPart::other;  // of a row of the law
   double moved = 0;  // of the value, by the row that holds others at a bound (HoldActiveBounds)
@@ -51,20 +51,20 @@ struct FitParameter {
   double ValueByCoordinate(double at) const { return coordinate == Coordinate::logarithm ? at : 1; }
 };
 
-/// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with what a method
-/// changes of it.
+/// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with the changes by the
+/// method of the fit.
 struct ErrorModel {
   Eigen::MatrixXd cofactor;  // [p x p] C, the inverse of what the fit solved
   Eigen::VectorXd prior;     // [p] what is known beforehand (uncertainty.h); or empty
   Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss or a lag; or empty
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
-  /// Of the rows that the fit solved, and with which C is; or none.
+  /// The whitening of the rows that the fit solved, of which C is; or none.
   std::shared_ptr<const Whitening> whitening;
   /// Covariance of the table's estimated rows, of a fit whose errors follow from more than its table; or not set.
   std::function<Uncertainty()> covariance;
 };
 
-/// Where a fit stood after an iteration.
+/// The state of a fit after an iteration.
 struct Iterate {
   int iteration = 0;
   std::vector<double> values;  // of the table's first rows, in its order; NaN where not known
@@ -79,11 +79,11 @@ struct FittedLag {
   Eigen::VectorXd adds;      // [N] to F + G at the kept samples, N.m or N; 0 elsewhere
 };
 
-/// Why there is no fit to trust.
+/// Why a fit is refused.
 struct Refusal {
   Status status = Status::not_identifiable;
   std::string message;
-  /// The friction about which a fit did not come to rest: the report adds what the log lacks to show it.
+  /// The kind of friction for which a fit did not converge: the report adds what the log lacks to show it.
   std::optional<FrictionKind> unconverged{};
 };
 
@@ -91,52 +91,52 @@ struct Refusal {
 struct EndEnergy {
   double value = 0;  // N.m or N
   Eigen::VectorXd
-      slopes;  // [m <= p] dE/dx by the first m estimated rows, all that it depends on; exact
+      slopes;  // [m <= p] dE/dx by the first m estimated rows, on which alone it depends; exact
 };
 
 /// A fit of the model F + G + M a to the samples that `used` keeps.
 struct Fit {
   std::string identifier;
   std::optional<Refusal> refusal;  // then nothing else is known but the trace
-  std::string summary;             // what was done: a clause that begins the message
-  /// What else is to be said of it, and what makes its numbers mean nothing or leaves them without intervals.
+  std::string summary;             // summary of the fit: a clause that begins the message
+  /// Remarks on the fit, and causes that invalidate its numbers or leave them without intervals.
   std::vector<Cause> causes;
 
   // the model
   Friction friction;  // law, warming and maps, whatever their bounds
   std::optional<GravityModel> gravity;
   std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
-  /// [N] M a where the fit made its own a of the velocities, N.m or N; else empty.
+  /// [N] M a where the fit computed its own a from the velocities, N.m or N; else empty.
   Eigen::VectorXd inertia_torque;
   std::optional<FittedLag> torque_lag;  // where the log showed one and it was fitted
-  /// By how much the torque is late beside the motion, s: the model follows the motion at t less that (Delayed).
+  /// By how much the torque is late relative to the motion, s: the model follows the motion at t less that (Delayed).
   std::optional<double> torque_delay{};
   double initial_energy = 0;  // E(0), N.m or N
   /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
   /// estimated; else empty.
   std::vector<double> first_friction;
   std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
-  /// Standard error of E at the end of the log, N.m or N, of a fit whose table does not hold all that
-  /// E depends on, as the weights of maps; else not set: it follows from the table.
+  /// Standard error of E at the end of the log, N.m or N, of a fit whose table lacks something that
+  /// E depends on, such as the weights of maps; else not set, since it follows from the table.
   std::optional<double> end_energy_std;
-  /// E at the end of the log by the fit's own recursion; or not set: the report finds it along the motion.
+  /// E at the end of the log by the fit's own recursion; or not set, so that the report computes it along the motion.
   std::function<EndEnergy()> end_energy;
   std::vector<FitParameter> parameters;  // [P]; those estimated come in the order of x
 
   // what it was fitted to, and how well
   Selection used;
   Eigen::VectorXd torque;  // [n] measured, N.m or N
-  Eigen::VectorXd fitted;  // [n] F + G + M a, behind the lag where there is one, N.m or N
+  Eigen::VectorXd fitted;  // [n] F + G + M a, after the lag where there is one, N.m or N
   /// d(F + G + M a)/dx over all samples, [N x p], exact; of a fit whose errors.covariance is not set.
   std::function<Eigen::MatrixXd()> jacobian;
   ErrorModel errors;
   int count = 0;                    // of parameters, kernels included
   double effective_parameters = 0;  // trace of the hat matrix
-  std::optional<double> loss_bend;  // where a robust loss bends, N.m or N
+  std::optional<double> loss_bend;  // from which residual on a robust loss is linear, N.m or N
   std::vector<MapBand> bands;       // one for each of the friction's maps
   /// Of each band, the derivatives of its values by the law's parameters, [g x d].
   std::vector<Eigen::MatrixXd> bands_by_law;
-  /// Of law and maps, by noise; of a law alone they follow from its parameters.
+  /// The friction of law and maps at speeds, with intervals by noise; without maps it follows from the law's parameters.
   std::vector<FrictionAtSpeed> friction_at_speeds;
   std::vector<Iterate> trace;
 
@@ -157,7 +157,7 @@ struct Fit {
 /// (J^T J + P)^-1 of a fit's Jacobian J at the samples that it used, whitened where the fit was, and its prior P. [p x p]
 Eigen::MatrixXd CofactorOf(const Fit& fit);
 
-/// No fit: its status and one sentence.
+/// A refused fit: its status and one sentence.
 Fit Refused(std::string identifier, Refusal refusal);
 Fit Refused(std::string identifier, Status status, std::string message);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLargest = 1e75;  // why: its fourth power, a squared power, is a double
 
-/// Complains of the first number in `values` that is not finite.
+/// A sentence about the first number in `values` that is not finite, if there is one.
 std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
@@ -60,7 +60,7 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
         count, m.size(), parameters);
   }
 
-  // a torque that never changes tells nothing
+  // a torque that never changes shows nothing
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   if (torque.maxCoeff() == torque.minCoeff()) {
     return fmt::format("torque is constant at {} {}; is it the right column?", torque[0],

@@ -1,4 +1,4 @@
-// What every identifier does first: look at the data, and say what they lack.
+// The first step of every identifier: checks of the data, with a sentence on what they lack.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& given,
 /// `parameters`, or a constant torque. Empty where the data can be used.
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);
 
-/// Names of the columns that cannot be told apart, and the motion that would: one sentence.
+/// Names of the columns that cannot be distinguished, and the motion that would distinguish them: one sentence.
 /// mixed: names of law parameters.
 std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& measurements,
                        const Selection& selection);

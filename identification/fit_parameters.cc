@@ -35,8 +35,8 @@ constexpr ParameterInfo kTorqueDelayInfo{kTorqueDelayName,
                                          0,
                                          "by how much the torque is late against the motion"};
 
-/// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
-/// stands for the torque.
+/// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where the log has a current
+/// in place of the torque.
 std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
   const std::string_view table = info.unit.For(measurements.joint);
   const std::string_view torque = kTorqueUnit.For(measurements.joint);

@@ -30,7 +30,7 @@ std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measureme
 /// initial_energy: E(0), N.m or N.
 FitParameter StartParameter(double energy, const Measurements& measurements);
 
-/// A change of E that no logged loss tells, by its name (JumpNames). energy: N.m or N
+/// A change of E that no logged loss explains, by its name (JumpNames). energy: N.m or N
 FitParameter JumpParameter(std::string name, double energy, const Measurements& measurements);
 
 /// gravity_sine and gravity_cosine, or gravity_offset; of `paired`, whose knots are many, rows
@@ -47,18 +47,18 @@ FitParameter TorqueLagParameter(double time_constant, const Measurements& measur
 /// torque_delay: by how much the torque is late against the motion, s.
 FitParameter TorqueDelayParameter(double delay, const Measurements& measurements);
 
-/// Puts rows behind those of the fit's table.
+/// Appends rows to those of the fit's table.
 void Append(const std::vector<FitParameter>& rows, Fit& fit);
 
 /// The law with its values and load_gain, where there is one value more, and nothing else. values: [d] or [d + 1]
 Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
                     const Measurements& measurements);
 
-/// Gives a friction the value of a row of law, load or heat; of the two rows of heat, the time constant is told by its
-/// logarithm. Other rows are none of its own.
+/// Gives a friction the value of a row of law, load or heat; of the two rows of heat, the time constant is the one whose
+/// coordinate is the logarithm. Other rows change nothing.
 void SetFriction(const FitParameter& row, double value, Friction& friction);
 
-/// Fn's parameters of a fit's friction, as LawParameters takes them: load_gain behind the law's where the fit holds it.
+/// Fn's parameters of a fit's friction, as LawParameters takes them: load_gain after the law's where the fit has it.
 std::vector<double> NominalValues(const Fit& fit);
 
 /// The which-th parameter with such a role, or nullptr.

@@ -30,7 +30,7 @@ struct GravityFields {
     a->Field("offset", &offset, {.unit = "N.m"});
     a->Field("position", &position, {.unit = "rad", .at_default = left_out});
     a->Field("torque", &torque, {.unit = "N.m", .at_default = left_out});
-    // what a kind needs
+    // the members that a kind needs
     const bool sincos = kind == GravityKind::sincos, paired = kind == GravityKind::paired;
     a->Require(sincos, "sine", kGiveNumber);
     a->Require(sincos, "cosine", kGiveNumber);
@@ -91,7 +91,7 @@ Eigen::MatrixXd GravityColumns(GravityKind kind, const std::vector<int>& knots,
     const int knot = CellOf(position[i]);
     const double cells = position[i] / kKnotSpacing, share = cells - std::floor(cells);
     const Eigen::Index below = IndexOf(knots, knot), above = IndexOf(knots, knot + 1);
-    // beside a knot that is missing nothing is known of the torque
+    // next to a knot that is missing nothing is known of the torque
     if (below < 0 || above < 0) continue;
     columns(i, below) += 1 - share;
     columns(i, above) += share;

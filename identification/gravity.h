@@ -1,4 +1,4 @@
-// Gravity along a joint, G(p) of Eq. (6), as identification finds it.
+// Gravity along a joint, G(p) of Eq. (6), as identification estimates it.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -21,7 +21,7 @@ int CellOf(double position);
 void ReadValue(const Node& node, GravityModel* value, const FieldInfo& info);
 Tree WriteValue(const GravityModel& value);
 
-/// dG/dg at each position, one column for each value. A position beside the knots has zeros.
+/// dG/dg at each position, one column for each value. A position outside of the knots has zeros.
 /// position: [N] rad or m; returns [N x m].
 Eigen::MatrixXd GravityColumns(GravityKind kind, const std::vector<int>& knots,
                                const Eigen::VectorXd& position);

@@ -1,4 +1,4 @@
-// What an identifier is, and what it may look at.
+// An identifier, and the data that it may use.
 #pragma once
 
 #include <warmjoint/prepared_log.h>
@@ -14,20 +14,20 @@
 
 namespace warmjoint {
 
-/// Told what is being tried, for people who wait; may be empty.
+/// Is called with what is being tried, for people who wait; may be empty.
 using Narrator = std::function<void(const std::string& words)>;
 
-/// How a fit looks at a log, and which of its samples it sees.
+/// The form in which a fit gets a log, and which of its samples.
 enum class View {
   constant_speed,  // PreparedLog::constant_speed: sliding at constant speeds, tau = G + F, Eq. (6)
   raw,  // PreparedLog::raw: changes of speed too, tau = M a + G + F, Eq. (5), from sample to sample
-  moving,  // PreparedLog::moving: all that moves clearly, with its acceleration, Eq. (5)
+  moving,  // PreparedLog::moving: all samples at which the joint clearly moves, with its acceleration, Eq. (5)
 };
 
 /// The samples of a log as a view shows them; those of `moving` are made when they are first asked for.
 const LogView& SeenThrough(View view, const PreparedLog& log);
 
-/// Everything an identifier may look at. Refers to the log's samples, which must outlive it.
+/// Everything that an identifier may use. Refers to the log's samples, which must outlive it.
 class IdentifierInput {
  public:
   IdentifierInput(PreparedLog given, const Options& given_options, StartKey key,
@@ -35,7 +35,7 @@ class IdentifierInput {
       : IdentifierInput(given, View::constant_speed, given.constant_speed(), given_options, key,
                         std::move(listener)) {}
 
-  /// Tells what is being tried, where someone listens.
+  /// Reports what is being tried, where there is a listener.
   void Tell(const std::string& words) const {
     if (narrator) narrator(words);
   }
@@ -90,7 +90,7 @@ struct Identifier {
   Options options;  // at their defaults
   /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw.
   Fit (*fit)(const IdentifierInput& input);
-  /// Through which it learns, unless its option `motion` asks for another.
+  /// The view to which it is fitted, unless its option `motion` asks for another.
   View view = View::constant_speed;
   std::string earlier_name{};  // by which it is still found; or empty
 

@@ -1,4 +1,4 @@
-// Where the unknowns of a fit stand in its vector x: the one index arithmetic of fits of law and heat, with maps or gravity,
+// The places of a fit's unknowns in its vector x: the one index arithmetic of fits of law and heat, with maps or gravity,
 // of those of Stribeck and LuGre, and of filters.
 #pragma once
 
@@ -12,16 +12,16 @@
 
 namespace warmjoint {
 
-/// Unknowns that stand together in x.
+/// Unknowns that are contiguous in x.
 struct Slice {
   Eigen::Index begin = 0, size = 0;
 
   constexpr Eigen::Index end() const { return begin + size; }
-  /// Of a vector over x. [size]
+  /// This part of a vector over x. [size]
   Eigen::VectorXd Of(const Eigen::VectorXd& x) const { return x.segment(begin, size); }
   /// The same to be written to.
   auto In(Eigen::VectorXd& x) const { return x.segment(begin, size); }
-  /// Of a matrix over x and x. [size x size]
+  /// This part of a matrix over x and x. [size x size]
   Eigen::MatrixXd Block(const Eigen::MatrixXd& of) const {
     return of.block(begin, begin, size, size);
   }
@@ -33,7 +33,7 @@ struct Layout {
   Slice shape;    // of a law whose level falls: log(vs); with a bristle log(sigma0), sigma1, too
   Slice heat;     // gain and log(tau)
   Slice start;    // E(0) of the first recording; E now in a filter
-  Slice jumps;    // changes of E that no logged loss tells, at gaps and further starts
+  Slice jumps;    // changes of E that no logged loss explains, at gaps and further starts
   Slice rigid;    // gravity and inertia
   Slice weights;  // of the kernels of maps
 
@@ -42,7 +42,7 @@ struct Layout {
     Slice Layout::*part;
     Eigen::Index size;
   };
-  /// With these parts in this order.
+  /// A layout with these parts in this order.
   static constexpr Layout InOrder(std::initializer_list<Part> parts) {
     Layout layout;
     Eigen::Index next = 0;
@@ -75,7 +75,7 @@ struct Layout {
     return {x[gain()], std::exp(x[log_time_constant()])};
   }
 
-  /// Where the unknowns of another order of the same parts stand here. [size]
+  /// The places here of the unknowns of another order of the same parts. [size]
   std::vector<Eigen::Index> PlacesOf(const Layout& other) const {
     std::vector<Eigen::Index> places(static_cast<size_t>(size()));
     for (const auto part : {&Layout::law, &Layout::shape, &Layout::heat, &Layout::start,

@@ -1,7 +1,7 @@
 // Options of identifiers, `--set key=value`, as typed values.
 //
-// A struct of options has the name, bounds and meaning of each beside it (serialize.h). An identifier has groups of them, of
-// which others share some:
+// A struct of options states the name, bounds and meaning of each in its Serialize (serialize.h). An identifier has groups of
+// options, some of which it shares with others:
 //
 //   struct KalmanOptions {
 //     int passes = 10;
@@ -50,7 +50,7 @@ struct OptionRange {
 void ReadValue(const Node& node, OptionRange* value, const FieldInfo& info);
 Tree WriteValue(const OptionRange& value);
 
-/// A type whose values have words: an enum, or a struct that stands for one of a list.
+/// A type whose values have words: an enum, or a struct that represents one of a list.
 template <typename E>
 concept HasWords = requires(const E& value) {
   { WordsOf(value) } -> std::same_as<std::span<const Word<E>>>;
@@ -115,12 +115,12 @@ struct OptionGroups : Groups... {
   }
 };
 
-/// An identifier's options, whichever it has. Cheap to copy.
+/// The options of any identifier. Cheap to copy.
 class Options {
  public:
   template <Described T>
   Options(const T& options) : held_(std::make_shared<HeldAs<T>>(options)) {}  // NOLINT
-  /// None.
+  /// No options.
   Options() : Options(OptionGroups<>{}) {}
 
   /// A group of them; null where they have none of that type.
@@ -151,12 +151,12 @@ class Options {
     return other;
   }
 
-  /// These options with what texts say of some of them. Throws BadInput from `place` for an unknown name, with the nearest,
-  /// and for values that are not allowed.
+  /// These options, some of them replaced by the values in texts. Throws BadInput from `place` for an unknown name, with the
+  /// nearest, and for values that are not allowed.
   Options Read(const std::map<std::string, std::string>& given, const Place& place = {}) const;
 
   std::vector<OptionInfo> List() const { return held_->List(); }
-  /// The texts of what is not at its default, by name.
+  /// The texts of the options that are not at their defaults, by name.
   std::map<std::string, std::string> Changed() const;
 
  private:
@@ -180,7 +180,7 @@ class Options {
   std::shared_ptr<const Held> held_;
 };
 
-/// What texts give by name, for readers of fields; refusals name the place.
+/// Values in texts by name, for readers of fields; refusals name the place.
 Node NodeOf(const std::map<std::string, std::string>& given, const Place& place);
 
 }  // namespace warmjoint

@@ -26,7 +26,7 @@ const LogView& SeenThrough(View view, const PreparedLog& log) {
 }
 
 IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input) {
-  // of a whole log, what is absurd pulls no less at a loss that bounds its pull than others do
+  // where the loss bounds the influence of a sample, an absurd one still has as much influence as others, so it is left out of a whole log
   const bool is_bounded = input.options.OrDefault<LossOption>().loss == LossKind::huber;
   const PreparedLog& bounded = is_bounded ? input.log.WithoutAbsurd() : input.log;
   if (&bounded != &input.log && &input.selection == &input.log.constant_speed().selection) {

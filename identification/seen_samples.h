@@ -1,4 +1,4 @@
-// The samples of a log that an identifier learns from, and the options that say which.
+// The samples of a log to which an identifier is fitted, and the options that select them.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -23,7 +23,7 @@ struct MotionOption {
   }
 };
 
-/// What a fit minimises over the residuals.
+/// The loss of the residuals that a fit minimises.
 enum class LossKind { squares, huber };
 inline std::span<const Word<LossKind>> WordsOf(LossKind) {
   static constexpr std::array words{Word{"squares", LossKind::squares},
@@ -31,7 +31,7 @@ inline std::span<const Word<LossKind>> WordsOf(LossKind) {
   return words;
 }
 
-/// The option of an identifier that can do with outliers.
+/// The option of an identifier that can fit data with outliers.
 struct LossOption {
   LossKind loss = LossKind::squares;
 
@@ -42,13 +42,13 @@ struct LossOption {
   }
 };
 
-/// The input with the samples that the identifier learns from: those of its view; of one that has the
-/// option `motion`, all that move where that asks for them, or where the log shows no constant speeds.
+/// The input with the samples to which the identifier is fitted: those of its view; of one that has the
+/// option `motion`, all samples at which the joint moves where that asks for them, or where the log shows no constant speeds.
 IdentifierInput SelectSamples(const Identifier& identifier, const IdentifierInput& input);
 
-/// The samples of a log beside which a model is laid: with an inertia all that move, whatever for. Without one it depends
-/// on that: those of its identifier's view, to see how well that fits others; at constant speed, to compare torques; raw,
-/// to show the log or to score the model on it. inertia: of the model; otherwise: the view of one that has none
+/// The samples of a log with which a model is compared. With an inertia they are all at which the joint moves. Without one they
+/// depend on the purpose: those of its identifier's view, to see how well it fits other logs; at constant speed, to compare
+/// torques; raw, to show the log or to score the model on it. inertia: of the model; otherwise: the view of one that has none
 const LogView& SeenByModel(const std::optional<double>& inertia, View otherwise,
                            const PreparedLog& log);
 

@@ -15,7 +15,7 @@ constexpr double kAlike =
 constexpr int kRounds = 5;  // why: from the edge of kAlike to the middle of what is within
 constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lies about either
 
-/// Mean of the speeds about one of them, from there on to where they gather. rad/s or m/s
+/// Mean of the speeds about one of them, moved on to the place where the speeds gather. rad/s or m/s
 double Gathered(double speed, const Eigen::VectorXd& speeds) {
   for (int round = 0; round < kRounds; ++round) {
     const auto near = speeds.array() >= speed / kAlike && speeds.array() <= speed * kAlike;
@@ -42,7 +42,7 @@ std::vector<SpeedGroup> TypicalSpeeds(const Eigen::VectorXd& velocity) {
     double latest = 0;
     for (const double quantile : {kSlow, 0.5, kFast}) {
       const double speed = Gathered(QuantileInPlace(speeds, quantile), speeds);
-      // a joint that knows one speed has one figure
+      // a joint that moves at one speed has one figure
       if (latest > 0 && !(speed > latest * kAlike)) continue;
       latest = speed;
       SpeedGroup& group = all.emplace_back(SpeedGroup{direction * speed, {}});

@@ -1,4 +1,4 @@
-// The speeds at which an answer tells its friction.
+// The speeds at which an answer reports its friction.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,14 +6,14 @@
 
 namespace warmjoint {
 
-/// Samples that move about as fast in one direction.
+/// Samples of about the same speed in one direction.
 struct SpeedGroup {
   double velocity = 0;  // their mean, rad/s or m/s; below 0: backwards
   std::vector<Eigen::Index> samples;
 };
 
 /// A low, the median and a high speed of each direction, forwards first: those about which the samples gather, within a fifth,
-/// that are at 5, 50 and 95 % of |v|. One that is near another stands once: a joint that knows one speed has one.
+/// that are at 5, 50 and 95 % of |v|. Speeds that are near each other count once: a joint that moves at one speed has one.
 /// velocity: [n] rad/s or m/s of the samples that count
 std::vector<SpeedGroup> TypicalSpeeds(const Eigen::VectorXd& velocity);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMaxSteps = 100;
 constexpr double kLongestStep = 1.0;  // in ln tau
-constexpr double kLastStep = 1e-6;    // in ln tau; what a Newton step leaves is its square
+constexpr double kLastStep = 1e-6;  // in ln tau; the error after a Newton step is about its square
 constexpr double kGridPerDecade = 8.0;
 
 }  // namespace
@@ -144,7 +144,7 @@ Eigen::MatrixXd BlockDescent::Jacobian(const DescentState& state) const {
   const Eigen::Index d = columns_.cols();
   Eigen::MatrixXd jacobian(columns_.rows(), d + 2);
   jacobian.leftCols(d) = columns_;
-  // the heat is linear in the gain; the time constant stands by its logarithm
+  // the heat is linear in the gain; the time constant is represented by its logarithm
   const auto& [gain, time_constant] = state.thermal;
   output_error_.filter().ForEach(time_constant, output_error_.loss(),
                                  [&](Eigen::Index i, const UnitEnergy& energy) {

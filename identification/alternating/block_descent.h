@@ -51,12 +51,12 @@ class OutputError {
   Eigen::VectorXd loss_;  // [N] W
   Eigen::VectorXd kept_;  // [N] 1 where a sample is kept, else 0
   // time constants that are tried, s: a tenth of a step, and 100 times the recording; beyond them the
-  // samples cannot tell one from another
+  // samples cannot distinguish one from another
   double shortest_;
   double longest_;
 };
 
-/// Where the loop stands.
+/// The state of the loop after an iteration.
 struct DescentState {
   Eigen::VectorXd nominal;  // [d] parameters of Fn
   Thermal thermal;
@@ -65,18 +65,18 @@ struct DescentState {
 };
 
 /// Algorithm 1 of the paper, on samples with losses W = |(tau - G) v| (19). Only samples that are
-/// kept and move take part in the fits of (22) and (24); the filter runs over all.
+/// kept and in motion take part in the fits of (22) and (24); the filter runs over all.
 class BlockDescent {
  public:
   /// columns: [N x d] regressor of Fn + G over all samples; cofactor: [d x d] (A^T A)^-1 of the
-  /// kept moving ones, with the prior's strength where there are kernels; gravity: [N] G, which
+  /// kept ones in motion, with the prior's strength where there are kernels; gravity: [N] G, which
   /// makes no heat, N.m or N.
   BlockDescent(const LogSamples& measurements, const Selection& moving,
                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                const Eigen::VectorXd& gravity);
 
-  /// Iteration 0: E = H0 W, then Fn by (24), from no shorter a time constant than is tried. H0 acts
-  /// first, because a start from plain least squares would throw it away.
+  /// Iteration 0: E = H0 W, then Fn by (24), from a time constant that is not shorter than those tried. H0 is used
+  /// first, because a start from plain least squares would not depend on it.
   DescentState Start(Thermal start) const;
 
   /// One iteration from `state`: E by (23), H by output error, E = H W, Fn by (24).
@@ -98,7 +98,7 @@ class BlockDescent {
   Eigen::VectorXd MeasuredEnergy(const Eigen::VectorXd& nominal) const;
   DescentState WithNominal(const Thermal& thermal, bool inside) const;
 
-  // rows of samples that are not kept, or do not move, are 0
+  // rows of samples that are not kept, or not in motion, are 0
   Eigen::VectorXd sign_;     // [N]
   Eigen::VectorXd torque_;   // [N] N.m or N
   Eigen::MatrixXd columns_;  // [N x d]

@@ -63,7 +63,7 @@ class Envelope {
     windows_.resize(used);
   }
 
-  /// Up to the first window that holds no kept sample: what follows a long rest is colder again.
+  /// The windows up to the first one without a kept sample, since after a long rest the joint is colder again.
   const std::vector<Window>& windows() const { return windows_; }
   double width() const { return width_; }  // s
   double noise() const { return noise_; }  // standard deviation of a window's level, N.m or N
@@ -99,7 +99,7 @@ class Envelope {
     Spread spread;
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       if (!selection.keep[i]) continue;
-      // what is left of the window's own means
+      // deviations from the window's own means
       const Window& window = windows_[IndexOf(m, i)];
       const double speed = std::abs(m.velocity[i]) - window.speed;
       const double torque = Sign(m.velocity[i]) * m.torque[i] - window.torque;
@@ -123,7 +123,7 @@ double Mean(const std::vector<Window>& windows, double Window::*member, size_t b
   return sum / static_cast<double>(end - begin);
 }
 
-/// Time after which the level has made 63 % of its way, s, between the centres of two windows.
+/// Time after which the level has made 63 % of its change, s, interpolated between the centres of two windows.
 double TimeTo63(const Envelope& envelope, double cold, double settled) {
   const std::vector<Window>& windows = envelope.windows();
   const auto share = [&](size_t i) { return (windows[i].level - cold) / (settled - cold); };
@@ -134,7 +134,7 @@ double TimeTo63(const Envelope& envelope, double cold, double settled) {
   return envelope.width() * (static_cast<double>(i) - 0.5 + part);
 }
 
-/// For people to look at.
+/// The envelope for plots.
 TorqueEnvelope Describe(const Envelope& envelope, double cold, double settled) {
   const auto count = static_cast<Eigen::Index>(envelope.windows().size());
   TorqueEnvelope description{Eigen::VectorXd(count), Eigen::VectorXd(count), cold, settled,
@@ -161,7 +161,7 @@ FirstGuess GuessThermal(const LogSamples& measurements, const Selection& selecti
   const double settled = Mean(windows, &Window::level, count - count / 4, count);
   const double before = Mean(windows, &Window::level, count / 2, count - count / 4);
   const double change = settled - cold;
-  // it must stand out of the noise and end within the log
+  // the change must exceed the noise and end within the log
   if (std::abs(change) < kVisible * envelope.noise()) {
     return {{}, ExplainLevelInNoise(change, envelope.noise())};
   }

@@ -10,7 +10,7 @@
 
 namespace warmjoint {
 
-/// The level of friction, c(t) = sign(v) tau - kv |v|, averaged over windows of time, and what is
+/// The level of friction, c(t) = sign(v) tau - kv |v|, averaged over windows of time, and the figures that are
 /// read off it. M windows, up to the first long rest.
 struct TorqueEnvelope {
   Eigen::VectorXd time;   // [M] s from the first sample, middles of the windows
@@ -22,11 +22,12 @@ struct TorqueEnvelope {
 
 struct FirstGuess {
   std::optional<Thermal> thermal;
-  std::string why;                           // where there is none: one sentence
-  std::optional<TorqueEnvelope> envelope{};  // where there is a guess: what it was read off
+  std::string why;  // why there is no guess: one sentence
+  /// where there is a guess: the envelope that it was read off
+  std::optional<TorqueEnvelope> envelope{};
 };
 
-/// Reads gain and time constant off a recording that starts cold, moves without long rests and
+/// Reads gain and time constant off a recording in which the joint starts cold, moves without long rests and
 /// settles. With the friction level c(t) = sign(v) tau - kv |v| averaged over windows:
 ///   k = (c(settled) - c(0)) / mean(W)          W = |tau v|, over the settled part
 ///   tau = t63 (1 - k mean|v|)                  t63: when 63 % of the change is reached

@@ -19,7 +19,7 @@
 namespace warmjoint {
 namespace {
 
-/// The fit that the estimate's friction stands for: a table of its law, heat and start.
+/// A fit with the estimate's friction: a table of its law, heat and start.
 Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   Fit fit;
   fit.identifier = estimate.identifier;
@@ -32,7 +32,7 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
 
-  // heat and start, where the estimate tells them
+  // heat and start, where the estimate has them
   if (fit.friction.thermal && Find(Role::heat, estimate)) {
     Append(HeatParameters(*fit.friction.thermal, m), fit);
   }
@@ -51,7 +51,7 @@ Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
   inference.warnings = estimate.warnings;
   inference.gives_friction = true;
 
-  // a row that the estimate does not tell keeps its value, without errors
+  // a row that the estimate lacks keeps its value, without errors
   for (const FitParameter& row : fit.parameters) {
     const EstimatedParameter* one = estimate.Find(row.name);
     inference.parameters.push_back(one ? ParameterInterval{one->value, one->std, one->interval95, 0}
@@ -60,7 +60,7 @@ Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
   return inference;
 }
 
-/// What the verdict leaves of an estimate. What the fit's table does not hold is the other program's and stays: numbers of its own,
+/// Writes the verdict into an estimate. What is not in the fit's table is of the other program and is kept: numbers of its own,
 /// the discrete pair, its metrics and its trace.
 void ReportCheck(const Fit& fit, const Inference& inference, Estimate& estimate) {
   ReportVerdict(inference, estimate);
@@ -84,10 +84,10 @@ void ReportCheck(const Fit& fit, const Inference& inference, Estimate& estimate)
   }
 }
 
-/// The tests for lack of fit ask for what a law cannot follow; a least-squares fit leaves nothing that
-/// its law could. Another program's may: one Gauss-Newton step d of its parameters, over its residual,
-/// says what the same law would take up. Returns a row that refuses the estimate where J d is relevant (judging) and a part
-/// of d is beyond noise: of p parameters, at an error level of 1 % for all (Bonferroni). inference: of
+/// The tests for lack of fit look for structure that a law cannot follow, since a least-squares fit leaves none that
+/// its law could follow. The estimate of another program may leave some: one Gauss-Newton step d of its parameters, over its
+/// residual, shows what the same law would take up. Returns a row that refuses the estimate where J d is relevant (judging) and
+/// a part of d is beyond noise: of p parameters, at an error level of 1 % for all (Bonferroni). inference: of
 /// the fit; selection: samples at constant speed.
 std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
                                  const LogSamples& measurements, const Selection& selection,
@@ -110,12 +110,12 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
     return std::nullopt;
   }
 
-  // and whether noise may do it
+  // and whether that may be noise
   const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return rows; }),
                                                 .cofactor = step.cofactor,
                                                 .residual = residual - taken,
                                                 .selection = model->selection});
-  // the parameter that is farthest off, in its standard errors
+  // the parameter with the largest change, in its standard errors
   const Eigen::ArrayXd deviations = uncertainty.covariance.diagonal().array().sqrt();
   Eigen::Index most = 0;
   const double z = (step.solution.array().abs() / deviations).maxCoeff(&most);
@@ -133,11 +133,11 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
 }  // namespace
 
 void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Estimate& estimate) {
-  // an identifier without options stands for whoever made the estimate
+  // an identifier without options takes the place of the one that made the estimate
   const Identifier identifier{estimate.identifier, "", {}, nullptr};
   const IdentifierInput given{log, {}, {}};
   if (!estimate.friction) {
-    // nothing to follow along the log
+    // without a friction there is nothing to compare with the log
     Fit none;
     none.refusal = Refusal{estimate.status, kHoldsNoFriction};
     Inference told;
@@ -150,7 +150,7 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
       Followed(given.measurements, given.selection, {fit.friction, fit.gravity, {}});
   const IdentifierInput input = followed ? given.On(*followed) : given;
   const Inference claimed = InferenceOf(estimate, fit);
-  // what the law lacks, and whether it could follow the log better by itself
+  // the lack of fit of the law, and whether the same law with other parameters could follow the log better
   auto [diagnostics, causes, model] = FindLackOfFit(identifier, input, fit, claimed, judging);
   if (claimed.status == Status::ok && !IsRefused(causes)) {
     auto misfit = OwnLawCause(fit, claimed, input.measurements, input.selection, judging);

@@ -11,7 +11,7 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kFewest = 30;        // why 30: of fewer, colour and structure of noise stay unseen
+constexpr double kFewest = 30;        // why 30: fewer do not show colour and structure of the noise
 constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be another motion
 constexpr double kWorse = 10.8;    // why: chi-squared of one degree of freedom, once in a thousand
 constexpr double kLeastFit = 20;   // %; why: of 45 answers on real logs only wrong ones are below
@@ -22,7 +22,7 @@ double RootMeanSquare(const Eigen::VectorXd& x) {
   return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
 }
 
-/// F at the kept samples: what was fitted less what makes no heat. [n]
+/// F at the kept samples: the fitted torque less gravity and inertia, which make no heat. [n]
 Eigen::VectorXd FrictionIn(const Fit& fit, const LogSamples& m) {
   Eigen::VectorXd force = fit.fitted;
   if (fit.gravity) force -= Kept(fit.gravity->Torque(m.position), fit.used);
@@ -62,7 +62,7 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
     }
   }
 
-  // how much of the torque is explained, and what is left beside the friction
+  // how much of the torque is explained, and how large the residual is relative to the friction
   const double left = fit.residual().squaredNorm();
   const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
   const double explained = 100 * (1 - std::sqrt(left / by_mean));

@@ -1,4 +1,4 @@
-// Answers that are worthless or impossible, whatever the tests for lack of fit let pass.
+// Answers that are worthless or impossible, even where the tests for lack of fit find nothing.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,20 @@
 
 namespace warmjoint {
 
-/// The row that refuses such an answer; nothing where it stands. It is refused where
-/// - it rests on fewer than 30 samples, or on less than 5 % of those that move clearly;
-/// - its friction is a few thousandths of the torque: that holds none;
+/// The row that refuses an answer; nothing where the answer is not refused. It is refused where
+/// - it is fitted to fewer than 30 samples, or to less than 5 % of those at which the joint clearly moves;
+/// - its friction is less than a few thousandths of the torque, so that the torque holds no friction;
 /// - an inertia lies below 0 with its whole interval;
-/// - one number, the mean of the torque, follows this better beyond chance, or, where the joint moves in both directions, less than
+/// - one number, the mean of the torque, describes the torque better beyond chance, or, where the joint moves in both
+/// directions, less than
 ///   20 % of the torque is explained (Fit);
-/// - what it leaves exceeds half of the friction, in root mean square.
-/// measurements: that were fitted; inference: what noise says
+/// - its residual exceeds half of the friction, in root mean square.
+/// measurements: those that were fitted; inference: from the noise alone
 std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& measurements,
                                 const Inference& inference);
 
 /// The same by samples that a fit to others has not seen: it predicts them worse than their mean does. several_speeds: whether
-/// they move at several.
+/// the joint moves at several speeds there.
 std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool several_speeds, const Fit& fit);
 
 }  // namespace warmjoint

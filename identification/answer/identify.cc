@@ -26,8 +26,8 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kHarmless = 1e-3;        // attenuation
-constexpr double kHarmfulDelay = 0.01;    // of the friction; why: intervals are as narrow
+constexpr double kHarmless = 1e-3;      // attenuation
+constexpr double kHarmfulDelay = 0.01;  // of the friction; why: intervals may be as narrow as that
 constexpr double kUnresolvedPath = 5e-3;  // share of the path
 
 /// The first row of the law that is a slope over speed; nullptr where there is none.
@@ -38,14 +38,14 @@ const FitParameter* SlopeOf(const Fit& fit) {
   return nullptr;
 }
 
-/// Whether maps slope over speed: those over it, and those that it multiplies.
+/// Whether maps have a slope over speed: those over speed, and those that are multiplied by it.
 bool MapsSlope(const Fit& fit) {
   return std::ranges::any_of(fit.friction.maps, [](const FrictionMap& map) {
     return FindAxis(map, MapQuantity::velocity) || map.factor == MapFactor::velocity;
   });
 }
 
-/// What averaging left of the noise: a slope that is off moves the levels by as much as it takes at the mean speed.
+/// The effect of what averaging left of the noise: an error of a slope biases the levels by that error times the mean speed.
 Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitParameter* viscous,
                          std::string_view slope) {
   Cause cause{.source = Source::velocity_noise,
@@ -81,10 +81,11 @@ Cause OfTheLog(Source source, std::string sentence) {
   return {.source = source, .sentence = std::move(sentence), .sentence_in = SentenceIn::any_answer};
 }
 
-/// Rows of what was done to the log. Of fits at constant speed: where more than 0.1 % of a slope's attenuation by noise of the
-/// velocity is left, intervals of viscous and of the levels reach as far as that moves them; of a warming, how far the gain may be off
-/// where reversals happen between two samples, unless that is below half a per cent. Of all: units that may be others, positions
-/// that the log lacks, and torque that was left out as absurd. input: what the identifier saw; by_noise: of the fit.
+/// Rows about the preparation of the log. For fits at constant speed: where more than 0.1 % of a slope's attenuation by noise
+/// of the velocity is left, intervals of viscous and of the levels are widened by the bias from that; of a warming, how far the
+/// gain may be off where reversals happen between two samples, unless that is below half a per cent. For all fits: units that
+/// may be others, positions that the log lacks, and torque that was left out as absurd. input: what the identifier saw;
+/// by_noise: of the fit.
 std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fit,
                                      const Inference& by_noise) {
   std::vector<Cause> causes;
@@ -117,14 +118,17 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
   return causes;
 }
 
-constexpr int kMostRounds = 3;  // why: what a fit to unsettled torque hides shows in the next
+// why: structure that a fit to unsettled torque hides shows in the next
+constexpr int kMostRounds = 3;
 
-/// The fit to what has settled: the samples of segments lose their first seconds while the residual shows that the torque had not.
+/// The fit to samples at which the torque has settled: the segments lose their first seconds as long as the residual shows that
+/// the torque had not settled there.
 struct SettledFit {
   Fit fit;
   Settling settling{};                         // of all rounds
-  std::shared_ptr<const Selection> samples{};  // that it rests on, where some had not settled
-  std::optional<Fit> sooner{};  // with the samples of the run in which what is left fades away
+  std::shared_ptr<const Selection> samples{};  // the samples of the fit, where some had not settled
+  // the fit with the samples of the run in which what is left fades away
+  std::optional<Fit> sooner{};
 };
 
 SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input) {
@@ -145,7 +149,7 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
     if (input.view != View::constant_speed || !same) break;
     const Settling found = SettlingTime(fit.used, time, fit.residual());
     if (found.both() == 0) break;
-    // what takes longer is something else, which the tests for lack of fit look at
+    // structure that takes longer is something else, which the tests for lack of fit look for
     if (!MaySettle(settled.settling + found, input.selection, time)) {
       return {settled.samples ? std::move(plain) : std::move(settled.fit)};
     }
@@ -161,8 +165,8 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
   return settled;
 }
 
-/// What is left of a torque that settles moves law and heat by no more than the samples in which it fades away: of an exponential,
-/// and of what fades quicker, less is left behind these than in them.
+/// What is left of a torque that settles biases law and heat by no more than the samples in which it fades away do. Why: of an
+/// exponential, and of what fades quicker, less is left after these samples than within them.
 Cause SettlingCause(const SettledFit& settled) {
   const double longest = std::max(settled.settling.after, settled.settling.before);
   Cause cause = OfTheLog(Source::preparation, ExplainSettling(longest));
@@ -183,7 +187,8 @@ Cause SettlingCause(const SettledFit& settled) {
 /// much, else says so.
 std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierInput& input,
                                 const Fit& fit) {
-  // one that could, or that chose among those that can, and found none or was told of none
+  // an identifier that can estimate a delay, or that chose among those that can, has no such row: it found no delay, or its
+  // options say that there is none
   if (fit.choice) return {};
   Structure asked{identifier};
   asked.identifier.options = input.options;
@@ -204,7 +209,7 @@ std::optional<LogView> FollowedOf(const Fit& fit, const IdentifierInput& input) 
                   {fit.friction, fit.gravity, fit.torque_delay});
 }
 
-/// What was found in log and fit, and the tests as data. Enters what noise says of friction at speeds.
+/// The causes that log and fit give, and the tests as data. Enters the friction at speeds with its intervals by noise.
 LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
                      const LackOfFitSettings& judging, Answer& answer) {
   LackOfFit found;
@@ -233,7 +238,7 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
   return found;
 }
 
-/// What all causes leave of an answer, and of one that they refuse what it was.
+/// The answer with all causes applied; of a refused one also what it was before.
 Inference Judged(const Answer& answer, std::vector<Cause> causes) {
   Inference judged = Apply(answer.by_noise, std::move(causes));
   if (judged.status != answer.inferred.status) {
@@ -265,7 +270,7 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   std::vector<Cause> causes = OwnCauses(answer.fit, answer.by_noise);
   answer.inferred = Apply(answer.by_noise, causes);
 
-  // what else is said about it; the last floor asks what all of that leaves of the friction
+  // the other causes; the last floor looks at the friction that remains after all of them
   LackOfFit found = FindCauses(identifier, input, judging, answer);
   std::ranges::move(found.causes, std::back_inserter(causes));
   if (unsettled) causes.push_back(*std::move(unsettled));

@@ -16,22 +16,23 @@ namespace warmjoint {
 struct Answer {
   Fit fit;
   Inference by_noise;  // with its friction at speeds
-  Inference inferred;  // what the fit's own causes leave of that
-  Inference judged;    // and all causes
-  /// What the fit leaves out at the ends of its segments, where the torque had not settled, and the samples that it rests on.
+  Inference inferred;  // with the fit's own causes applied
+  Inference judged;    // with all causes applied
+  /// The time that the fit leaves out at the ends of its segments, where the torque had not settled, and the samples that were fitted.
   Settling settling{};
   std::shared_ptr<const Selection> settled{};  // null: all; the fit reads it, too
 };
 
-/// The input that an answer rests on: what the identifier selects of `given`, once it has settled. answer: must outlive it.
+/// The input of an answer's fit: the samples that the identifier selects of `given`, at which the torque has settled. answer:
+/// must outlive it.
 IdentifierInput InputOf(const Answer& answer, const Identifier& identifier,
                         const IdentifierInput& given);
 
 /// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
 /// is bad_data, and the message names them; else the residual is examined for
-/// structure (lack_of_fit/find_lack_of_fit.h). What the preparation of the log means for the numbers is a cause, too, and so are floors
-/// (floors.h) below which no answer is ok.
-/// Where the residual shows that the torque takes its time to settle after a change of speed (settling.h), the fit is made again
+/// structure (lack_of_fit/find_lack_of_fit.h). Effects of the log's preparation on the numbers are causes, too, and so are
+/// floors (floors.h) below which no answer is ok.
+/// Where the residual shows that the torque takes time to settle after a change of speed (settling.h), the fit is made again
 /// without these samples.
 Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& input,
                    const LackOfFitSettings& judging = {});
@@ -43,11 +44,11 @@ void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer);
 Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& input,
                           const LackOfFitSettings& judging = {});
 
-/// The same of an answer that is there already.
+/// The same for an answer that was computed already.
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& input,
                       const Answer& answer, RefusedNumbers numbers = RefusedNumbers::hide);
 
-/// Without a verdict: what the fit tells by itself.
+/// Without a verdict: the estimate that the fit gives by itself.
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& input);
 
 }  // namespace warmjoint

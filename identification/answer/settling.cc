@@ -14,14 +14,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// why: what all comparisons of a run ask for together happens by chance far less often than their bound says: with 0.01 in none
+// why: that all comparisons of a run agree happens by chance far less often than their bound allows: with 0.01 in none
 // of 27,000 logs of white and of coloured noise
 constexpr double kLevel = 0.1;
 constexpr Index kMostOfSegment =
     4;  // a quarter of it; why: as much from its middle on is left to compare with
 constexpr Index kShortest = 8;  // samples of a segment; why: a quarter of fewer is one sample
 
-/// A sum of terms whose signs are chance.
+/// A sum of terms whose signs are random where the torque has settled.
 struct SignedSum {
   double sum = 0, squares = 0;
 
@@ -32,7 +32,7 @@ struct SignedSum {
   double x() const { return squares > 0 ? sum / std::sqrt(squares) : 0; }
 };
 
-/// What speaks for a torque that has not settled, of one run beside a change of speed.
+/// The evidence for a torque that has not settled, of one run next to a change of speed.
 struct Unsettled {
   std::array<SignedSum, 2> larger;  // than from the middle on, than beyond the change
   std::array<SignedSum, 3> along;  // the change of speed, beyond a force or a friction of the place
@@ -46,7 +46,7 @@ struct Unsettled {
     along[2].Add(sign * (z + p));
   }
 
-  /// The least that each of either kind shows.
+  /// The evidence of the stronger kind; the evidence of a kind is the least of its comparisons.
   double x() const {
     const double by_size = std::min(larger[0].x(), larger[1].x());
     const auto [least, most] = std::minmax({along[0].x(), along[1].x(), along[2].x()});
@@ -89,7 +89,7 @@ std::vector<Index> EdgesOfRuns(Index most) {
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
-/// Each run of all segments beside a change of speed, from the change on. edges: [runs + 1]
+/// The evidence of each run before and after the changes of speed of all segments, counted from the change on. edges: [runs + 1]
 struct BesideChanges {
   std::vector<Unsettled> behind, before;
 
@@ -114,7 +114,7 @@ struct BesideChanges {
   }
 };
 
-/// How many runs in a row from the change on have not settled, one between them left out.
+/// The number of runs from the change on that have not settled, where one settled run between them is tolerated.
 std::size_t UnsettledRuns(const std::vector<Unsettled>& runs, double beyond_chance) {
   std::size_t unsettled = 0;
   for (std::size_t i = 0; i < runs.size() && i <= unsettled + 1; ++i) {
@@ -132,7 +132,7 @@ Index TypicalLength(const Selection& used) {
   return static_cast<Index>(MedianOf(lengths));
 }
 
-/// How long that is, and the next run, where it fades away; 0 where there is none or no end of it. s
+/// The duration of these runs and of the next one, in which what is left fades away, s; 0 where there are none or no end is seen.
 double TimeOf(const std::vector<Unsettled>& runs, double beyond_chance,
               const std::vector<Index>& edges, double step) {
   const std::size_t unsettled = UnsettledRuns(runs, beyond_chance);
@@ -143,7 +143,7 @@ double TimeOf(const std::vector<Unsettled>& runs, double beyond_chance,
 }  // namespace
 
 bool MaySettle(const Settling& settling, const Selection& used, const VectorXd& time) {
-  // a torque that fades behind its change alone may take as long as it likes
+  // a torque that only fades after a change of speed, or only before one, may take any time for it
   if (settling.after == 0 || settling.before == 0) return true;
   const double typical = static_cast<double>(TypicalLength(used)) * MedianStep(time);
   return settling.after + settling.before <= 0.5 * typical;

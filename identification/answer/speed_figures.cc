@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Derivatives by the table's rows as those by the coordinates of the estimated ones. [p]
+/// Converts derivatives by the table's rows to those by the coordinates of the estimated rows. [p]
 VectorXd ByCoordinates(const Fit& fit, const VectorXd& derivatives) {
   std::vector<double> slopes;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -40,13 +40,13 @@ double QuantileFor(const Uncertainty& uncertainty, const VectorXd& slopes) {
   return StudentQuantile(fewest, kIntervalLevel);
 }
 
-/// What the heat of one moment adds to the friction, with its derivatives by the table's rows.
+/// The friction that the heat of one moment adds, with its derivatives by the table's rows.
 struct WarmMoment {
   double energy = 0;  // E, N.m or N
   VectorXd derivatives;
 };
 
-/// That of the kept sample with the largest |E|; nothing where no heat was fitted.
+/// The moment of the kept sample with the largest |E|; nothing where no heat was fitted.
 std::optional<WarmMoment> WarmestOf(const Fit& fit, const FittedModel& model, const LogSamples& m) {
   if (!model.loop) return std::nullopt;
   Index warmest = -1;
@@ -112,7 +112,7 @@ std::vector<double> LoadsOf(const Fit& fit, const std::vector<SpeedGroup>& group
   return loads;
 }
 
-/// Those of a fit with maps, of which the table holds the law alone.
+/// The figures of a fit with maps, whose table has only the law.
 std::vector<SpeedFigure> WithMaps(const Fit& fit, const LogSamples& m) {
   std::vector<SpeedFigure> all;
   for (const FrictionAtSpeed& one : fit.friction_at_speeds) {

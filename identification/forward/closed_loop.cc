@@ -118,7 +118,7 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
     double energy = initial_energy;
     size_t next = 0;
     for (Eigen::Index n = 0; n < size(); ++n) {
-      // a jump stands for the losses in a gap, which nobody logged
+      // a jump represents the losses in a gap, which were not logged
       if (next < jumps_.size() && jumps_[next] == n)
         energy += jumps[static_cast<Eigen::Index>(next++)];
       const double level = nominal[n] + std::abs(direction_[n]) * energy;

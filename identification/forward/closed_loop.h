@@ -11,19 +11,19 @@
 
 namespace warmjoint {
 
-/// What the loop does for one set of parameters.
+/// The response of the loop to one set of parameters.
 struct LoopResponse {
   Eigen::VectorXd force;   // [N] F, Eq. (20), N.m or N
   Eigen::VectorXd loss;    // [N] W, Eq. (19), W
   Eigen::VectorXd energy;  // [N] E, Eq. (22), N.m or N
   /// First sample where friction drives the joint instead of braking it (E < -Fn sign v). From there on the
-  /// energy that friction gives counts as heat: neither response nor derivatives mean anything.
+  /// energy that friction gives would count as heat, so that neither response nor derivatives mean anything.
   std::optional<Eigen::Index> first_driving;
 };
 
-/// Where the loop ends, or a stretch of it.
+/// The state at the end of the loop, or of a stretch of it.
 struct LoopEnd {
-  double energy = 0;       // E at the last sample, or at the one behind the stretch, N.m or N
+  double energy = 0;       // E at the last sample, or at the one after the stretch, N.m or N
   Eigen::VectorXd slopes;  // [d + 3 + J] dE/d(p, k, log tau, E0, jumps)
 };
 
@@ -42,7 +42,7 @@ struct LoopColumns {
 ///     p:  S[n+1] = lambda S[n] + ke |v| g          k:        lambda S[n] + (1 - te) |v| a
 ///     E0: S[n+1] = lambda S[n], S[0] = 1           log tau:  lambda S[n] + te h/tau (E - k |v| a)
 /// Where losses have levels of their own, a and g in those of k|v| a and k|v| g are theirs.
-/// Samples at rest have W = 0 and keep cooling. Uneven sampling holds each interval exactly.
+/// Samples at rest have W = 0 and keep cooling. With uneven sampling each interval is exact.
 /// Where E jumps by b at a sample (WithJumps): b: S = 0 before, 1 there, then lambda S[n].
 class ClosedLoop {
  public:
@@ -63,7 +63,7 @@ class ClosedLoop {
                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
   /// dF/d(p, k, log tau, E0, jumps) along a stretch, [m x (d + 3 + J)], of a law with other columns than the loop's, which
-  /// are not read. at: E and its derivatives at the first of its samples, led on to the sample behind it.
+  /// are not read. at: E and its derivatives at the first of its samples, led on to the sample after it.
   Rows SlopesAlong(const LoopColumns& columns, const Eigen::VectorXd& parameters,
                    const Thermal& thermal, const Eigen::VectorXd& jumps, LoopEnd& at) const;
 
@@ -71,7 +71,7 @@ class ClosedLoop {
   LoopEnd End(const Eigen::VectorXd& parameters, const Thermal& thermal, double initial_energy = 0,
               const Eigen::VectorXd& jumps = {}) const;
 
-  /// Along a recording. Where it tells mean speeds, these make the losses, with loss_columns, which are
+  /// Along a recording. Where it has mean speeds, these make the losses, with loss_columns, which are
   /// `columns` at its loss velocity; empty: the same. Both [N x d].
   static ClosedLoop Along(const LogSamples& measurements, const Eigen::MatrixXd& columns,
                           const Eigen::MatrixXd& loss_columns = {});

@@ -1,4 +1,4 @@
-// The inner loop of closed_loop.h, for whatever is to be done with each sample.
+// The inner loop of closed_loop.h, with a function that is called for each sample.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace warmjoint {
 
 /// Eq. (22) over one interval where the loss follows E itself, W = |v| (g p + E): ThermalStep of the
 /// level g p alone, with the gain ke |v| and the pole te + ke |v|. One product and one sum lead from
-/// each E to its next, so that what waits for the state before is short.
+/// each E to its next, so that the chain of dependent operations is short.
 /// speed: |v|, rad/s or m/s.
 inline DiscreteThermal FedBack(const IntervalHold& hold, double speed) {
   const double gain = hold.gain * speed;
@@ -40,8 +40,8 @@ struct LoopStretch {
 };
 
 /// Runs the loop along a stretch with its derivatives. parameters: [d] of the law; energy_at, slopes_at: E and its
-/// derivatives [d + 3 + J] by (p, k, log tau, E0, jumps) at the first sample, led on to the one behind the last; jumps: [J] of E at
-/// the loop's jumps, for a D that is Dynamic alone; visit(n, a, g, S) sees the level a, its direct derivatives g [d] and
+/// derivatives [d + 3 + J] by (p, k, log tau, E0, jumps) at the first sample, led on to the one after the last; jumps: [J] of E
+/// at the loop's jumps, for a D that is Dynamic alone; visit(n, a, g, S) gets the level a, its direct derivatives g [d] and
 /// S, all at sample n: da/dp = g + S.
 template <int D, typename Hold, typename Visit>
 void RunAlong(const ClosedLoop& loop, const LoopStretch& stretch, const double* parameters,

@@ -10,7 +10,7 @@ JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle) {
   JointTrajectory trajectory{log.time, log.velocity, log.position};
   // the motor's own sensor, or the gear
   trajectory.motor_position = MotorPosition(log);
-  // what the log has beside its motion
+  // what the log has in addition to its motion
   if (log.load) trajectory.load = *log.load;
   if (log.mean_speed && log.loss_velocity) {
     trajectory.mean_speed = *log.mean_speed;

@@ -1,4 +1,4 @@
-// The motion of a log as the forward model and maps read it.
+// The motion of a log in the form that the forward model and maps read.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -14,22 +14,22 @@
 namespace warmjoint {
 
 /// How a law's own bristle is bent at the start of each recording: as in steady sliding, or as the
-/// measured torque tells.
+/// measured torque gives it.
 enum class BristleStart { sliding, torque };
 
 /// Time, velocity, positions, load and starts of a log of N samples. The motor position is
 /// the logged one, else the log's gear times the joint's.
 JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle = BristleStart::sliding);
 
-/// Of a model, what decides which motion its torque follows.
+/// The parts of a model that determine which motion its torque follows.
 struct FollowedBy {
   const Friction& friction;
   const std::optional<GravityModel>& gravity;
   std::optional<double> delay{};  // s, by which the torque is late
 };
 
-/// The motion that a model's torque follows, where that is not the log's own: that of before, where the torque is late beside
-/// motion of any kind (Delayed), and under the load that its gravity tells, where friction grows with the load and
+/// The motion that a model's torque follows, where that is not the log's own: the earlier motion, where the torque is late
+/// relative to motion of any kind (Delayed), and under the load that its gravity gives, where friction grows with the load and
 /// the log holds none. asked: samples that are to be compared.
 std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked,
                                 const FollowedBy& model);

@@ -6,7 +6,7 @@
 
 namespace warmjoint {
 
-/// What a fit does to its rows before it squares them: the same linear map for each column of the
+/// A transformation of a fit's rows before they are squared: the same linear map for each column of the
 /// Jacobian and for the residual, over the kept samples in their order.
 class RowTransform {
  public:
@@ -14,7 +14,7 @@ class RowTransform {
 
   virtual ~RowTransform() = default;
 
-  /// rows: [n x q], replaced by what the map makes of them.
+  /// rows: [n x q], replaced by their images.
   virtual void Apply(Rows& rows) const = 0;
   /// n
   virtual Eigen::Index size() const = 0;
@@ -26,7 +26,7 @@ class RowTransform {
   }
 };
 
-/// R^T R of the N rows of an R [N x P] that is never held: a block of rows at a time, so that each
+/// R^T R of the N rows of an R [N x P] that is never stored as a whole. It takes a block of rows at a time, so that each
 /// product of two columns is a dot product over samples, with independent partial sums.
 /// P: columns, or Eigen::Dynamic.
 template <int P>
@@ -64,7 +64,7 @@ class RowProducts {
     count_ = 0;
   }
 
-  /// Products of columns I.. with columns J.., and of all tiles behind these: the upper triangle.
+  /// Products of columns I.. with columns J.., and of all tiles after these: the upper triangle.
   template <int I, int J>
   void AddTiles() {
     AddTile<I, J>();
@@ -84,7 +84,7 @@ class RowProducts {
     for (int i = 0; i < p; ++i) {
       for (int j = 0; j < q; ++j) sums[i][j].setZero();
     }
-    // the row behind an odd one is 0
+    // where the number of rows is odd, a row of zeros follows
     if (count_ % 2 == 1) rows_.row(count_).setZero();
     const double* first = rows_.data();
     for (Eigen::Index k = 0; k < count_; k += 2) {

@@ -31,9 +31,9 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
 Eigen::VectorXd ThermalFilter::Transposed(const Thermal& thermal,
                                           const Eigen::VectorXd& weights) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
-  // backwards in time: what a loss adds to E lasts through all later samples
+  // backwards in time, since a loss adds to E at all later samples
   const ThermalHold<> mean = HoldOver(mean_step_, thermal.time_constant);
-  double later = 0;  // what E at sample i + 1 weighs, with all that follows from it
+  double later = 0;  // the weight of E at sample i + 1, with all that follows from it
   for (Eigen::Index i = steps_.size() - 1; i >= 0; --i) {
     const ThermalHold<> hold = even_ ? mean : HoldOver(steps_[i], thermal.time_constant);
     later = weights[i + 1] + later;

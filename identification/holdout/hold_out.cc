@@ -23,12 +23,12 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
   return fit.inertia ? kNothingMoves : kNothingHoldsASpeed;
 }
 
-/// Of the first samples of a log those that were chosen of all.
+/// The samples that were chosen, as far as they are within the first part of a log.
 Selection Within(Selection first, const Selection& chosen) {
   const Eigen::Index n = std::min(first.keep.size(), chosen.keep.size());
   first.keep.head(n) = first.keep.head(n) && chosen.keep.head(n);
   first.keep.tail(first.keep.size() - n) = false;
-  // segments as they were chosen, as far as they go
+  // segments as they were chosen, as far as they are within the first part
   first.segments.clear();
   for (Segment segment : chosen.segments) {
     segment.end = std::min(segment.end, n);
@@ -37,7 +37,7 @@ Selection Within(Selection first, const Selection& chosen) {
   return first;
 }
 
-/// In one direction or both, a tenth apart. test: keeps one sample at least
+/// Whether speeds, of one direction or both, differ by more than a tenth. test: keeps one sample at least
 bool MovesAtSeveralSpeeds(const LogSamples& m, const Selection& test) {
   const Eigen::ArrayXd speed = Kept(m.velocity, test).cwiseAbs();
   return speed.maxCoeff() > 1.1 * speed.minCoeff();
@@ -55,10 +55,10 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   Eigen::Index end = 0;
   for (Eigen::Index seen = 0; seen < first || !keep[end]; ++end) seen += keep[end];
   const double split = input.measurements.time[end];
-  // what lies before, seen as the identifier saw the whole log
+  // the samples before, in the view in which the identifier had the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const IdentifierInput all = before.Through(input.view);
-  // at constant speed without what had not settled; other views choose their samples anew
+  // at constant speed without unsettled samples; other views choose their samples anew
   const bool steady = input.view == View::constant_speed;
   const Selection chosen = steady ? Within(all.selection, input.selection) : all.selection;
   const IdentifierInput seen = all.With(chosen);
@@ -76,7 +76,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
   Selection test = input.selection;
   const auto before = (input.measurements.time.array() < first->split).count();
   test.keep.head(before) = false;
-  // where the heat with which recordings begin is free, a fit knows that of none that it has not seen
+  // where the heat with which recordings begin is free, a fit does not know that of recordings that it has not seen
   const std::vector<Eigen::Index>& starts = input.measurements.further_starts;
   const bool own_starts = first->fit.RowOf(Role::start) && !starts.empty();
   if (own_starts) {
@@ -165,7 +165,7 @@ TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logge
     }
   }
 
-  // the log holds the torque as it comes through its lag
+  // the log has the torque after its lag
   if (model.lag) predicted.torque = LowPass(m.time, predicted.torque, *model.lag);
   return predicted;
 }

@@ -16,7 +16,7 @@
 
 namespace warmjoint {
 
-/// A fit that has seen the samples before a time alone.
+/// A fit to the samples before a time only.
 struct FirstPart {
   double split = 0;  // s
   Fit fit;
@@ -27,11 +27,12 @@ struct FirstPart {
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& input,
                                       double fraction, const Fit& all_data);
 
-/// Figures on what a fit has not seen, or why there are none.
+/// Figures on samples that a fit has not seen, or why there are none.
 struct HeldOut {
   std::optional<Metrics> metrics;
-  std::string why_none;         // a clause; empty where there are figures
-  bool several_speeds = false;  // whether the samples of the figures move at more than one
+  std::string why_none;  // a clause; empty where there are figures
+  /// whether the joint moves at more than one speed in the samples of the figures
+  bool several_speeds = false;
 };
 
 /// FitFirstPart, evaluated on the kept samples of the
@@ -57,13 +58,13 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
                                              const IdentifierInput& input,
                                              const std::vector<Eigen::Index>& bounds);
 
-/// What acts on a joint, as far as a fit knows it: F + G + M a, Eqs. (5) and (20).
+/// The torque of a joint by a fit: F + G + M a, Eqs. (5) and (20).
 struct TorqueModel {
   Friction friction;
   std::optional<GravityModel> gravity;
   std::optional<double> inertia;  // kg.m^2 or kg
   std::optional<double> lag{};    // s, of the torque's way into the log, first order
-  std::optional<double> delay{};  // s, by which the torque is late beside motion of any kind
+  std::optional<double> delay{};  // s, by which the torque is late relative to motion of any kind
 };
 
 struct TorquePrediction {
@@ -77,7 +78,7 @@ struct TorquePrediction {
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& measurements,
                                Selection asked, const ThermalStart& start);
 
-/// What the fit knows of the torque, its lag on the way into the log too.
+/// The model of the torque by a fit, with the lag on its way into the log.
 TorqueModel ModelOf(const Fit& fit);
 
 /// Compares the torque that the fit's friction, gravity and inertia predict along a log with the samples that

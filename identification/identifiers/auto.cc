@@ -1,14 +1,14 @@
 // Identifier `auto`: chooses the structure, then identifies it.
 //
-// Tries the laws, cold and warm, with the Stribeck effect (with a level for each direction where what
-// it leaves pushes in one), and with maps over position, and over the motor's angle where a gear is
+// Tries the laws, cold and warm, with the Stribeck effect (with a level for each direction where the
+// residual has a mean force in one direction), and with maps over position, and over the motor's angle where a gear is
 // given. Drops those that the recording cannot identify, and
-// those to which BIC prefers a simpler one; compares the rest by the error on contiguous blocks
-// that each has not seen (hold_out.h) and takes the simplest that is not worse than the
+// those to which BIC prefers a simpler one; compares the others by the error on contiguous blocks
+// that were left out of the fit (hold_out.h) and takes the simplest that is not worse than the
 // best beyond doubt (model_comparison.h). The fit is that structure's on all the data; the
 // message says why and lists all candidates.
 //
-// not_identifiable where the motion cannot tell viscous from coulomb: then no law can be chosen.
+// not_identifiable where the motion cannot distinguish viscous from coulomb: then no law can be chosen.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -42,7 +42,7 @@ std::string WhyTooShort(const IdentifierInput& input) {
   return ExplainShortLog(duration);
 }
 
-/// Tries structures, of those that warm where the log is long enough alone.
+/// Tries structures; those with warming only where the log is long enough.
 void TryWarm(const std::vector<Structure>& structures, const IdentifierInput& input,
              ModelComparison& comparison) {
   const std::string why = WhyTooShort(input);
@@ -53,13 +53,13 @@ void TryWarm(const std::vector<Structure>& structures, const IdentifierInput& in
   }
 }
 
-/// Laws with and without warming, then gravity beside the best of them.
+/// Laws with and without warming, then with free gravity in addition to the best of them.
 void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
   const std::vector<FittedGravity> kinds = GravityKinds(input);
   for (const FittedGravity gravity : kinds) {
     if (gravity == FittedGravity::paired && kinds.size() > 1) continue;
     comparison.Add(ColdStructures(gravity));
-    // a warming beside a further gravity only where it may be told
+    // a warming with a further gravity only where the data may determine it
     if (gravity == kinds.front() || comparison.MayWarmWith(gravity)) {
       TryWarm(WarmStructures(gravity), input, comparison);
     } else {
@@ -67,7 +67,7 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
     }
   }
 
-  // gravity that is free over place, beside the best of them alone
+  // gravity that is free over place, only in addition to the best of them
   if (kinds.size() > 1 && kinds.back() == FittedGravity::paired) {
     if (const Structure* best = comparison.Best()) {
       comparison.Add({best->With(GravityOption{FittedGravity::paired})});
@@ -75,15 +75,15 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
   }
 }
 
-/// The best structure so far with friction that grows with what the joint carries, where gravity acts or the log tells the load.
+/// The best structure so far with friction that grows with what the joint carries, where gravity acts or the log has the load.
 void TryLoad(const IdentifierInput& input, ModelComparison& comparison) {
   const Structure* best = comparison.Best();
   if (!best || (best->gravity() == FittedGravity::none && !input.measurements.load)) return;
   comparison.Add({best->With(LoadOption{PartFit::estimated})});
 }
 
-/// Gravity to try beside maps: that of the best linear structure, but a sine where that is paired, over
-/// a joint that turns: what is no sine is the map's.
+/// Gravity to try with maps: that of the best linear structure, but a sine where that is paired, over
+/// a joint that turns, where the map follows all that is not a sine.
 FittedGravity GravityForMaps(const IdentifierInput& input, const Structure* best) {
   const std::vector<FittedGravity> kinds = GravityKinds(input);
   const FittedGravity gravity = best ? best->gravity() : kinds.front();
@@ -91,12 +91,12 @@ FittedGravity GravityForMaps(const IdentifierInput& input, const Structure* best
   return gravity == FittedGravity::paired && turns ? FittedGravity::sincos : gravity;
 }
 
-/// What bends or ripples, with the gravity of the best linear one.
+/// Tries laws with a curve over the speed and maps, with the gravity of the best linear structure.
 void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
   const FittedGravity gravity = GravityForMaps(input, comparison.Best());
   const bool cold = TakesColdStart(input.options), too_short = !WhyTooShort(input).empty();
 
-  // a bend over the speed, with and without warming
+  // a curve over the speed, with and without warming
   comparison.Add({StribeckStructure(PartFit::none, gravity)});
   if (too_short) {
     comparison.LeaveOut({StribeckStructure(PartFit::estimated, gravity)}, WhyTooShort(input));
@@ -130,13 +130,12 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
   }
 }
 
-/// How late the torque is, s: behind constant speeds by a first-order lag, beside motion of any kind by a delay.
+/// How late the torque is, s: by a first-order lag at constant speeds, by a delay for motion of any kind.
 struct Lateness {
   std::optional<double> lag, delay;
 };
 
-/// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds
-/// one.
+/// All trials. If the best linear structure finds a lag, they use only samples at which the torque has settled after it.
 struct Trials {
   std::unique_ptr<ModelComparison> comparison;
   std::optional<double> lag;  // s
@@ -159,8 +158,8 @@ Trials TryAll(const IdentifierInput& input) {
   return trials;
 }
 
-/// The chosen structure on every sample: behind lag and delay where it can estimate them, else on samples
-/// where the torque has settled, or beside the motion of before.
+/// The chosen structure on every sample: with lag and delay where it can estimate them, else on samples
+/// where the torque has settled, or with the motion of a delay earlier.
 Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInput& input) {
   const std::optional<double>& lag = late.lag;
   // one that cannot estimate a delay takes it as it was found
@@ -177,7 +176,7 @@ Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInpu
   return fit;
 }
 
-/// Why the chosen one.
+/// Why this structure was chosen.
 std::string Reason(const std::vector<StructureCandidate>& contenders, const Choice& choice,
                    int blocks, const std::string& unit) {
   const auto compared = [&](std::size_t i) {
@@ -228,7 +227,7 @@ Fit FitChosen(const IdentifierInput& input) {
   const Lateness late{trials.lag, delay};
   ModelComparison& comparison = *trials.comparison;
 
-  // what cannot be chosen goes first, a level without a slope before all; the rest is held out block by block
+  // structures that cannot be chosen are dropped first, those without a slope before all; the others are compared on held-out blocks
   comparison.DropWithoutSlope();
   comparison.DropDominated();
   const Structure* only = comparison.OnlyOne();
@@ -238,7 +237,7 @@ Fit FitChosen(const IdentifierInput& input) {
   const Structure* best = comparison.Best();
   if (!best) return NothingFits(comparison, std::move(reported));
 
-  // by the blocks, or by BIC where none can do without one of them, as one that holds the warm-up
+  // chosen by the blocks, or by BIC where every structure needs one of the blocks, as one with the whole warm-up
   Structure chosen = *best;
   if (only) {
     chosen = *only;
@@ -251,14 +250,14 @@ Fit FitChosen(const IdentifierInput& input) {
     reported.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
   }
 
-  // on every sample, with the reason before what it says
+  // fitted to every sample, with the reason before the summary of the fit
   if (trials.lag && chosen.CanEstimateLag()) {
     chosen = chosen.With(LagOption{PartFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
   Fit fit = FitOnAll(chosen, late, input);
 
-  // what a reader is told, and the same structure for other samples
+  // what is reported, and the same structure for other samples
   reported.chosen = chosen.Name();
   fit.identifier = kName;
   fit.summary = SummaryOfChoice(NotShown(fit, input.log), reported.reason, fit.summary);

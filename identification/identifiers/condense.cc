@@ -17,7 +17,7 @@ using Eigen::Index;
 constexpr double kTravelParts = 48;
 constexpr double kTurnParts = 24;
 
-/// How far the joint may go within a row, rad or m.
+/// The longest path of the joint within a row, rad or m.
 double LongestDistance(const LogSamples& m) {
   const double travel = m.position.maxCoeff() - m.position.minCoeff();
   const double distance = travel / kTravelParts;
@@ -49,7 +49,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
     const bool alike = keep[i] == keep[begin] && segment[i] == segment[begin] &&
                        Sign(m.velocity[i]) == Sign(m.velocity[begin]) &&
                        m.time[i] - m.time[i - 1] <= longest;
-    // kept samples of one row stay close to each other; what lies between segments may spread
+    // kept samples of one row are close to each other; samples between segments need not be
     const bool near = std::abs(m.position[i] - m.position[begin]) <= distance || !keep[i];
     if (starts || !alike || !near || i - begin >= together) first.push_back(i);
   }
@@ -81,7 +81,7 @@ CondensedLog Condense(const LogView& all, Index rows) {
     column = std::move(means);
   });
 
-  // and what refers to samples
+  // and the fields that refer to samples
   const auto row = [&](Index sample) {
     return std::lower_bound(first.begin(), first.end(), sample) - first.begin();
   };

@@ -6,7 +6,7 @@
 //   1. E by (23)   2. H(z) of (22) to that E by output error   3. E = H W   4. Fn by (24).
 // It converges linearly, at the squared largest canonical correlation of its two blocks: about
 // 0.974 an iteration for steady motion, faster where rests let the joint cool. not_converged,
-// with the numbers reached so far, where the observed rate says that a parameter would still move
+// with the numbers reached so far, where the observed rate says that a parameter would still change
 // by more than the option `tolerance`.
 // It gives no intervals: W is formed of the noisy torque, so the residual understates the errors
 // (on Table I such intervals would hold the time constant in 72 % of the runs instead of 95 %).
@@ -50,7 +50,8 @@ constexpr size_t kLastChanges = 5;  // over which the rate is observed
 constexpr double kStill = 1e-9;     // a change that the stopping rules inside explain
 
 constexpr const char* kName = "energy-als";
-constexpr double kSingular = 1e-6;  // of the joint Jacobian; short of it the intervals tell
+// of the joint Jacobian; above it the intervals show what is uncertain
+constexpr double kSingular = 1e-6;
 
 enum class LoopStart { options, guess, random };
 std::span<const Word<LoopStart>> WordsOf(LoopStart) {
@@ -90,14 +91,14 @@ struct EnergyAlsOptions {
   }
 };
 
-/// Whether a map stands beside the law.
+/// Whether there is a map in addition to the law.
 enum class NominalMap { none, map };
 std::span<const Word<NominalMap>> WordsOf(NominalMap) {
   static constexpr std::array words{Word{"none", NominalMap::none}, Word{"map", NominalMap::map}};
   return words;
 }
 
-/// A map beside the law, and how it is made.
+/// A map in addition to the law, and how it is made.
 struct NominalMapOptions : AddedMapOptions {
   NominalMap position = NominalMap::none;
 
@@ -108,12 +109,12 @@ struct NominalMapOptions : AddedMapOptions {
   }
 };
 
-/// What Eq. (24) fits: a nominal law, with gravity or with a map over position beside it.
+/// What Eq. (24) fits: a nominal law, with gravity or with a map over position in addition.
 struct NominalPart {
   Selection moving;         // samples that take part: kept, and not at rest
-  RigidPart gravity;        // none beside a map
+  RigidPart gravity;        // none where there is a map
   Eigen::MatrixXd columns;  // [N x p] over all samples: law (d), then gravity or kernels (q)
-  /// [p x p] (A^T A + s P)^-1 over the moving samples; P: 1 on the kernels' diagonal.
+  /// [p x p] (A^T A + s P)^-1 over the samples in motion; P: 1 on the kernels' diagonal.
   Eigen::MatrixXd cofactor;
   Eigen::VectorXd solution;        // [p] the fit without warming
   std::vector<FrictionMap> maps;   // shapes
@@ -121,7 +122,7 @@ struct NominalPart {
   double effective = 0;            // of the p parameters
   std::optional<Refusal> refusal;  // why there is no such part
 
-  /// Of the p columns, law, gravity and kernels, and the heat that the fit has behind them.
+  /// Of the p columns, law, gravity and kernels, and of the heat, which follows them in the fit.
   Layout layout() const {
     const Eigen::Index kernels = KernelCount(maps);
     return Layout::InOrder({{&Layout::law, columns.cols() - gravity.count() - kernels},
@@ -138,7 +139,7 @@ void AddMap(const IdentifierInput& input, NominalPart& part) {
     part.refusal = Refusal{Status::bad_data, kMapBesideGravity};
     return;
   }
-  // law and map over moving samples, without any warming
+  // law and map over samples in motion, without any warming
   const IdentifierInput moving = input.With(part.moving);
   MapBeginning begin = BeginMaps(moving, kName, {MapQuantity::position});
   part.refusal = begin.refusal;
@@ -170,7 +171,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given) {
   part.refusal = task.refusal;
   if (part.refusal) return part;
 
-  // samples that move
+  // samples in motion
   const IdentifierInput input = part.gravity.Of(given);
   part.moving = WithoutRest(input.selection, input.measurements);
   part.columns = task.columns;
@@ -179,7 +180,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given) {
     return part;
   }
 
-  // the columns of Fn and G must be distinct before any warming is thought of
+  // the columns of Fn and G must be distinct before a warming is fitted
   LeastSquares fit = SolveLinear(input.With(part.moving), task);
   part.refusal = task.refusal;
   // the nominal fit, without warming
@@ -228,7 +229,7 @@ std::vector<DescentState> Descend(const BlockDescent& descent, const Thermal& st
 
 /// Distance to the fixed point, each parameter relative to its value or, where that is smaller, to
 /// its standard deviation; tau by its logarithm, which is relative already. Distances are the largest over the
-/// parameters. Infinite where the sequence does not approach anything, or is too short (fewer than 3) to tell.
+/// parameters. Infinite where the sequence does not approach anything, or is too short (fewer than 3) to judge.
 Convergence Judge(const std::vector<DescentState>& states, const Eigen::VectorXd& deviations) {
   if (states.size() < 3) return {1, kInfinity};
   Eigen::VectorXd scale = Vector(states.back()).cwiseAbs().cwiseMax(deviations);
@@ -249,14 +250,14 @@ Convergence Judge(const std::vector<DescentState>& states, const Eigen::VectorXd
   return {rate, change * rate / (1 - rate)};
 }
 
-/// Why the last state deserves no numbers; nothing where it does. friction: fitted, [N] N.m or N.
+/// Why the last state is refused; nothing where it is not. friction: fitted, [N] N.m or N.
 std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
                                   const Eigen::VectorXd& friction) {
   if (!last.inside) {
     return Refusal{Status::not_identifiable,
                    ExplainLongestTimeConstant(last.thermal.time_constant)};
   }
-  // the first kept sample whose fitted friction pushes instead of braking
+  // the first kept sample whose fitted friction drives the joint instead of braking it
   for (Eigen::Index i = 0; i < friction.size(); ++i) {
     if (!DrivesJoint(m.velocity[i], friction[i])) continue;
     return Refusal{Status::inadequate_model,
@@ -265,7 +266,7 @@ std::optional<Refusal> WhyRefused(const LogSamples& m, const DescentState& last,
   return std::nullopt;
 }
 
-/// Whether the loop has arrived, and a sentence about it.
+/// Whether the loop has converged, and a sentence about it.
 std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
                                      const Uncertainty& uncertainty, double tolerance) {
   const Convergence distance = Judge(states, uncertainty.covariance.diagonal().cwiseSqrt());
@@ -276,12 +277,12 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
   return {false, ExplainStopped(iterations, distance.rate, distance.remaining, tolerance)};
 }
 
-/// (J^T J + s P)^-1 of both blocks together; nothing where the motion cannot tell them apart.
+/// (J^T J + s P)^-1 of both blocks together; nothing where the motion cannot distinguish them.
 /// jacobian: [n x (p + 2)]
 std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
                                              const Eigen::MatrixXd& jacobian,
                                              const Eigen::VectorXd& torque) {
-  // without maps the columns themselves tell whether they are distinct
+  // without maps the columns themselves show whether they are distinct
   if (part.maps.empty()) {
     const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
     if (joint.rank < jacobian.cols()) return std::nullopt;
@@ -299,7 +300,7 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
 
 /// What is known of the rows of the table, law, warming and gravity. uncertainty: of (nominal, gain, ln tau).
 Uncertainty OfTable(const NominalPart& part, Uncertainty uncertainty) {
-  // the fit has gravity before the warming, the table behind it
+  // the fit has gravity before the warming, the table after it
   const Layout at = part.layout();
   const Layout table = at.Reordered(&Layout::law, &Layout::heat, &Layout::rigid, &Layout::weights);
   std::vector<Eigen::Index> order = at.PlacesOf(table);
@@ -329,7 +330,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
              const std::vector<DescentState>& states) {
   const DescentState& last = states.back();
   Fit fit = ModelOf(input, part, last);
-  // gravity may push, friction itself must brake
+  // gravity may drive the joint, friction itself must brake it
   const Eigen::VectorXd fitted = descent.Fitted(last);
   const Eigen::VectorXd gravity_torque = part.moving.keep.cast<double>().matrix().cwiseProduct(
       part.gravity.columns * part.layout().rigid.Of(last.nominal));
@@ -349,7 +350,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   fit.count = static_cast<int>(part.layout().size());
   fit.effective_parameters = part.effective + 2;
 
-  // what is known now, and how far from the end it is
+  // the uncertainty so far, and the distance from the fixed point
   const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
                                                 .cofactor = *cofactor,
                                                 .residual = fit.residual(),
@@ -386,7 +387,7 @@ Fit FitInTurn(const IdentifierInput& input) {
   const FirstGuess start = Start(gravity.Of(input));
   if (!start.thermal) return Refused(kName, Status::not_identifiable, start.why);
 
-  // all iterations, on losses without gravity, which the fit without warming tells
+  // all iterations, on losses without gravity, which the fit without warming gives
   const BlockDescent descent(input.measurements, part.moving, part.columns, part.cofactor,
                              gravity.columns * part.layout().rigid.Of(part.solution));
   const std::vector<DescentState> states =

@@ -28,7 +28,7 @@ struct EnergyMapSize {
 Fit FitEnergyMap(const IdentifierInput& input) {
   const auto& size = input.options.Get<EnergyMapSize>();
   const auto& options = input.options.Get<MapOptions>();
-  // E, with position parts beside it, one for each direction of motion
+  // E, with position parts in addition, one for each direction of motion
   const auto beside = [&](const MapPoints& points) {
     return ForEachWidth(options, [&](double width) -> std::vector<FrictionMap> {
       return {PositionMap(points, options.kernel, size.kernels, width)};

@@ -1,7 +1,6 @@
 // Identifier `energy-ml`: law and warming together, by maximum likelihood over the closed loop (warming/fit_law.h).
 // Needs no start. Any law that is linear in its parameters; optionally E(0). Where `position` names maps over the
-// joint's or the motor's angle, these are fitted together with law and warming (maps/energy_ml_maps.h), but behind no
-// lag.
+// joint's or the motor's angle, these are fitted together with law and warming (maps/energy_ml_maps.h), but without a lag.
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
@@ -24,7 +23,7 @@ Fit FitAsAsked(const IdentifierInput& input) {
   if (input.options.Get<WarmMapOptions>().position == WarmMap::none) {
     return FitLaw(kEnergyMl, input, PartFit::estimated);
   }
-  // what cannot be had together
+  // options that cannot be combined
   if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);
   if (AsksForLoad(input)) {
     return Refused(kEnergyMl, Status::bad_data, kLoadBesideMaps);

@@ -26,13 +26,13 @@ Identifier Auto();
 /// All identifiers: a new one is a file in this folder, a line above, and one in identifier_list.cc.
 const std::vector<Identifier>& Identifiers();
 
-/// The identifier that is called so, or was. Throws BadInput with the nearest name.
+/// The identifier that has, or had, this name. Throws BadInput with the nearest name.
 const Identifier& FindIdentifier(const std::string& name);
 
 /// The same; nullptr where there is none.
 const Identifier* LookUpIdentifier(const std::string& name);
 
-/// What an identifier is called now; `name` itself where the list has none that is or was called so.
+/// The present name of an identifier; `name` itself where the list has none that has or had that name.
 std::string CurrentName(const std::string& name);
 
 }  // namespace warmjoint

@@ -1,14 +1,14 @@
 // Identifier `kalman`: parameters and energy online, by a bank of extended Kalman filters.
 //
 // Runs a KalmanBank over the recording, from knowing nothing of law, gain and time constant and
-// E(0) = 0: one pass is what a controller would know at the end. The bank's members lie 0.1 to 0.4
+// E(0) = 0: one pass is what a controller would know at the end. The bank's members are 0.1 to 0.4
 // apart in ln tau, near enough to be right to about twice the Cramer-Rao bound. Each further pass
-// over the stored recording is linearised where the last one ended, until nothing moves: then the
+// over the stored recording is linearised where the last one ended, until no parameter changes: then the
 // answer is that of maximum likelihood.
 //
 // Standard deviations and 95 % intervals as in uncertainty.h, from the exact Jacobian of the
-// closed loop; none after a single pass, which they would not hold for. not_converged where the
-// last pass moved a parameter by more than its standard deviation; not_identifiable as energy-ml.
+// closed loop; none after a single pass, for which they would not be valid. not_converged where the
+// last pass changed a parameter by more than its standard deviation; not_identifiable as energy-ml.
 // The trace holds parameters and energy at 50 moments of the last pass.
 #include <warmjoint/prepared_log.h>
 
@@ -36,7 +36,7 @@
 namespace warmjoint {
 namespace {
 
-/// The recording as the filters read it, and what it tells beforehand.
+/// The recording as the filters read it, and what is computed from it beforehand.
 struct KalmanTrack {
   const Law& law;
   const LogSamples& measurements;
@@ -46,7 +46,7 @@ struct KalmanTrack {
   double torque_rms = 0;       // over the kept samples, N.m or N
 };
 
-/// Where the filters stand after a pass.
+/// The state of the filters after a pass.
 struct KalmanPass {
   Layout at;                   // of the mean
   Eigen::VectorXd mean;        // [d + 3] p, k, ln tau, E
@@ -71,7 +71,7 @@ KalmanSample<D> At(const KalmanTrack& track, Eigen::Index i) {
 }
 
 /// Variance of white noise on the level from its changes between the first neighbours: their median
-/// does not mind the few at which the speed changes. (N.m)^2 or N^2.
+/// is not affected by the few at which the speed changes. (N.m)^2 or N^2.
 double GuessNoise(const KalmanTrack& track) {
   constexpr Eigen::Index kFirst = 200;
   std::vector<double> squares;
@@ -95,8 +95,8 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track) {
   return {std::max(2 * track.loop.intervals().typical, total / 500), 5 * total};
 }
 
-/// Ignorance of all but E = 0: ten times what could stand for the whole torque, and gains up to
-/// thirty times that of a loop at the brink, k |v| = 1.
+/// The prior before any sample, which knows only E = 0: standard deviations of ten times what could explain the whole torque,
+/// for the gain of thirty times that of a loop at its limit of stability, k |v| = 1.
 template <int D>
 KalmanPrior<D> Ignorance(const KalmanTrack& track) {
   const Layout at = StateLayout(track.column_rms.size());
@@ -151,8 +151,8 @@ bool Settled(const KalmanPass& earlier, const KalmanPass& later) {
   return (moved <= 0.1 * later.covariance.diagonal().head(p).array().sqrt()).all();
 }
 
-/// Where the pass after `last` begins: linearised where that one ended, but next to ignorant, its
-/// deviations ten times as great (what is counted twice narrows them by half a percent in the end).
+/// The prior of the pass after `last`: linearised where that one ended, but with standard deviations ten times as large, so
+/// that the data which are counted twice narrow the result by only half a percent.
 template <int D>
 KalmanPrior<D> Again(const KalmanPass& last) {
   const Layout& at = last.at;
@@ -180,7 +180,7 @@ std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<It
   for (int pass = 0; pass < passes; ++pass) {
     made.push_back(Pass(track, prior, trace));
     const KalmanPass& last = made.back();
-    // a pass that went astray counts for nothing and ends them
+    // a pass that diverged does not count and is the last
     if (!last.mean.allFinite() || !last.covariance.allFinite()) {
       if (pass > 0) made.pop_back();
       break;
@@ -192,7 +192,7 @@ std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<It
   return made;
 }
 
-/// Passes until one moves no parameter by more than a tenth of its standard deviation, `most` at
+/// Passes until one changes no parameter by more than a tenth of its standard deviation, `most` at
 /// most; where each of them ended. trace: p, k, tau and E at 50 moments of the last pass.
 std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most, std::vector<Iterate>& trace) {
   // a number of law parameters that the compiler knows, where it is a common one
@@ -222,7 +222,7 @@ struct KalmanOptions {
   }
 };
 
-/// One pass is not efficient, and what still moves has not arrived.
+/// Judges the passes: one pass alone is not efficient, and passes after which a parameter still changes have not converged.
 void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
   const Uncertainty uncertainty = CovarianceOf(fit);
   if (passes.size() == 1) {
@@ -241,7 +241,7 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
 
 Refusal RanAway() { return {Status::not_converged, kRanAway, FrictionKind::warm_up}; }
 
-/// Why the recording does not tell these parameters; nothing where it does. joint: the Jacobian's.
+/// Why the recording does not determine these parameters; nothing where it does. joint: the Jacobian's.
 std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const KalmanPass& last,
                                   const LeastSquares& joint, const LoopResponse& response,
                                   double nominal_squares) {
@@ -295,7 +295,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   fit.count = static_cast<int>(last.at.heat.end());
   fit.effective_parameters = fit.count;
 
-  // what the whole recording knows of these parameters
+  // the information of the whole recording on these parameters
   Eigen::MatrixXd jacobian = Kept(track.loop.Jacobian(x, thermal), fit.used).leftCols(fit.count);
   jacobian.col(last.at.log_time_constant()) *= thermal.time_constant;  // from tau to ln tau
   if (!fit.fitted.allFinite() || !jacobian.allFinite()) {
@@ -324,7 +324,7 @@ Fit FitOnline(const IdentifierInput& input) {
   if (!m.further_starts.empty()) {
     return Refused(kName, Status::bad_data, kFollowsOneRecording);
   }
-  // the law's columns must be distinct before any warming is thought of
+  // the law's columns must be distinct before a warming is fitted
   LinearTask task = BeginLinear(input, 2);
   const LeastSquares nominal = SolveLinear(input, task);
   if (task.refusal) return Refused(kName, *task.refusal);

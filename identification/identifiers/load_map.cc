@@ -47,7 +47,7 @@ Fit FitLoadMap(const IdentifierInput& input) {
   const auto& size = input.options.Get<LoadMapSize>();
   const auto& options = input.options.Get<MapOptions>();
   const AxisSize load{MapQuantity::load, size.load_kernels};
-  // E, with the load's part beside it; then the level over all of them
+  // E, with the load's part in addition; then the level over all of them
   return FitMapModel(
       kName, input,
       {.quantities = {MapQuantity::position, MapQuantity::load},

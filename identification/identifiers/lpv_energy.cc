@@ -25,13 +25,13 @@ constexpr double kWidest = 4;   // factor on tau to both sides
 constexpr double kSame = 1e-6;  // columns that count as the same
 constexpr int kSteps = 24;      // each leaves 0.618 of the bracket: 3e-5 of log(tau) in the end
 
-/// Where a function has its minimum between a and b: golden section.
+/// The place of a function's minimum between a and b, by golden section.
 template <typename F>
 double Lowest(const F& f, double a, double b) {
   constexpr double ratio = std::numbers::phi - 1;
   double left = b - ratio * (b - a), right = a + ratio * (b - a);
   double at_left = f(left), at_right = f(right);
-  // golden section: the end beside the larger value is cut off
+  // golden section: the end next to the larger value is cut off
   for (int i = 0; i < kSteps; ++i) {
     if (at_left < at_right) {
       b = std::exchange(right, left), at_right = at_left;
@@ -46,8 +46,8 @@ double Lowest(const F& f, double a, double b) {
 
 /// Gain and time constant of Eq. (27), F = Fn(v) + k sign(v) x + c v x, with x the measured losses
 /// |tau v| filtered by 1 / (1 + s tau): linear in all but tau, which is searched for by golden
-/// section within a factor of four to both sides of `start`. A fit without c would give k and tau a
-/// part of it.
+/// section within a factor of four to both sides of `start`. In a fit without c, the slope's part
+/// would bias k and tau.
 Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal& start) {
   const LogSamples& m = input.measurements;
   // torque and law over samples that a fit uses, losses over all
@@ -102,7 +102,7 @@ MapShapes Shapes(int energy_kernels, const MapOptions& options, const MapPoints&
 Fit FitSlopeAndLevel(const IdentifierInput& input) {
   const int kernels = input.options.Get<LpvEnergySize>().energy_kernels;
   const auto& options = input.options.Get<MapOptions>();
-  // E of a law whose level alone warms, corrected for its slope, which did not follow the heat; then both over that E
+  // E of a law of which only the level follows the heat, corrected for the slope, which follows it too; then both over that E
   return FitMapModel(
       kName, input,
       {.heat = MapHeat::of_law,

@@ -1,17 +1,17 @@
 // Identifier `lugre`: the LuGre law, its bristle included.
 //
 // (kv, kc, ks, vs, sigma0, sigma1, M) = argmin sum ((tau - F - M a) / s)^2, F the LuGre law, or
-// the one with a level for each direction (kc+, kc- and kr for kc and ks), over the recorded motion (bristle_state.h). Starts, stops and turns take part beside the samples
-// kept, since they alone show the bristle (lugre_data.h); M, which acts there too, is estimated
-// beside the law, and so is how far the bristle is bent as each recording begins. s is the rms of the residual, one value for the samples kept and one for the
-// others, larger for outliers (Huber's weights), from three passes. Starts from the Stribeck curve
-// of the samples at constant speed, with sigma0 and sigma1 from a grid; the best three are refined
-// by Ceres. Standard deviations and intervals as in uncertainty.h, those of vs, sigma0 and sigma1
+// the one with a level for each direction (kc+, kc- and kr for kc and ks), over the recorded motion (bristle_state.h). Starts,
+// stops and turns take part in addition to the samples kept, since only they show the bristle (lugre_data.h). M, which acts
+// there too, is estimated together with the law, and so is how far the bristle is bent as each recording begins. s is the rms
+// of the residual, one value for the samples kept and one for the others, larger for outliers (Huber's weights), from three
+// passes. Starts from the Stribeck curve of the samples at constant speed, with sigma0 and sigma1 from a grid; the best three
+// are refined by Ceres. Standard deviations and intervals as in uncertainty.h, those of vs, sigma0 and sigma1
 // through their logarithms.
 //
-// not_identifiable where the motion cannot tell the law without bristle and fall; where the Stribeck effect is
+// not_identifiable where the motion does not determine the law without bristle and fall; where the Stribeck effect is
 // not seen (stribeck_verdict.h); where sigma0 or sigma1 are not known to a factor of e. What the
-// sampling shifts the parameters by counts as a standard deviation beside the noise: a third of
+// sampling shifts the parameters by counts as a standard deviation in addition to that of the noise: a third of
 // what leaving out every other sample changes (Richardson). inadequate_model where friction rises
 // from rest, or turns leave twice as much as constant speeds and 2 % of the torque. The trace
 // holds the grid.
@@ -40,8 +40,8 @@ namespace {
 /// A fit with what is known of it.
 struct LugreAnswer {
   LugreFit fit;
-  /// Of the parameters that are not constant. Those that may be are the last, damping and inertia, so that the others
-  /// have their places here.
+  /// The uncertainty of the parameters that are not constant. Damping and inertia, which may be constant, are the last, so that
+  /// the others have the same places here as in x.
   Uncertainty uncertainty;
 };
 
@@ -71,7 +71,7 @@ double RobustRms(std::vector<double> residuals) {
   return std::sqrt(squares / std::max(count, 1.0));
 }
 
-/// By how much the sampling shifts the parameters: linear motion between samples errs with the
+/// By how much the sampling shifts the parameters: linear motion between samples has an error that grows with the
 /// square of the interval, so that the error is a third of what leaving out every other sample
 /// changes (Richardson). jacobian: [n x d] of the free parameters, over the deviations.
 Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& problem,
@@ -101,7 +101,7 @@ Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& 
   return Cofactor(J.transpose() * J) * (J.transpose() * error);
 }
 
-/// Weighs both groups of samples by what a fit leaves of them, and outliers as Huber (1964) does:
+/// Weighs both groups of samples by the residuals of a fit, and outliers as Huber (1964) does:
 /// where the drive's torque jumps, the acceleration between samples is not known.
 NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreProblem& problem) {
   // residuals at constant speed, and others
@@ -113,7 +113,7 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
   }
   NoiseOfGroups noise;
   noise.kept = RobustRms(kept);
-  // a handful of samples tells no noise
+  // a handful of samples does not determine the noise
   const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.layout().size();
   noise.others = few ? noise.kept : RobustRms(others);
   // each sample has the noise of its group, an outlier a larger one
@@ -142,7 +142,7 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
                                      .cofactor = Cofactor(GramOf(jacobian)),
                                      .residual = fit.residual,
                                      .selection = problem.used});
-  // the sampling's error beside that of the noise
+  // the sampling's error in addition to that of the noise
   const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
 
   answer.uncertainty.covariance += shift * shift.transpose();
@@ -158,8 +158,8 @@ constexpr double kMissed = 2;              // rms around turns over that at cons
 constexpr double kImpreciseBristle = 0.5;  // standard deviation of a logarithm: a factor of e
 constexpr double kNothingKnown = 2.35;     // the same: a factor of 100
 
-/// x with law and ln vs of the Stribeck curve and 0 else, were presliding over after `distance`, rad or m;
-/// nothing where the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
+/// x with law and ln vs of the Stribeck curve and 0 else, as if presliding were over after `distance`, rad or m;
+/// nothing where the samples do not show a curve. It is only a start, so that ks is kept within 1 and 3 kc.
 std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const FallingLaw& law,
                                            double distance) {
   const LogSamples& m = input.measurements;
@@ -193,14 +193,14 @@ std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const F
 LugreFit FitFrom(const LugreProblem& problem, const std::vector<FitPoint>& scan, double fastest) {
   const auto refine = [&](const FitPoint& start) { return RefineLugre(problem, start); };
   const LugreFit first = BestRefined(scan, refine);
-  // its levels may have run away around a fall that is not there: those of the scan have not
+  // levels may have diverged where the log shows no fall; those of the scan have not
   const Slice law = problem.layout().law;
   FitPoint bristle = first.solution;
   law.In(bristle.x) = law.Of(scan[0].x);
   return BestRefined(ScanFall(problem, bristle, fastest), refine, std::optional(first));
 }
 
-/// Why bristle_stiffness cannot be told, or bristle_damping; nothing where they can.
+/// Why bristle_stiffness is not identifiable, or bristle_damping; nothing where they are.
 std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const LugreProblem& problem,
                                                  const LugreAnswer& answer) {
   const Layout at = problem.layout();
@@ -219,13 +219,13 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   return ExplainUnknownDamping({.value = damping, .deviation = deviation, .bend = bend}, m.joint);
 }
 
-/// Why the level at rest and stribeck_velocity cannot be told; nothing where they can.
+/// Why the level at rest and stribeck_velocity are not identifiable; nothing where they are.
 std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
                                            const LugreProblem& problem, const LugreAnswer& answer) {
   const StribeckEvidence evidence =
       EvidenceOf(*problem.law, problem.layout(), answer.fit.solution.x, answer.uncertainty);
 
-  // the fall must stand out of its own standard error
+  // the fall must exceed its own standard error
   const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
   if (!(explained > kVisibleWarming)) {
     return ExplainSmallFall(problem.law->fall_words, std::sqrt(std::max(explained, 0.0)),
@@ -250,7 +250,7 @@ void SetModel(const LogSamples& m, const LugreProblem& problem, const Eigen::Vec
   Append({InertiaParameter(x[at.inertia()], m)}, fit);
 }
 
-/// Why there is no fit to trust; nothing where there is.
+/// Why the fit is refused; nothing where it is not.
 std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProblem& problem,
                                   const LugreAnswer& answer) {
   auto why = UnidentifiableBristle(input.measurements, problem, answer);
@@ -260,7 +260,7 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProbl
   return NotConverged();
 }
 
-/// Voids a fit that misses what happens around turns.
+/// Invalidates a fit that does not describe the friction around turns.
 void JudgeTurns(const LogSamples& m, const NoiseOfGroups& noise, Fit& fit) {
   const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
   if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
@@ -268,7 +268,7 @@ void JudgeTurns(const LogSamples& m, const NoiseOfGroups& noise, Fit& fit) {
       Invalidate(Status::inadequate_model, ExplainTurns(noise.others, noise.kept, m.torque_unit)));
 }
 
-/// Puts an answer into `fit`, or why it cannot be trusted.
+/// Puts an answer into `fit`, or the reason why it is refused.
 void Conclude(const IdentifierInput& input, const LugreProblem& problem, const LugreAnswer& answer,
               const NoiseOfGroups& noise, Fit& fit) {
   fit.refusal = WhyRefused(input, problem, answer);
@@ -294,7 +294,7 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
               static_cast<int>(answer.fit.loads.size());
   fit.effective_parameters = fit.count;
 
-  // over its deviations, which take up what is uneven, a residual tells its colour alone
+  // divided by its deviations, which take up what is uneven, a residual shows only its colour
   Uncertainty uncertainty = answer.uncertainty;
   uncertainty.uneven = 0;
   fit.errors.covariance = [uncertainty] { return uncertainty; };
@@ -335,7 +335,7 @@ Fit FitLugre(const IdentifierInput& input) {
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
   LugreProblem problem = MakeLugreProblem(input, law, scale);
-  // what the options hold at 0 is not estimated
+  // parameters that the options hold at 0 are not estimated
   if (options.damping == PartFit::none)
     problem.constant.push_back(static_cast<int>(problem.layout().damping()));
   if (options.inertia == PartFit::none)
@@ -348,7 +348,7 @@ Fit FitLugre(const IdentifierInput& input) {
   fit.trace = ScanTrace(law, kExponent, scan, problem.deviation[0], problem.deviation.size());
   SetModel(m, problem, scan[0].x, fit);
 
-  // refine the best, and weigh the samples by what it leaves of them
+  // refine the best, and weigh the samples by its residuals
   LugreFit best = FitFrom(problem, scan, m.velocity.cwiseAbs().maxCoeff());
   NoiseOfGroups noise;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -35,14 +35,14 @@ constexpr Index kBins[] = {8, 16, 32, 64, 128, 256};
 constexpr double kDeviations = 2;  // of k F above its mean
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// From 0 to 1 over what was travelled. [n]
+/// The place along the travel, from 0 to 1. [n]
 VectorXd ShareOfRange(const VectorXd& position) {
   const double lower = position.minCoeff(), range = position.maxCoeff() - lower;
   if (!(range > 0)) return VectorXd::Zero(position.size());
   return (position.array() - lower) / range;
 }
 
-/// From 0 to 1 over a turn. [n]
+/// The place in a turn, from 0 to 1. [n]
 VectorXd ShareOfTurn(const VectorXd& angle) {
   return angle.unaryExpr([](double a) { return a / kTurn - std::floor(a / kTurn); });
 }
@@ -61,7 +61,7 @@ struct Means {
     }
   }
 
-  /// Squares that the means take.
+  /// Squares that the means explain.
   double Taken() const { return (sums.array().square() / counts.array().max(1)).sum(); }
   double Filled() const { return static_cast<double>((counts.array() > 0).count()); }
 };
@@ -76,7 +76,7 @@ bool TakesMoreThanChance(const VectorXd& residual, const VectorXd& share, const 
   const double degrees_of_freedom = means.Filled() - 1;
   if (degrees_of_freedom < 1 || !(about_bins > 0) || degrees_of_freedom > 0.5 * n) return false;
 
-  // beyond what as many means take of noise alone
+  // more than what as many means explain of noise alone
   const double taken = (about_mean - about_bins) / (about_bins / (n - degrees_of_freedom - 1));
   return taken > degrees_of_freedom + kDeviations * std::sqrt(2 * degrees_of_freedom);
 }
@@ -85,8 +85,8 @@ bool TakesMoreThanChance(const VectorXd& residual, const VectorXd& share, const 
 /// than chance would, at any of six widths of 8 to 256 bins:
 ///     (S0 - S1) / s^2 > k + 2 sqrt(2 k),   s^2 = S1 / (n - k - 1),
 /// S0: squares about one mean, S1: squares about the k + 1 means of bins that hold samples. Under chance
-/// alone the left side is k F, k on average, give or take sqrt(2 k). Kernels are no freer than such
-/// means, and a map that takes no more than chance gives does not lower the error on what it has not seen.
+/// alone the left side is k F, k on average, with a standard deviation of sqrt(2 k). Kernels are no more flexible than such
+/// means, and a map that explains no more than chance does not lower the error on unseen samples.
 /// residual: [n] N.m or N; points: [n x 5]. Places are the joint's position, and the motor's angle.
 bool LeavesOverPlace(const VectorXd& residual, const MapPoints& points) {
   const auto column = [&](MapQuantity quantity) -> VectorXd {
@@ -187,7 +187,7 @@ std::optional<double> ModelComparison::LagOfBest(const IdentifierInput& all) con
   all.Tell("looking for a lag of the torque");
   const Fit& fit = best->fit;
 
-  // jumps of E stand at rows: back to the samples with which those begin
+  // jumps of E are at rows: back to the samples with which those begin
   ThermalStart start = fit.Start();
   for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
   return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
@@ -230,7 +230,7 @@ bool ModelComparison::MayWarm() const {
   return std::ranges::any_of(trials_, [](const Trial& trial) {
     const Identifier& identifier = trial.structure.identifier;
     if (!trial.structure.CanWarm()) return false;
-    // one without slope, where the joint has one, need not settle for its warming
+    // where the joint has a slope, a law without one need not converge with warming
     const bool too_poor = identifier.options.Get<LawOption>().law->name == Coulomb::name;
     return too_poor ? trial.gives_friction : trial.inferred.status != Status::not_identifiable;
   });
@@ -265,7 +265,7 @@ void ModelComparison::DropWithoutSlope() {
 }
 
 void ModelComparison::DropDominated() {
-  // the best by BIC first: whatever outdoes one stands before it
+  // the best by BIC first: whatever is preferred to a trial comes before it
   std::vector<Trial*> order;
   for (Trial& trial : trials_) {
     if (trial.outdone) trial.dropped.clear();
@@ -274,7 +274,7 @@ void ModelComparison::DropDominated() {
   }
   std::ranges::stable_sort(order, {}, [&](const Trial* one) { return BicOf(*one); });
 
-  // dropped only by those that stand themselves
+  // a trial is dropped only in favour of one that is not dropped itself
   std::vector<const Trial*> standing;
   for (Trial* one : order) {
     for (const Trial* other : standing) {
@@ -303,7 +303,7 @@ bool ModelComparison::HoldOut(Trial& trial, const std::vector<Eigen::Index>& bou
 
 std::vector<StructureCandidate> ModelComparison::Compare(int blocks) {
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(quick_.selection, blocks);
-  // one that fails outdoes nobody: those that it dropped stand again
+  // a trial that fails is preferred to no other: those that were dropped for it return
   const auto fails = [&](Trial& trial) { return trial.dropped.empty() && !HoldOut(trial, bounds); };
   while (std::ranges::any_of(trials_, fails)) DropDominated();
 

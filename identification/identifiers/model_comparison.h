@@ -35,18 +35,18 @@ struct Choice {
 /// ones, the one of the least error. contenders: at least one; samples: n of BIC.
 Choice ChooseStructure(const std::vector<StructureCandidate>& contenders, double samples);
 
-/// What became of a structure on the rows that are compared.
+/// The result of a structure on the rows that are compared.
 struct Trial {
   Structure structure;
   Fit fit{};
   bool gives_friction = false;
-  Inference inferred{};                     // of one that gives no friction: why
-  std::string dropped{};                    // why it is no contender; empty for one that is
-  bool outdone = false;                     // by another that stands, which is why
+  Inference inferred{};   // of one that gives no friction: why
+  std::string dropped{};  // why it is no contender; empty for one that is
+  bool outdone = false;   // whether it was dropped in favour of another that is still a contender
   std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
 
   double Parameters() const { return fit.effective_parameters; }
-  /// (N.m)^2 or N^2; of exact fits that of rounding, by which none is better than another.
+  /// (N.m)^2 or N^2; of exact fits that of rounding, so that none is better than another.
   double MeanSquare() const {
     return std::max(fit.residual().squaredNorm() / static_cast<double>(fit.torque.size()),
                     RoundingVariance(fit.torque));
@@ -64,7 +64,7 @@ class ModelComparison {
 
   /// Fits structures. Of maps, the shapes that they chose are kept from then on.
   void Add(const std::vector<Structure>& structures);
-  /// Tells of structures that are not tried.
+  /// Reports structures that are not tried.
   void LeaveOut(const std::vector<Structure>& structures, const std::string& why);
 
   /// The structure that BIC prefers so far, of those that fit all rows; none where nothing does.
@@ -74,39 +74,39 @@ class ModelComparison {
   /// input with every sample.
   std::optional<double> LagOfBest(const IdentifierInput& all) const;
 
-  /// Whether a map may help: the best so far leaves something over place, or nothing fits.
+  /// Whether a map may help: the best so far leaves structure over place, or nothing fits.
   bool MayHaveMap() const;
 
-  /// The kernels of maps that suit the log, chosen once, beside the warming of the best so far. gravity: its
-  /// kind, fitted beside the maps.
+  /// The kernels of maps that suit the log, chosen once, given the warming of the best so far. gravity: its
+  /// kind, fitted together with the maps.
   ChosenKernels KernelsGivenBest(FittedGravity gravity) const;
 
-  /// Whether a warming may be told beside gravity, which has been tried without one: a linear law
-  /// can be told with it, or the best so far has that gravity.
+  /// Whether a warming may be identifiable together with gravity, which has been tried without warming: a linear law
+  /// is identifiable with that gravity, or the best so far has it.
   bool MayWarmWith(FittedGravity gravity) const;
 
-  /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
-  /// be told without warming, or a linear law with it.
+  /// Whether the Stribeck law with warming may be identifiable, which costs more than either by itself: so far the Stribeck law
+  /// is identifiable without warming, or a linear law with it.
   bool MayBendAndWarm(FittedGravity gravity) const;
 
   /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
-  /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
+  /// pushes in one direction. Where it does not fit, the residual of the linear law decides; with warming, which costs
   /// more, that two levels fit without it.
   bool MayHaveTwoLevels(PartFit warming, FittedGravity gravity) const;
 
-  /// Drops laws without a slope over speed beside the same structure with one: a slope that is not significant is not 0, and its
-  /// interval tells how far. They stand where the motion cannot tell a slope.
+  /// Drops laws without a slope over speed where the same structure with a slope was fitted: a slope that is not significant is
+  /// not 0, and its interval shows how large it may be. Laws without a slope are kept where the motion does not determine a slope.
   void DropWithoutSlope();
 
-  /// Drops those that cannot be chosen whatever the blocks say: one that stands itself is simpler and preferred
-  /// by BIC, or leaves half of the residual.
+  /// Drops those that cannot be chosen whatever the blocks say, because another one that is not dropped is simpler and
+  /// preferred by BIC, or leaves half of the residual.
   void DropDominated();
 
-  /// The structure that stands where it is the only one: there is nothing to compare.
+  /// The structure that is not dropped, where it is the only one, so that there is nothing to compare; else null.
   const Structure* OnlyOne() const;
 
-  /// Errors of those that stand, on blocks that they have not seen. Where one fails without a block, those that it
-  /// outdid stand again.
+  /// Errors of those that are not dropped, on blocks that they have not seen. Where one fails without a block, those that were
+  /// dropped in favour of it return.
   std::vector<StructureCandidate> Compare(int blocks);
   /// The structure of the i-th contender of the last comparison.
   const Structure& Contending(size_t i) const { return trials_[standing_[i]].structure; }
@@ -121,16 +121,16 @@ class ModelComparison {
   const Trial* BestTrial() const;
   /// Finds the errors of a trial on blocks between bounds; false, and why, where it fails without one.
   bool HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds);
-  /// Whether a linear law can be told with warming.
+  /// Whether a linear law with warming is identifiable.
   bool MayWarm() const;
   double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
   /// The trial of a structure; null where it was not tried.
   const Trial* Find(const Structure& structure) const;
   /// The same structure as one whose law has no slope over speed, with a slope, where that gives friction; else null.
   const Trial* WithSlope(const Trial& trial) const;
-  /// Whether the residual has a mean, which BIC would give a parameter.
+  /// Whether the residual has a mean for which BIC would accept one more parameter.
   bool Pushes(const Fit& fit) const;
-  /// Why one cannot be chosen beside another; empty where it can.
+  /// Why one cannot be chosen given another; empty where it can.
   std::string WhyDominated(const Trial& one, const Trial& other) const;
 
   const CondensedLog log_;

@@ -1,6 +1,6 @@
 // motor-ridge: a nominal law, a map over the joint's angle and one over the motor's.
 //
-// Ripple repeats with the motor's turn: kernels over mod(gear p, 2 pi) x V on a circle, beside a
+// Ripple repeats with the motor's turn: kernels over mod(gear p, 2 pi) x V on a circle, in addition to a
 // part over the joint's position for each direction of motion.
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/energy_ml_maps.h"

@@ -3,8 +3,8 @@
 // The linear parameters of a law, sample by sample, with a forgetting factor f: the answer is that
 // of weighted least squares with weight f^age, so that with f = 1 it is nominal-ls. All but the
 // thermal parameters are linear: with thermal_gain and thermal_time_constant given, the heat of the
-// measured losses, H |tau v| without gravity's, is taken off first, so that a friction that changes
-// does not spoil it. The trace holds the parameters at 50 moments of the recording.
+// measured losses, H |tau v| without gravity's, is subtracted first, so that the warming does not
+// bias the law. The trace holds the parameters at 50 moments of the recording.
 // Intervals as in uncertainty.h, for the weighted samples; with a warming they hold the noise that
 // comes through the heat, too.
 #include <warmjoint/prepared_log.h>
@@ -26,7 +26,7 @@
 namespace warmjoint {
 namespace {
 
-/// What a known warming takes off the torque, sign(v) E with E = H |F v|, Eqs. (19)-(22), where F is
+/// The torque of a known warming, sign(v) E with E = H |F v|, Eqs. (19)-(22), which is subtracted, where F is
 /// the torque itself. Friction brakes, so that |F v| = F v, and the map
 ///     M: y -> sign(v) H (v y)
 /// is linear. With the torque y = A p + sign(v) E + G x + e (law, heat, gravity, noise) and
@@ -51,7 +51,7 @@ class MeasuredHeat {
   Eigen::MatrixXd TakenOff(const Eigen::MatrixXd& columns) const {
     Eigen::MatrixXd result = columns;
     for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-      // the loss that the column stands for, and the energy that it leaves
+      // the loss by the column's force, and the energy that it leaves
       const Eigen::VectorXd loss = velocity_.cwiseProduct(columns.col(j));
       result.col(j) -= direction_.cwiseProduct(filter_.Energy(thermal_, loss));
     }
@@ -130,9 +130,9 @@ Eigen::VectorXd Run(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double f
   return state.estimate.cwiseQuotient(scale.transpose());
 }
 
-/// Covariance of what rows [N x d] of a measured heat tell, with weights [n] of the kept samples:
-/// the noise of all samples comes through the heat, that of those not kept taken
-/// for that of the others. residual: [n]; cofactor: [d x d].
+/// Covariance of an estimate from rows [N x d] with a measured heat, with weights [n] of the kept samples:
+/// the noise of all samples acts through the heat, and samples that are not kept are taken to have the same noise
+/// as the others. residual: [n]; cofactor: [d x d].
 Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
                         const Eigen::VectorXd& weights, const Eigen::VectorXd& residual,
                         const Eigen::MatrixXd& cofactor, const Selection& used) {
@@ -162,7 +162,7 @@ Fit FitOnline(const IdentifierInput& given) {
   const RigidPart& gravity = task.gravity;
   const IdentifierInput input = gravity.Of(given);
 
-  // the heat of a given warming is taken off the torque, and off gravity, which makes no heat
+  // the heat of a given warming is subtracted from the torque, and from gravity, which makes no heat
   const std::optional<Thermal> thermal = GivenThermal(input.options.Get<RlsOptions>());
   std::optional<MeasuredHeat> heat;
   if (thermal) heat.emplace(m, *thermal);
@@ -173,7 +173,7 @@ Fit FitOnline(const IdentifierInput& given) {
     rows.rightCols(gravity.count()) = heat->TakenOff(rows.rightCols(gravity.count()));
   }
 
-  // what the remembered samples can tell apart, from their weighted columns
+  // what the remembered samples can distinguish, from their weighted columns
   const double forgetting = input.options.Get<RlsOptions>().forgetting;
   const Eigen::MatrixXd A = Kept(rows, input.selection);
   const Eigen::VectorXd y = Kept(torque, input.selection);
@@ -184,7 +184,7 @@ Fit FitOnline(const IdentifierInput& given) {
     return Refused(kName, IndistinctColumns(weighted.mixed, task, input));
   }
 
-  // the law, gravity and the given warming beside it
+  // the law, with gravity and the given warming
   Fit fit;
   fit.identifier = kName;
   const Eigen::VectorXd x = Run(A, y, forgetting, task.law_count(), fit.trace);

@@ -1,12 +1,12 @@
 // Identifier `stribeck`: the Stribeck law, with or without warming.
 //
 // (kv, kc, ks, vs[, k, tau]) = argmin sum over the kept samples of (tau - F)^2, F the Stribeck law,
-// or the one with a level for each direction (kc+, kc- and kr for kc and ks), with a fixed exponent, closed over its losses by (19)-(22) where `warming` is estimated. Needs
-// no start: vs is scanned, and the three best are refined by Ceres on the law itself. Standard
-// deviations and 95 % intervals as in uncertainty.h, those of vs and tau through their logarithms.
+// or the one with a level for each direction (kc+, kc- and kr for kc and ks), with a fixed exponent, closed over its losses by
+// (19)-(22) where `warming` is estimated. Needs no start: vs is scanned, and the three best are refined by Ceres on the law
+// itself. Standard deviations and 95 % intervals as in uncertainty.h, those of vs and tau through their logarithms.
 // Gravity and inertia join it as linear columns, as they do elsewhere (rigid_part.h).
 //
-// not_identifiable where the motion cannot tell the law without its fall; where the level at rest and
+// not_identifiable where the motion does not determine the law without its fall; where the level at rest and
 // stribeck_velocity explain no more than chance does; where vs is not known to a factor of e, or
 // ks - kc not to a half of itself, which is so when slow speeds are missing. inadequate_model
 // where friction rises from rest instead of falling. The trace holds the scan, by its vs.
@@ -37,7 +37,7 @@ namespace {
 
 constexpr const char* kName = "stribeck";
 
-/// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
+/// The squares that the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
   const LogSamples& m = problem.measurements;
   // cold, by linear least squares
@@ -70,13 +70,13 @@ double Explained(const StribeckProblem& problem, double without, const FitPoint&
                             Kept(problem.measurements.torque, problem.selection));
 }
 
-/// Why they cannot be seen: one sentence.
+/// Why the level at rest and vs cannot be seen: one sentence.
 std::string Unseen(const IdentifierInput& input, const FallingLaw& law, double explained) {
   return ExplainUnseenFall(law.rest(), explained > 0 ? explained : 0.0, kVisibleWarming,
                            SlowSpeeds(input.measurements, input.selection));
 }
 
-/// What the law leaves without warming. (N.m)^2 or N^2
+/// The squares that the law leaves without warming. (N.m)^2 or N^2
 double ColdSquares(const StribeckProblem& problem) {
   StribeckProblem cold = problem;
   cold.warming = PartFit::none;
@@ -84,7 +84,7 @@ double ColdSquares(const StribeckProblem& problem) {
   return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
 }
 
-/// Why the warming cannot be told; nothing where it can, or is not asked for.
+/// Why the warming is not identifiable; nothing where it is, or is not asked for.
 std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
                                               const StribeckFit& fit,
                                               const Uncertainty& uncertainty) {
@@ -100,8 +100,8 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
                                 .step = problem.intervals.typical});
 }
 
-/// Voids a fit whose friction drives the joint on this motion. Where the data rule the law out, or
-/// chance alone may keep it within its bounds, there is no friction to run.
+/// Invalidates a fit whose friction drives the joint on this motion. Where the data rule the law out, or
+/// it may be within its bounds only by chance, there is no friction to simulate.
 void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
@@ -111,7 +111,7 @@ void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
       ExplainDriving(m.time[predicted.first_driving], RemedyForNonDissipative(without))));
 }
 
-/// Puts the best fit into `fit`, or why it cannot be trusted. without: squares of the law without the Stribeck effect
+/// Puts the best fit into `fit`, or the reason why it is refused. without: squares of the law without the Stribeck effect
 void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const RigidPart& rigid,
               const StribeckFit& best, double without, Fit& fit) {
   if (!best.converged) {
@@ -139,7 +139,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
       {.count = fit.torque.size(), .is_any_motion = input.measurements.acceleration.has_value()},
       problem.exponent);
 
-  // how sure it is, and whether that will do
+  // the uncertainty of the fit, and whether it is small enough
   const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return best.jacobian; }),
                                                 .cofactor = Cofactor(GramOf(best.jacobian)),
                                                 .residual = fit.residual(),
@@ -157,7 +157,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
 }
 
 Fit FitStribeck(const IdentifierInput& given) {
-  // gravity that the motion does not tell from friction ends it here
+  // where the motion does not distinguish gravity from friction, the fit is refused
   RigidPart rigid;
   if (auto why = PrepareRigid(given, rigid)) return Refused(kName, *why);
   const IdentifierInput input = rigid.Of(given);
@@ -169,7 +169,7 @@ Fit FitStribeck(const IdentifierInput& given) {
     return Refused(kName, Status::bad_data, *why);
   }
 
-  // the law must be told without its fall before the fall is thought of
+  // the law without its fall must be identifiable before the fall is looked for
   const auto unknown = law.law.parameters.first(levels + 1);
   if (auto why = UnknownSliding(input, law, unknown, rigid.columns)) return Refused(kName, *why);
 
@@ -188,7 +188,7 @@ Fit FitStribeck(const IdentifierInput& given) {
   if (scan.empty() || !std::isfinite(without))
     return Refused(kName, NoFall(law, m, input.selection));
 
-  // where the scan, within a few per cent of the best, sees next to nothing, so will the fit
+  // where the scan, which is within a few per cent of the best, explains next to nothing, so does the fit
   Fit fit;
   fit.identifier = kName;
   fit.trace = ScanTrace(law, options.exponent, scan, 1, input.selection.count());

@@ -39,7 +39,7 @@ constexpr double kSettledAfter = 5;  // time constants; why 5: e^-5 = 1/150 is l
 }  // namespace
 
 std::string Structure::Name() const {
-  // by name: what is not as usual, and what tells it from others
+  // by name: the options that are not at their defaults, and the one that distinguishes it from others
   std::map<std::string, std::string> given = identifier.options.Changed();
   for (const OptionInfo& option : identifier.options.List()) {
     if (option.name == named_option) given.insert({option.name, option.value});
@@ -89,7 +89,7 @@ bool Structure::CanEstimateDelay() const {
 
 Structure Structure::Quick() const {
   Structure sketch = PointEstimate();
-  // rows of means do not tell it
+  // rows of means do not show a delay
   if (CanEstimateDelay()) sketch = sketch.With(DelayOption{PartFit::none});
   if (!strength) return sketch;
   auto made = sketch.identifier.options.Get<MapOptions>();
@@ -122,7 +122,7 @@ std::span<const Word<GravityToTry>> WordsOf(GravityToTry) {
 std::vector<FittedGravity> GravityKinds(const IdentifierInput& input) {
   const auto& asked = input.options.Get<AutoOptions>().gravity.kind;
   if (asked) return {*asked};
-  // a place that never changes tells nothing of gravity
+  // a place that never changes shows nothing of gravity
   const Eigen::VectorXd& position = input.measurements.position;
   if (input.measurements.position_integrated || !position.allFinite() ||
       position.maxCoeff() == position.minCoeff())
@@ -155,7 +155,7 @@ Structure TwoLevelStribeckStructure(PartFit warming, FittedGravity gravity) {
 
 std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity gravity,
                                      const ChosenKernels& kernels) {
-  // what looks like gravity with a law that is too simple may be a map's, unless gravity was asked for
+  // what looks like gravity with a law that is too simple may be a map, unless gravity was asked for
   std::vector<FittedGravity> kinds{gravity};
   const bool is_asked = input.options.Get<AutoOptions>().gravity.kind.has_value();
   if (!is_asked && gravity != FittedGravity::none) {
@@ -191,7 +191,7 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
   const LogSamples& m = input.measurements;
   if (m.acceleration || !structure.CanEstimateLag()) return std::nullopt;
 
-  // whether what the model leaves shows a lag at all
+  // whether the residual of the model shows a lag at all
   const TorquePrediction predicted = PredictTorque(without, m, input.selection, start);
   const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, predicted.covered));
   const Eigen::VectorXd torque = Kept(predicted.torque, predicted.covered);
@@ -206,7 +206,7 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
 
 std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
   if (input.view != View::moving) return std::nullopt;
-  // without heat, which moves little within a delay; beside gravity, unless the motion cannot tell that
+  // without heat, which changes little within a delay; with gravity, unless the motion does not determine it
   const LogSamples& m = input.measurements;
   const bool may_swing =
       m.joint == JointKind::rotary && !m.position_integrated && m.position.allFinite();
@@ -219,7 +219,7 @@ std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
   }
   if (!IsLate(fit)) return std::nullopt;
 
-  // the law beside that of a fit without it
+  // the law compared with that of a fit without a delay
   const Fit in_time = richest.With(DelayOption{PartFit::none}).Fitted(input);
   const Eigen::MatrixXd columns =
       LawColumns(*FindLaw(fit.friction.law), Kept(m.velocity, fit.used));

@@ -22,7 +22,7 @@ struct Structure {
   Identifier identifier;
   /// The option that its name has even at its default; or empty.
   std::string_view named_option{};
-  /// Of the prior on a map, where it is chosen for the rows that structures are compared on.
+  /// The strength of the prior on a map, where it is chosen for the rows on which structures are compared.
   std::optional<double> strength{};
 
   /// "energy-ml gravity=sincos law=coulomb"
@@ -34,7 +34,7 @@ struct Structure {
     other.identifier.options = identifier.options.With(group);
     return other;
   }
-  /// Its gravity; none where it knows none.
+  /// Its gravity; none where it has no such option.
   FittedGravity gravity() const;
 
   /// The same with the number and the width of a map's kernels, of those over the motor's angle with the
@@ -47,14 +47,14 @@ struct Structure {
   /// Whether it could estimate a lag of the torque, too.
   bool CanEstimateLag() const;
 
-  /// Whether it estimates a delay of the torque beside motion of any kind.
+  /// Whether it estimates a delay of the torque relative to motion of any kind.
   bool CanEstimateDelay() const;
 
   /// Its options, E(0) as those of the input have it, where it asks.
   Options OptionsWith(const Options& input) const;
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
-  /// The same without what only a reader wants: bands along maps.
+  /// The same without bands along maps, which only a reader needs.
   Structure PointEstimate() const;
   /// A sketch for the rows that structures are compared on.
   Structure Quick() const;
@@ -88,11 +88,11 @@ struct AutoOptions {
 /// sincos and paired for a joint that turns, none and paired for one that slides.
 std::vector<FittedGravity> GravityKinds(const IdentifierInput& input);
 
-/// Laws that are linear in their parameters beside gravity, without warming and with it.
+/// Laws that are linear in their parameters with gravity, without warming and with it.
 std::vector<Structure> ColdStructures(FittedGravity gravity);
 std::vector<Structure> WarmStructures(FittedGravity gravity);
 
-/// The Stribeck law beside gravity.
+/// The Stribeck law with gravity.
 Structure StribeckStructure(PartFit warming, FittedGravity gravity);
 
 /// The same with a Coulomb level for each direction of motion.
@@ -104,7 +104,7 @@ struct ChosenKernels {
   std::optional<ChosenMap> motor;  // over the motor's angle
 };
 
-/// Maps, without warming and with it, also beside gravity.
+/// Maps, without warming and with it, also with gravity.
 std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity gravity,
                                      const ChosenKernels& kernels = {});
 
@@ -119,12 +119,12 @@ struct LateTorque {
   double harm = 0;   // change of the friction, rms, where it is left out, as a share
 };
 
-/// As the richest law that is linear, beside gravity, tells it; nothing where the log shows no such delay, or holds speeds.
+/// The delay that the richest linear law, with gravity, estimates; nothing where the log shows no such delay, or holds speeds.
 std::optional<LateTorque> FindLateTorque(const IdentifierInput& input);
 
 /// The selection without the first five time constants of each run, after which 1/150 of what the lag
-/// held is left, or without half of the run where it is shorter: what structures that know no lag may
-/// see.
+/// held is left, or without half of the run where it is shorter: the samples for structures without
+/// a lag.
 Selection Settled(const LogSamples& measurements, Selection selection, double lag);
 
 }  // namespace warmjoint

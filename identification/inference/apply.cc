@@ -10,13 +10,13 @@
 namespace warmjoint {
 namespace {
 
-/// Moves a value and its interval, if it has one.
+/// Changes a value and its interval, if it has one.
 void Move(const FigureChange& change, double& value, std::array<double, 2>* interval,
           std::vector<WidthPart>& parts) {
   value += change.shift;
   if (!interval) return;
 
-  // noise around either end of what is covered: an interval that holds the one that is true
+  // the value may be anywhere in a range; the interval holds the true one for noise around either end (ReachBeyondEnds)
   auto& [lower, upper] = *interval;
   const double half = 0.5 * (upper - lower), middle = 0.5 * (lower + upper);
   const double apart = change.below + change.above;
@@ -29,7 +29,7 @@ void Move(const FigureChange& change, double& value, std::array<double, 2>* inte
   lower += change.shift - change.reach;
   upper += change.shift + change.reach;
 
-  // what covers shares what it adds to the half width
+  // the sources that cover share what they add to the half width
   for (WidthPart part : change.parts) parts.push_back(part);
   for (WidthPart part : change.covered) {
     part.half_width *= apart > 0 ? covered / apart : 0;
@@ -37,7 +37,7 @@ void Move(const FigureChange& change, double& value, std::array<double, 2>* inte
   }
 }
 
-/// Moves the value of a row of the table to where others are held at a bound: its interval stays that of noise.
+/// Changes the value of a row of the table to that where other rows are held at their bounds; its interval stays that of noise.
 void Hold(const std::vector<Cause>& causes, std::size_t row, ParameterInterval& estimated) {
   for (const Cause& cause : causes) {
     if (cause.action != Action::hold) continue;
@@ -56,7 +56,7 @@ void Apply(const FigureChange& change, ParameterInterval& estimated) {
        estimated.parts);
 }
 
-/// What all rows leave of friction at speeds: those that depend on a number without an interval go.
+/// Applies all rows to the friction at speeds, and drops the figures that depend on a number without an interval.
 void Apply(const std::vector<Cause>& causes, std::vector<SpeedFigure>& at_speeds) {
   std::vector<bool> stays(at_speeds.size(), true);
   for (const Cause& cause : causes) {
@@ -97,7 +97,7 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
   }
   Apply(causes, answer.at_speeds);
 
-  // the status; values that are refused stay, without what would make them look sure
+  // the status; refused values are kept, without what would make them look certain
   const Cause* const refusal = RefusalOf(causes);
   if (refusal) {
     answer.status = refusal->status;
@@ -128,7 +128,7 @@ Inference Apply(Inference answer, std::vector<Cause> causes) {
 
 namespace {
 
-/// How far a figure may reach at most. by: [p] its derivatives by the cause's rows
+/// The most by which a cause may change a figure. by: [p] its derivatives by the cause's rows
 double MostOf(const Cause& cause, const Eigen::VectorXd& by) {
   double most = 0;
   for (Eigen::Index i = 0; i < by.size(); ++i) {
@@ -144,7 +144,7 @@ FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& d
   FigureChange change;
   std::map<Source, double> widened;
   for (const Cause& cause : causes) {
-    // what has no number left leaves none of what depends on it
+    // where no number has an interval, no figure that depends on it has one
     if (cause.action == Action::drop_intervals) change.has_interval = false;
     for (const std::size_t row : cause.without_interval) {
       if (derivatives[static_cast<Eigen::Index>(row)] != 0) change.has_interval = false;

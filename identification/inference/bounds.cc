@@ -20,7 +20,7 @@ namespace {
 
 std::optional<Excess> FindExcess(const FitParameter& parameter,
                                  const ParameterInterval& estimated) {
-  // a value that is no number counts as below
+  // a value that is not a number counts as below
   const bool below = !(parameter.value >= parameter.lower);
   if (!below && parameter.value <= parameter.upper) return std::nullopt;
   const double bound = below ? parameter.lower : parameter.upper;
@@ -36,7 +36,7 @@ bool RisesFromRest(const Friction& friction) {
   const auto coulomb = friction.parameters.find(std::string(kCoulombRow.name));
   const auto rise = friction.parameters.find(std::string(kStaticRiseRow.name));
   const auto none = friction.parameters.end();
-  // a law holds its rise as a parameter of its own, or as two levels
+  // a law has its rise from rest as a parameter of its own, or as two levels
   if (rise != none && rise->second < 0) return true;
   return at_rest != none && coulomb != none && at_rest->second < coulomb->second;
 }
@@ -47,7 +47,7 @@ Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
   return TorqueAlong(fit, followed ? followed->measurements : logged);
 }
 
-/// Moves the table by changes of x, [p], and the model by it.
+/// Changes the table by changes of x, [p], and the model with it.
 void Move(const Eigen::VectorXd& moves, Fit& fit) {
   Eigen::Index column = 0, gravity = 0;
   for (FitParameter& row : fit.parameters) {
@@ -65,7 +65,7 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
   }
 }
 
-/// The row of values that moved.
+/// The row of the values that changed.
 Cause Moved(const std::vector<FitParameter>& parameters, std::string sentence) {
   Cause cause{.source = Source::bound, .action = Action::hold, .sentence = std::move(sentence)};
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -91,7 +91,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
   Cause cause{
       .source = Source::bound, .action = Action::refuse, .status = Status::inadequate_model};
 
-  // what could not be held at its bound; that friction rises from rest has words of its own
+  // parameters that could not be held at their bounds; friction that rises from rest has a sentence of its own
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     if (!IsNominal(row.role) || row.part == LawPart::rest_rise) continue;
@@ -106,7 +106,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
 }
 
 void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit) {
-  // free gravity and maps have weights beside the table, which would have to follow
+  // free gravity and maps have weights outside of the table, which would have to be fitted again
   const bool free = fit.gravity && fit.gravity->kind == GravityKind::paired;
   if (free || !fit.friction.maps.empty()) return;
   std::vector<Eigen::Index> held;
@@ -126,7 +126,7 @@ void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements,
   }
   const std::string sentence = ExplainHeld(beyond);
 
-  // the others as the covariance has them with these held
+  // the other parameters, by the covariance, with these held
   const Eigen::MatrixXd& covariance = by_noise.uncertainty.covariance;
   const Eigen::Map<const Eigen::VectorXd> gap(gaps.data(), static_cast<Eigen::Index>(gaps.size()));
   const Eigen::VectorXd before = TorqueOf(fit, measurements);

@@ -14,16 +14,17 @@ namespace warmjoint {
 bool LeavesBounds(const std::vector<FitParameter>& parameters);
 
 /// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
-/// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.
+/// bounds, and its static level is not below its Coulomb level. It is what Infer finds, without the covariance.
 bool GivesFriction(const Fit& fit);
 
 /// The row that refuses an answer some law parameter of which lies outside of its bound, or whose static level is below
-/// its Coulomb level. by_noise: what noise alone says of the fit.
+/// its Coulomb level. by_noise: the inference from the noise alone.
 std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 
 /// Sets law parameters that lie outside of a bound within their intervals to it: what is beyond is noise. The others are
 /// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x. The model of the fit follows, so that the residual is
-/// that of what is reported, and a row (Action::hold) moves the values of the answer. A fit stays as it is where one lies beyond with its whole interval, or beside maps (RepeatedFit holds their laws) and free gravity.
+/// that of what is reported, and a row (Action::hold) changes the values of the answer. A fit stays as it is where a parameter
+/// lies beyond its bound with its whole interval, and where it has maps (RepeatedFit holds their laws) or free gravity.
 /// by_noise: of the fit, whatever its bounds; measurements: of the fit.
 void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit);
 

@@ -1,4 +1,4 @@
-// Everything that says something about an answer, as rows of one list.
+// All that changes an answer or has to be said about it, as rows of one list.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -21,12 +21,12 @@ namespace warmjoint {
 
 /// What a row is about, in the order in which sentences are read.
 enum class Source {
-  // what an interval by noise is made of; no cause
+  // the parts of an interval by noise; they are no causes
   noise,
   white_noise,
   autocorrelated_noise,
   few_segments,
-  // what refuses an answer by itself
+  // reasons that refuse an answer by themselves
   fit,
   bound,
   faults,
@@ -48,7 +48,7 @@ enum class Source {
   offset,
   degrees,
   clock,
-  // what the log leaves open
+  // what the log does not determine
   held_losses,
   gaps,
   rounding,
@@ -97,12 +97,12 @@ inline std::span<const Word<Source>> WordsOf(Source) {
 
 /// What a row does to an answer.
 enum class Action {
-  note,            // says something, changes nothing
-  widen,           // intervals reach farther by |bias| + 1.96 deviations of it
-  cover,           // intervals hold the value, and the value with the bias, for noise around either
+  note,   // has a sentence, changes nothing
+  widen,  // intervals reach farther by |bias| + 1.96 deviations of it
+  cover,  // intervals hold the value both with and without the bias, with noise around either
   drop_intervals,  // no number has an interval
-  shift,           // values and intervals move by the bias
-  hold,            // values of parameters move by the bias, and their intervals stay
+  shift,           // values and intervals are shifted by the bias
+  hold,            // values of parameters are shifted by the bias, and their intervals stay
   refuse,          // no interval, friction or band; the answer's status is the row's
 };
 
@@ -119,22 +119,23 @@ enum class SentenceIn { warning, message, any_answer };
 struct Cause {
   Source source = Source::fit;
   Action action = Action::note;
-  About about = About::all;         // whose values and intervals bias, spread and most change
+  About about = About::all;         // the numbers that bias, spread and most change
   std::vector<std::size_t> rows{};  // [p] of the fit's table that the bias is about
-  Eigen::VectorXd bias{};  // [p] change of each value, were this taken into account; empty: of none
+  /// [p] change of each value if this were taken into account; empty: no change
+  Eigen::VectorXd bias{};
   Eigen::MatrixXd spread{};  // [p x k] S, the bias' covariance is S S^T; empty: 0
-  /// [p] how far any parameter may be off: no figure reaches farther than all of them together; empty: any.
+  /// [p] the largest possible error of each parameter: no figure is widened by more than all of them together; empty: no limit.
   Eigen::VectorXd most{};
   std::vector<std::size_t> without_interval{};  // rows of the table that get none
   std::vector<std::size_t> without_speed{};  // of the friction at speeds, those that are left out
   double size =
       0;  // how far off an assumption was taken to be, N.m or N, where it has no fixed size
   Status status = Status::ok;      // of one that refuses
-  std::optional<Remedy> remedy{};  // what helps, of what was found
+  std::optional<Remedy> remedy{};  // the remedy for the finding
   std::string sentence{};          // empty: nothing is said
   SentenceIn sentence_in = SentenceIn::warning;
 
-  /// One more row that it is about, whose value it changes.
+  /// Adds a row of the table whose value it changes.
   void Add(std::size_t row, double change) {
     rows.push_back(row);
     bias.conservativeResize(std::ssize(rows));
@@ -142,12 +143,12 @@ struct Cause {
   }
 };
 
-/// What a fit says of itself, and changes nothing.
+/// A remark of a fit on itself, which changes nothing.
 inline Cause Note(std::string sentence, SentenceIn in = SentenceIn::warning) {
   return {.sentence = std::move(sentence), .sentence_in = in};
 }
 
-/// Why the numbers of a fit, which stand, mean nothing.
+/// The reason why the numbers of a fit mean nothing, although they are reported.
 inline Cause Invalidate(Status status, std::string sentence) {
   return {.action = Action::refuse, .status = status, .sentence = std::move(sentence)};
 }

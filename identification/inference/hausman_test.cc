@@ -54,13 +54,13 @@ Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& frict
   const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
   const std::string name = named ? fit.parameters[row].name : "gravity";
 
-  // how far the structure moves the fitted torque, beside the size of the friction
+  // how much the structure changes the fitted torque, relative to the friction
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
   if (!(moved < kDefaultRelevance * Rms(friction))) {
     return DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals));
   }
 
-  // known no better than the noise: by its degrees of freedom
+  // d is known no better than the noise, so the quantile is that of the noise's degrees of freedom
   const double reach =
       StudentQuantile(CovarianceOf(fit).degrees_of_freedom, kIntervalLevel) / kNormal95;
 

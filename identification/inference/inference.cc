@@ -17,13 +17,13 @@ namespace {
 /// std and interval of an estimated parameter. deviation: of its coordinate
 ParameterInterval Known(const FitParameter& parameter, double deviation, double quantile) {
   const double value = parameter.value;
-  // errors of the value itself: an interval that is even to both sides
+  // where the error is that of the value itself, the interval is symmetric
   if (parameter.coordinate == Coordinate::value) {
     const double reach = quantile * deviation;
     return {value, deviation, {{value - reach, value + reach}}, 0};
   }
 
-  // positive, and its logarithm the nearer to normal
+  // of a positive value the logarithm is nearer to normal
   const bool by_logarithm = parameter.coordinate == Coordinate::logarithm;
   const double relative = by_logarithm ? deviation : deviation / std::abs(value);
   const double factor = std::exp(quantile * relative);
@@ -31,7 +31,7 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
   return {value, std::abs(value) * relative, {{ends.first, ends.second}}, 0};
 }
 
-/// The same about the fit's own value, where it was moved; of one that is at a bound from that on.
+/// The same about the fit's own value, where that was shifted; of a value that is at a bound, from the bound on.
 ParameterInterval KnownWithin(FitParameter row, double deviation, double quantile) {
   const double held = row.value;
   row.value -= row.moved;
@@ -41,7 +41,7 @@ ParameterInterval KnownWithin(FitParameter row, double deviation, double quantil
   return estimated;
 }
 
-/// One for each row of the table; those that were given, or that noise does not tell, have none.
+/// One for each row of the table. Rows that were given, and rows to whose error the noise sets no bound, have no interval.
 std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& inference) {
   const Uncertainty& uncertainty = inference.uncertainty;
   std::vector<ParameterInterval> all;
@@ -64,14 +64,14 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
 }
 
 std::string MessageOf(const Fit& fit, const Inference& inference) {
-  // without intervals, the reason stands in the place of the noise
+  // without intervals, the reason for that takes the place of the sentence on the noise
   if (DropIntervals(fit.causes)) return fit.summary;
   const std::string loss = fit.loss_bend ? DescribeLoss(fit.residual(), *fit.loss_bend) : "";
   return fit.summary + loss + NoiseOf(inference.uncertainty);
 }
 
-/// Of whitened rows: what colour is left of them counts, too. The degrees of freedom are those of noise of the
-/// colour that was taken off, since from the same samples that colour is known.
+/// The uncertainty of a fit to whitened rows, where the colour that is left in the rows counts, too. The degrees of freedom are
+/// those of noise of the colour that was taken off, since that colour was estimated from the same samples.
 Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   const ErrorModel& errors = fit.errors;
   Uncertainty uncertainty =
@@ -82,7 +82,7 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
                     .fitted = fit.fitted,
                     .prior = errors.prior});
   uncertainty.noise = whitening.noise();
-  // what noise of the same variance would do, were it white
+  // the covariance if noise of the same variance were white
   const Eigen::MatrixXd plain = Kept(fit.jacobian(), fit.used);
   uncertainty.white = uncertainty.noise.variance * Cofactor(plain.transpose() * plain);
   const auto samples = static_cast<double>(whitening.size());
@@ -109,7 +109,7 @@ Inference ByNoise(const Fit& fit) {
     return inference;
   }
 
-  // how sure the parameters are
+  // the uncertainty of the parameters
   inference.uncertainty = CovarianceOf(fit);
   if (!inference.uncertainty.covariance.allFinite()) {
     inference.status = Status::bad_data;
@@ -144,7 +144,7 @@ Fit EnforceBounds(Fit fit, const LogSamples& measurements) {
 
 Uncertainty CovarianceOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
-  // by a function of its own, of a fit whose table lacks some of what it fitted
+  // a fit whose table lacks some of the fitted parameters has a function of its own
   if (errors.covariance) return errors.covariance();
 
   // rows that were whitened are judged by the colour that is left
@@ -169,7 +169,7 @@ std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::V
   const bool is_told = uncertainty.white.rows() == slopes.size() && uncertainty.white.allFinite();
   if (!is_told || !(all > 0)) return {{Source::noise, half}};
 
-  // each step as far as it leaves the interval, in its deviations
+  // the half width after each step, which takes one more property of the noise into account
   const double quantile = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
   const bool few = uncertainty.by_samples.size() > 0;
   const double before =
@@ -180,7 +180,7 @@ std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::V
        few ? before * deviation(uncertainty.by_samples) : quantile * all},
       {Source::few_segments, quantile * all}};
 
-  // one that makes it narrower takes that off what was there
+  // a step that makes it narrower is subtracted from the parts before it
   std::vector<WidthPart> parts;
   double reached = 0;
   for (const auto& [by, reach] : steps) {

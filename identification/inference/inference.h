@@ -1,4 +1,4 @@
-// What a fit tells: status, intervals, and what is wrong with it, as data.
+// What follows from a fit: its status, its intervals, and what is wrong with it, as data.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -24,10 +24,10 @@ struct WidthPart {
 
 /// What is known of one row of the fit's table.
 struct ParameterInterval {
-  double value = 0;  // of the fit, or moved by what the verdict found
+  double value = 0;  // of the fit, or shifted by the bias that the verdict found
   std::optional<double> std;
   std::optional<std::array<double, 2>> interval95;
-  double widened = 0;  // by which each end of the interval lies farther out than noise has it
+  double widened = 0;  // by which each end of the interval lies farther out than by noise alone
   std::vector<WidthPart> parts{};  // which add up to the half width
 
   double HalfWidth() const { return interval95 ? 0.5 * ((*interval95)[1] - (*interval95)[0]) : 0; }
@@ -50,32 +50,32 @@ struct Inference {
   Uncertainty uncertainty;
   std::vector<ParameterInterval> parameters;  // [P] as the fit's table
   std::vector<SpeedFigure> at_speeds;         // where they are known (speed_figures.h)
-  std::vector<Cause> causes;                  // by which it became what it is
+  std::vector<Cause> causes;                  // all causes that were applied
   bool gives_friction = false;                // whether the fit's friction may be used
   std::vector<Diagnostic> diagnostics;        // of the verdict, one for each test for lack of fit
   std::vector<Assumption> assumptions;
-  /// What the fit's own causes left, of an answer that others refused: the numbers that --force shows. Else null.
+  /// The inference by the fit's own causes only, of an answer that other causes refused: the numbers that --force shows. Else null.
   std::shared_ptr<const Inference> refused{};
 };
 
 /// Whether any number has an interval.
 bool HasIntervals(const Inference& inference);
 
-/// What noise alone says, whatever causes and bounds: values that no bound holds, covariance, and intervals with Student's quantile. That of a
-/// row at its bound goes from the bound on.
+/// The inference from the noise alone, without causes and bounds: values that are not held at bounds, covariance, and intervals
+/// with Student's quantile. The interval of a row at its bound begins at the bound.
 Inference ByNoise(const Fit& fit);
 
-/// What a fit says against itself: the rows that it brings, and that of its physical bounds (bounds.h).
+/// The causes that follow from the fit itself: the rows that it has, and that of its physical bounds (bounds.h).
 std::vector<Cause> OwnCauses(const Fit& fit, const Inference& by_noise);
 
-/// What noise says, and what the fit's own causes leave of that.
+/// The inference from the noise, with the fit's own causes applied.
 Inference Infer(const Fit& fit);
 
-/// The fit with what noise puts beyond a bound set to it (bounds.h); the fit itself where there is nothing to set, or
-/// the whole interval lies beyond. measurements: of the fit.
+/// The fit where parameters that noise puts beyond a bound are set to it (bounds.h). It is the fit itself where there is
+/// nothing to set, or where a whole interval lies beyond. measurements: of the fit.
 Fit EnforceBounds(Fit fit, const LogSamples& measurements);
 
-/// What an interval by noise is made of: what white noise makes, what its colour and unevenness add, and what few segments do.
+/// The parts of an interval by noise: that of white noise, what colour and unevenness add, and what few segments add.
 /// slopes: [p] of the figure by the coordinates; half: of its interval
 std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::VectorXd& slopes,
                                   double half);

@@ -21,14 +21,17 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kWarmStart =
-    0.1;                         // of the warmth that the joint reaches; why: cold_start asks that
-constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
+    0.1;  // of the largest |E| of the log; why: the assumption cold_start states that
+// of the friction, over the log; why: the assumption no_slow_drift states that
+constexpr double kDrift = 0.01;
 constexpr double kOffset =
-    0.1;  // of the friction; why: a sensor is trimmed to some per cent of what it reads
-constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
-constexpr double kSureMove = 3;  // deviations from which a move is there; why 3: 1 in 370
+    0.1;  // of the friction; why: a sensor's zero is trimmed to some per cent of its reading
+constexpr double kSure = 5;  // deviations of the heat's share from a value that is ruled out
+// deviations from a value beyond which a share differs from it; why 3: 1 in 370
+constexpr double kSureMove = 3;
 constexpr double kFadesAfter = 1.0 / 3;  // of the log: time constant of a drift that dies away
-constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
+// of a column orthogonal to the fit, below which the log shows nothing
+constexpr double kTold = 1e-6;
 
 /// held_losses
 void AddHeldLosses(const OverBins& over, Examination& examination) {
@@ -51,15 +54,15 @@ void AddHeldLosses(const OverBins& over, Examination& examination) {
     const auto is_at = [&](double value) {
       return std::abs(share - value) < kSureMove * deviation;
     };
-    // losses are held over each step, as the fit has them
+    // the residual shows that losses are held over each step, as the fit takes them
     if (1 - share > kSure * deviation && is_at(0)) return;
-    // or they follow the heat: the numbers become theirs; else both are possible
+    // or that they follow the heat, so that the numbers are shifted by the bias; else both are possible
     if (share > kSure * deviation && is_at(1)) action = Action::shift;
   }
   examination.Add(Source::held_losses, action, bias);
 }
 
-/// s t and s (1 - exp(-t/T)), the friction's drift over the log, even and fading. [m x 2]
+/// The friction's drift over the log, s t that is linear and s (1 - exp(-t/T)) that dies away. [m x 2]
 MatrixXd Drifts(const Bins& bins) {
   const Eigen::ArrayXd sign = bins.velocity.array().sign(), t = bins.time.array();
   MatrixXd drifts(bins.size(), 2);
@@ -71,7 +74,7 @@ MatrixXd Drifts(const Bins& bins) {
 /// cold_start, slow_drift, dead_band, offset, gaps
 void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
   const auto& [model, m, bins, derivatives, beside, circumstances] = over;
-  // starts that were not cold, all alike
+  // starts that were not cold, all equally warm
   if (circumstances.initial.cols() > 0) {
     const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
     const VectorXd force = energy * circumstances.initial.rowwise().sum();
@@ -82,7 +85,7 @@ void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
   const MatrixXd by_drifts = beside.BiasBy(kDrift * examination.friction * Drifts(bins));
   examination.Add(Source::slow_drift, Action::note, by_drifts.cwiseAbs().rowwise().maxCoeff());
 
-  // a torque sensor that swallows what is small
+  // a torque sensor that reads 0 for small torques
   const double band = circumstances.torque.cwiseAbs().minCoeff();
   const VectorXd swallowed = -band * bins.velocity.array().sign();
   examination.Add(Source::dead_band, Action::note, beside.BiasBy(swallowed), band);
@@ -103,7 +106,7 @@ void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
                   without_jumps.BiasBy(forces).cwiseAbs().rowwise().sum());
 }
 
-/// Values between which a factor may lie at all.
+/// The bounds of a factor's possible values.
 struct Possible {
   double least, most;
 
@@ -111,16 +114,16 @@ struct Possible {
   double FarEnd() const { return std::abs(least) > std::abs(most) ? least : most; }
 };
 
-/// Deviations of a factor at the level of one test among all that the log faces.
+/// The half width of a factor's interval in standard errors, at the level of one test among all tests of the log.
 double Quantile(double degrees_of_freedom) {
   return StudentQuantile(degrees_of_freedom,
                          1 - kErrorLevel / static_cast<double>(LackOfFitTests().size()));
 }
 
-/// What the tests of the log leave open of the factors of forces, each by itself beside the fit.
+/// The factors of forces that the tests of the log cannot rule out. Each force is added to the fit by itself.
 class OpenFactors {
  public:
-  /// residual: [m] means over bins; forces: [m x q] the same
+  /// residual: [m] means over bins; forces: [m x q] means over bins
   OpenFactors(const WeighedFit& fit, const VectorXd& residual, const MatrixXd& forces)
       : fit_(fit), left_(fit.Weighed(residual)), own_(fit.Weighed(forces)) {
     weighted_ = own_.colwise().squaredNorm();
@@ -132,9 +135,9 @@ class OpenFactors {
     white_quantile_ = Quantile(white_degrees_of_freedom_);
   }
 
-  /// Both ends of the i-th one's interval at their level.
+  /// The interval of the i-th factor at the level of the log's tests, within what is possible.
   Possible Interval(Index i, const Possible& possible) const {
-    // what the log cannot tell from the fit is open as far as it is possible at all
+    // where the log cannot distinguish the force from the fit, every factor that is possible at all remains
     const auto own = own_.col(i);
     const double square = own.squaredNorm();
     const bool told = square > kTold * kTold * weighted_[i];
@@ -152,7 +155,7 @@ class OpenFactors {
                       .residual = left_ - factor * own,
                       .selection = AllOf(own.size())});
 
-    // as far as noise reaches at that level
+    // the half width of the interval by noise at that level
     const double quantile = uncertainty.degrees_of_freedom == white_degrees_of_freedom_
                                 ? white_quantile_
                                 : Quantile(uncertainty.degrees_of_freedom);
@@ -163,10 +166,10 @@ class OpenFactors {
 
  private:
   const WeighedFit& fit_;
-  VectorXd left_;      // [m] weighted, of the residual beside the fit
-  MatrixXd own_;       // [m x q] weighted, of the forces beside the fit
+  VectorXd left_;      // [m] weighted, of the residual orthogonal to the fit
+  MatrixXd own_;       // [m x q] weighted, of the forces orthogonal to the fit
   VectorXd weighted_;  // [q] squares of the forces
-  // of most forces: where what they leave is white
+  // those of most forces: where the residual that they leave is white
   double white_degrees_of_freedom_ = 0, white_quantile_ = 0;
 };
 
@@ -175,14 +178,14 @@ MatrixXd Curve(const LogSamples& m, const Bins& bins) {
   return bins.Means(m.velocity.cwiseProduct(m.velocity.cwiseAbs()));
 }
 
-/// The farthest end of the factor of each of some forces that lies within -most and most. [count]
+/// The end that is farther from 0 of each factor's interval within -most to most. [count]
 VectorXd FarEnds(const OpenFactors& open, Index first, Index count, double most) {
   VectorXd ends(count);
   for (Index i = 0; i < count; ++i) ends[i] = open.Interval(first + i, {-most, most}).FarEnd();
   return ends;
 }
 
-/// The most that any of some forces moves each parameter. moves: [p x q] by a factor of 1; factors: [q]
+/// The most that any of some forces biases each parameter. moves: [p x q] the biases by a factor of 1; factors: [q]
 VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
   return (moves * factors.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
 }
@@ -190,7 +193,7 @@ VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
 /// open_start, open_curve, open_memory, open_drift
 void AddOpen(const OverBins& over, Examination& examination) {
   const auto& [model, m, bins, derivatives, fit, circumstances] = over;
-  // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
+  // all forces: the start, curves, friction that follows the speed late, drifts that are 0 at first, and a sensor's gain
   const HeatingForces& heating = circumstances.heating;
   const VectorXd force = circumstances.torque - circumstances.residual;
   const Index starts = circumstances.initial.cols(), late = circumstances.late_speeds.cols();
@@ -213,7 +216,7 @@ void AddOpen(const OverBins& over, Examination& examination) {
                     energies[farthest]);
   }
 
-  // a law that bends over the speed, or follows it late
+  // a law that is curved over the speed, or follows it late
   const double fastest = bins.velocity.cwiseAbs().maxCoeff(), friction = examination.friction;
   const auto note = [&](Source source, Index first, Index count, double most) {
     if (count == 0) return;
@@ -223,18 +226,18 @@ void AddOpen(const OverBins& over, Examination& examination) {
   note(Source::open_curve, curve, 2, friction / (fastest * fastest));
   note(Source::open_memory, memory, late, friction / fastest);
 
-  // friction, or a sensor, that drifts for another reason than its losses: as seen from the first moment
+  // friction, or a sensor, that drifts for another reason than its losses: relative to the first moment
   VectorXd factors(kDrifts + 1);
   factors << FarEnds(open, drift, kDrifts, friction), FarEnds(open, gain, 1, 1);
   const MatrixXd from_first = moves.rightCols(kDrifts + 1);
-  // and from the last, where the force of the end is taken off
+  // and relative to the last, where the force at the end is subtracted
   MatrixXd ends(bins.size(), 2);
   ends << heating.level, force;
   const MatrixXd at_end = fit.BiasBy(ends);
   MatrixXd until_last = from_first;
   until_last.leftCols(kDrifts).colwise() -= at_end.col(0);
   until_last.col(kDrifts) -= at_end.col(1);
-  // each by itself, with what it does to all parameters together
+  // each force by itself, with its bias of all parameters together
   for (Index i = 0; i < factors.size(); ++i) {
     examination.Add(Source::open_drift, Action::note, factors[i] * from_first.col(i));
     examination.Add(Source::open_drift, Action::note, factors[i] * until_last.col(i));
@@ -242,9 +245,10 @@ void AddOpen(const OverBins& over, Examination& examination) {
 }
 
 constexpr double kTurn = 2 * std::numbers::pi, kDegree = kTurn / 360;  // rad
-constexpr double kClock = 1.01;  // as fast as it should be; why: the slip that is asked about
+// times its right speed; why: the assumption is about a slip of that size
+constexpr double kClock = 1.01;
 
-/// The most that an end of each interval moves. [p]
+/// The most that an end of each interval changes. [p]
 Eigen::VectorXd FarthestMoves(double displacement, double time, const Fit& fit,
                               const Inference& inference, const std::vector<size_t>& rows) {
   Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
@@ -253,7 +257,7 @@ Eigen::VectorXd FarthestMoves(double displacement, double time, const Fit& fit,
     const ParameterInterval& estimated = inference.parameters[rows[i]];
     const double factor =
         std::pow(displacement, parameter.displacement_power) * std::pow(time, parameter.time_power);
-    // the end of the interval that is farther from 0 moves most
+    // the end of the interval that is farther from 0 changes most
     const double farthest = std::abs(estimated.value) + estimated.HalfWidth();
     moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, estimated.value);
   }

@@ -1,4 +1,4 @@
-// What an answer takes for granted and no test can see, and how far that moves the parameters.
+// What an answer takes for granted and no test can see, and how much that biases the parameters.
 #pragma once
 
 #include "identification/inference/inference.h"
@@ -21,19 +21,19 @@ struct OverBins {
 
 /// Adds the rows that follow from numbers of the log alone.
 ///
-/// held_losses: where the step of the log matters to the warming (fitted_model.h): the parameters
-/// of heat that is followed within the steps where the residual tells that it is, an interval that
-/// covers both where it cannot tell; no row where it tells that losses are held.
+/// held_losses: where the step of the log matters to the warming (fitted_model.h). Where the residual shows that
+/// the heat changes within the steps, the parameters become those of such heat. Where it shows that
+/// losses are held over each step, there is no row. Where it does not decide, an interval covers both.
 /// cold_start, slow_drift, dead_band, gaps: forces of a given size.
 ///
 /// open_start, open_drift, open_curve and open_memory: a force f that an assumption leaves out has
 /// a factor c, which joins the fit for one step of least squares. Its interval at the level of the
 /// log's tests for lack of fit (significance.h), for noise of any colour, is what no test can rule
-/// out. The farther end of that, as far as it is possible at all, moves the parameters by
+/// out. The end of that which is farther from 0, as far as it is possible at all, biases the parameters by
 /// -(J^T W J)^-1 J^T W f c.
 ///   start: f = dF/dE(0); E(0) lies between 0 and the most that the joint warms up.
 ///   curve: f = s v^2, with its heat or without; c at most the friction at the highest speed.
-///   memory: f = s (u - |v|), u: |v| behind one of the filters of Circumstances::past; c as of the
+///   memory: f = s (u - |v|), u: |v| after one of the filters of Circumstances::past; c as of the
 ///   curve.
 ///   drift: f = s d(t), against the motion and with its heat, or F t, a sensor whose gain drifts;
 ///   d = t, or (1 - exp(-t/T))/(1 - exp(-1/T)), T = 1/2, 1/4, 1/8; t: share of the log. The
@@ -42,8 +42,8 @@ struct OverBins {
 ///
 /// degrees and clock: no residual shows either, where all columns of displacement or of time share the slip.
 /// A parameter of dimension torque displacement^a time^b is f = w^a t^b times as large once displacement and time are
-/// w and t times as large; each end of its interval moves by (f - 1) of itself, and the farther
-/// move counts.
+/// w and t times as large; each end of its interval changes by (f - 1) of itself, and the larger
+/// change counts.
 /// degrees: w = pi/180; clock: t = 1.01.
 void AddAssumptions(const OverBins& over, const Fit& fit, const Inference& by_noise,
                     Examination& examination);

@@ -9,15 +9,15 @@ using Eigen::Index;
 
 constexpr Index kBins = 400;
 constexpr Index kInHold = 8;      // bins within a segment
-constexpr Index kInHolds = 8000;  // bins within all of them, but two in each at least
+constexpr Index kInHolds = 8000;  // bins within all segments together, but at least two in each
 
-/// A stretch of samples that belong to one segment, or to none, as the selection knows them.
+/// A stretch of samples that belong to one segment of the selection, or to none.
 struct Stretch {
   Index end = 0;       // one past its last sample
   Index segment = -1;  // -1: none
 };
 
-/// The stretch that a sample lies in. next: segments that end before it; counts on.
+/// The stretch that a sample lies in. next: the number of segments that end before it, which is counted on.
 Stretch StretchAt(Index sample, Index samples, const std::vector<Segment>& segments, Index& next) {
   const auto count = static_cast<Index>(segments.size());
   const auto at = [&](Index i) -> const Segment& { return segments[static_cast<size_t>(i)]; };
@@ -29,13 +29,13 @@ Stretch StretchAt(Index sample, Index samples, const std::vector<Segment>& segme
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
-/// Where the samples of a bin of a segment stand in it, from 0 to 1.
+/// The place of a bin's samples within their segment, from 0 to 1.
 double PhaseOf(Index begin, Index end, const Segment& one) {
   const double middle = 0.5 * static_cast<double>(begin + end);
   return (middle - static_cast<double>(one.begin)) / static_cast<double>(Length(one));
 }
 
-/// What bins know besides their samples.
+/// Fills in the weights, times and mean velocities of bins.
 void Describe(const LogSamples& measurements, Bins& bins) {
   const auto m = static_cast<Index>(bins.begin.size());
   const Eigen::VectorXd& t = measurements.time;
@@ -58,7 +58,7 @@ Bins Gather(const LogSamples& measurements, const Selection& selection, Index pa
   const auto at = [&](Index i) -> const Segment& { return segments[static_cast<size_t>(i)]; };
   const Index share = 1 + selection.count() / kBins;
 
-  // each kept sample begins a bin, which those behind it join as long as they belong to it
+  // each kept sample begins a bin, which those after it join as long as they belong to it
   Bins bins;
   std::vector<double> holds, phases;
   const bool *keep = selection.keep.data(), *all_end = keep + v.size();
@@ -71,7 +71,7 @@ Bins Gather(const LogSamples& measurements, const Selection& selection, Index pa
       kept_until = std::find(kept, all_end, false) - keep;
       if (kept == all_end) break;
     }
-    // at most its share of all samples, and of its segment
+    // a bin has at most its share of all samples, and of its segment
     const Index first = i;
     const auto [end, index] = StretchAt(first, v.size(), segments, next);
     const Index most = index < 0 ? share : std::min(share, (Length(at(index)) + parts - 1) / parts);

@@ -1,4 +1,4 @@
-// Samples of a fit taken together where the speed stays: what slow structure needs of them.
+// Means over neighbouring samples of the same speed, which are enough to find slow structure in a residual.
 #pragma once
 
 #include <warmjoint/prepared_log.h>
@@ -11,23 +11,23 @@
 namespace warmjoint {
 
 /// Runs of neighbouring kept samples in one segment of constant speed, or, where the selection
-/// knows no segments, in one direction. At most a 400th of all kept samples each.
+/// has no segments, in one direction. At most a 400th of all kept samples each.
 struct Bins {
   std::vector<Eigen::Index> begin;  // [m] first sample
   std::vector<Eigen::Index> end;    // [m] one past the last
-  Eigen::VectorXd weight;           // [m] number of samples, of those kept where they are asked for
-  Eigen::VectorXd velocity;         // [m] mean, rad/s or m/s
-  Eigen::VectorXd time;             // [m] middle, share of the recording, 0 to 1
-  Eigen::VectorXd hold;             // [m] index of the segment; [0] where none are known
-  Eigen::VectorXd phase;            // [m] middle, share of the segment, 0 to 1; [0] as hold
+  Eigen::VectorXd weight;    // [m] number of samples, only of kept ones where `keep` was given
+  Eigen::VectorXd velocity;  // [m] mean, rad/s or m/s
+  Eigen::VectorXd time;      // [m] middle, share of the recording, 0 to 1
+  Eigen::VectorXd hold;      // [m] index of the segment; [0] where none are known
+  Eigen::VectorXd phase;     // [m] middle, share of the segment, 0 to 1; [0] as hold
 
   Eigen::Index size() const { return weight.size(); }
 
-  /// Means over each bin, of those samples alone that are kept where that is given. all: [N x c]
+  /// Means over each bin, only of kept samples where `keep` is given. all: [N x c]
   /// over all samples; keep: [N] or none; returns [m x c].
   Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all,
                         const bool* keep = nullptr) const;
-  /// Takes one number of each bin off all of its samples alike. numbers: [m]; all: [N]
+  /// Subtracts one number for each bin from all of its samples. numbers: [m]; all: [N]
   void TakeOff(const Eigen::VectorXd& numbers, Eigen::VectorXd& all) const;
 };
 
@@ -61,8 +61,8 @@ inline Eigen::MatrixXd MeansOfRows(const Bins& bins, MakeRow&& row) {
 
 Bins MakeBins(const LogSamples& measurements, const Selection& selection);
 
-/// The same, but eight of them a segment, fewer where there are more than a thousand segments: for what
-/// changes within each one.
+/// The same, but with eight bins in each segment, fewer where there are more than a thousand segments. They are for
+/// structure that changes within each segment.
 Bins BinsWithinHolds(const LogSamples& measurements, const Selection& selection);
 
 }  // namespace warmjoint

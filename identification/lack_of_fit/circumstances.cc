@@ -17,8 +17,8 @@
 namespace warmjoint {
 namespace {
 
-/// dF/dc at c = 0 of frictions that hold c s g beside the fit's, s = sign(v): s g itself, and what its losses change of E
-/// (closed_loop.h); s g alone where no warming was estimated. levels(n, g): makes g of sample n, 4 F numbers in N.m or N;
+/// dF/dc at c = 0 of frictions that have c s g in addition to the fit's, s = sign(v): s g itself, and what its losses change of
+/// E (closed_loop.h); s g alone where no warming was estimated. levels(n, g): makes g of sample n, 4 F numbers in N.m or N;
 /// at_losses(n, g): makes of it the same at the velocity of the losses. Returns means over bins, [m x 4 F]. Part of a
 /// function for each processor (four.h).
 template <std::size_t F, typename Levels, typename AtLosses>
@@ -30,7 +30,7 @@ inline Eigen::MatrixXd WithHeat(const FittedModel& model, const Eigen::VectorXd&
       for (Four& four : row) four *= static_cast<double>(Sign(velocity[n]));
     });
   }
-  // by a force's own factor the loop is linear: its derivative is the same wherever the others are
+  // the loop is linear in a force's own factor, so its derivative does not depend on that factor
   const ClosedLoop& loop = *model.loop;
   Eigen::MatrixXd means;
   WithHolds(loop.intervals(), *model.thermal, [&](const auto& hold_after) {
@@ -54,8 +54,8 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// why: a drift that takes half the log to die away is still nearly even, one of an eighth is over before the
-// warming is; between them by halves
+// why: a drift that takes half the log to die away is still nearly linear, one that takes an eighth is over before the
+// warming is; the time constants between them are halved each time
 constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
 
 /// exp(-rate t). t: [N] share of the log, from 0 to 1
@@ -63,7 +63,8 @@ ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
   const bool even = model.loop && model.loop->intervals().even();
   if (!even) return (-rate * t).exp();
 
-  // of an even clock by products: what is known of it, later by as many steps, twice as much each time
+  // for a clock with even steps by products: the part that is computed gives the next part of the same length, so the length
+  // doubles each time
   const Index n = t.size();
   const double step = rate / static_cast<double>(n - 1);
   ArrayXd decay = ArrayXd::Ones(n);
@@ -74,12 +75,12 @@ ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
   return decay;
 }
 
-/// t: [N] share of the log; slowest: [N] what the slowest drift has left to do by then. [m x 8], drifts, level, bend, slope
-/// and zeros
+/// t: [N] share of the log; slowest: [N] the part of the slowest drift that is still to come. Returns [m x 8]: drifts, level,
+/// bend, slope and zeros
 WARMJOINT_FOR_EACH_PROCESSOR
 MatrixXd Along(const FittedModel& model, const LogSamples& m, const Bins& bins, const ArrayXd& t,
                const ArrayXd& slowest) {
-  // the law's forces at a velocity beside that of the sample, whose direction they have
+  // the law's forces at a velocity other than that of the sample, in the direction of the sample
   const auto by_speed = [&](Index n, double v, Four& g) {
     const double along = Sign(m.velocity[n]) * v;
     g = Four{1, along * std::abs(v), along * model.energy[n], 0};
@@ -93,7 +94,7 @@ MatrixXd Along(const FittedModel& model, const LogSamples& m, const Bins& bins, 
     by_speed(n, m.velocity[n], g[1]);
   };
 
-  // where the log tells the speed of the losses, theirs
+  // where the log has the velocity of the losses, that one
   if (!m.loss_velocity) {
     return WithHeat<2>(model, m.velocity, bins, levels, [](Index, Fours<2>&) {});
   }
@@ -132,7 +133,7 @@ double MedianHold(const FittedModel& model, const LogSamples& m) {
   return MedianOf(durations);
 }
 
-/// Time constants of a memory, from half a hold to an eighth of the log, the same ratio apart. s
+/// Time constants of a memory, s, from half a hold to an eighth of the log. Each is the same multiple of the one before.
 std::vector<double> MemoryTimes(double hold, double duration) {
   const double shortest = 0.5 * hold, longest = duration / 8;
   std::vector<double> times;
@@ -142,7 +143,7 @@ std::vector<double> MemoryTimes(double hold, double duration) {
   return times;
 }
 
-/// Means over bins of |v| behind filters of first order, which begin at the first speed, less |v|. [m x times]
+/// Means over bins of |v| after filters of first order, which begin at the first speed, less |v|. [m x times]
 WARMJOINT_FOR_EACH_PROCESSOR
 Eigen::MatrixXd LateSpeeds(const LogSamples& m, const std::vector<double>& times, const Bins& bins,
                            const ThermalFilter& filter) {
@@ -155,7 +156,8 @@ Eigen::MatrixXd LateSpeeds(const LogSamples& m, const std::vector<double>& times
   return late.leftCols(kMemories).colwise() - bins.Means(speed).col(0);
 }
 
-constexpr double kMovingShare = 0.05;  // of the largest speed: slower samples rest or turn
+// of the largest speed: at slower samples the joint is at rest or turns
+constexpr double kMovingShare = 0.05;
 constexpr double kAlikeSpeeds = 0.02;
 
 }  // namespace
@@ -169,7 +171,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, con
   circumstances.energies = Energies(model, m, bins, filter);
   circumstances.initial = circumstances.loads = circumstances.temperatures = none;
 
-  // forces with the heat that they make themselves, a slope that warms among them
+  // forces with the heat of their own losses, among them a slope over speed that changes with the heat
   circumstances.heating = HeatingForcesOf(model, m, bins);
 
   // the start where it is taken to be known, load and temperature where they are logged
@@ -177,7 +179,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, con
     circumstances.initial = bins.Means(model.by_initial_energy);
   if (m.load) circumstances.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
   if (m.temperature) {
-    // about the mean of the log: what a parameter moves by is then friction that the log knows, not that at 0 degC
+    // about the mean of the log: the bias of a parameter is then that at temperatures of the log, not that at 0 degC
     const Eigen::VectorXd temperature = bins.Means(*m.temperature);
     const double mean = bins.weight.dot(temperature) / bins.weight.sum();
     circumstances.temperatures = (temperature.array() - mean).matrix();

@@ -24,14 +24,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
+constexpr Index kFewestBins = 40;  // with fewer bins no structure can be tested
 constexpr Index kRowsAColumn = 3;
 constexpr double kWorstTenth =
     3.1622776601683795;  // why: sqrt(10), a tenth of the log may hold all squares of an effect
 constexpr double kRange =
     3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
 
-/// The tests that are still open, with their features beside the present fit.
+/// The tests that have not rejected yet, with their features relative to the present fit.
 struct Candidates {
   std::vector<Finding*> findings;
   std::vector<Features> features;
@@ -44,7 +44,7 @@ struct Candidates {
   }
 };
 
-/// The tests that there are rows for; the others say why not.
+/// The tests for which there are enough rows; the findings of the others say why they were not made.
 Candidates WithEnoughRows(const std::vector<Finding*>& findings, const Bins& bins,
                           const Circumstances& circumstances, const GrowingFit& fit,
                           Index columns) {
@@ -71,7 +71,7 @@ void Record(std::optional<Finding> made, Finding& row) {
   row = std::move(*made);
 }
 
-/// The rows of one turn.
+/// The rows of the table that belong to one stage.
 std::vector<Finding*> RowsOf(Stage stage, std::vector<Finding>& table) {
   std::vector<Finding*> rows;
   for (Finding& finding : table) {
@@ -80,11 +80,11 @@ std::vector<Finding*> RowsOf(Stage stage, std::vector<Finding>& table) {
   return rows;
 }
 
-/// Makes the tests over bins of one turn one after the other: of those that reject, the features of the largest gain join the
-/// fit, and the others are made again beside it, until none rejects. Too few rows for all features
-/// leave the last tests out: two rows in three are left to tell the noise.
-/// begin: the fit by mean dF/dx; rest: [N] what is left of tau - F, N.m or N, off which what those that reject and the
-/// parameters take up is taken.
+/// Makes the tests over bins of one stage one after the other: of those that reject, the features of the largest gain join the
+/// fit, and the other tests are made again relative to that fit, until none rejects. Where there are too few rows for all
+/// features, the last tests are left out: two rows in three remain to estimate the noise.
+/// begin: the fit by mean dF/dx; rest: [N] what is left of tau - F, N.m or N; what the features of the tests that reject and
+/// the parameters explain is subtracted from it.
 void TestStage(Stage stage, const Bins& bins, const WeighedFit& begin,
                const Circumstances& circumstances, Eigen::VectorXd& rest, ErrorLevel& level,
                std::vector<Finding>& table) {
@@ -108,7 +108,7 @@ void TestStage(Stage stage, const Bins& bins, const WeighedFit& begin,
     }
     if (best == candidates.size()) break;
 
-    // joins the fit; scans look for their best candidate beside it
+    // joins the fit; scans look for their best candidate relative to the fit with it
     level.Rejects(*candidates.findings[best]);
     fit.Take(candidates.features[best]);
     candidates.Remove(best);
@@ -143,9 +143,9 @@ Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
   return model.held_loss ? ConcatColumns(derivatives, bins.Means(*model.held_loss)) : derivatives;
 }
 
-/// The tests of what changes within segments and stays from one to the next. A bristle's force
-/// depends on the distance since the last reversal by itself, and by how much between two samples the log
-/// does not tell: of a law that has one nothing more can be said. rest: [N]
+/// The tests of structure that changes within segments and recurs in each. A bristle's force
+/// depends on the distance since the last reversal by itself, and the log does not show by how much it changes between
+/// two samples. So of a law with a bristle nothing more can be said. rest: [N]
 void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
                 std::vector<Finding>& table) {
   using enum Stage;
@@ -159,7 +159,7 @@ void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
     return;
   }
 
-  // samples first: they show what is too fine for bins
+  // samples first: they show structure that is too fine for bins
   for (const Stage stage :
        {fading, lag, motor_angle, motor_angle_by_speed, position, position_by_speed}) {
     for (Finding* const row : RowsOf(stage, table)) {
@@ -167,14 +167,14 @@ void TestWithin(const OverBins& over, Eigen::VectorXd& rest, ErrorLevel& level,
     }
   }
 
-  // then what returns with every hold, and last what is periodic in time
+  // then structure that recurs with every hold, and last structure that is periodic in time
   const Bins within = BinsWithinHolds(m, model.selection);
   const WeighedFit fit_within(within.weight, DerivativesOver(within, model));
   TestStage(hold, within, fit_within, circumstances, rest, level, table);
   TestStage(last, bins, fit, circumstances, rest, level, table);
 }
 
-/// How far changes of a fit's parameters change the friction of law and heat.
+/// How much changes of a fit's parameters change the friction of law and heat.
 class FrictionChange {
  public:
   /// friction: rms of law and heat over the kept samples, N.m or N.
@@ -188,7 +188,7 @@ class FrictionChange {
   bool HasHeat() const { return has_heat_; }
 
   /// The largest of three, rms over the kept samples as a share of the friction's: the change along
-  /// the log J d, that of the cold curve dFn/dp d, and that of what heat takes off it, the
+  /// the log J d, that of the cold curve dFn/dp d, and that of the heat's part, the
   /// difference of both. d: [p]
   double By(const Eigen::VectorXd& changes) const {
     const Eigen::VectorXd along = warm_ * changes.head(warm_.cols());
@@ -206,7 +206,7 @@ class FrictionChange {
   bool has_heat_;
 };
 
-/// How far a finding changes the friction, as the row of its test has it.
+/// How much a finding changes the friction, by the measure in its test's row of the table.
 double HarmOf(const Finding& finding, const FrictionChange& change,
               const Examination& examination) {
   const double effect = examination.Rms(finding) / examination.friction;
@@ -228,7 +228,7 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
 }
 
 /// Share of the friction by which it may differ at any of its samples for what a finding explains: sqrt(10) times the effect, which
-/// the effect may be in the worst tenth of the log; infinite for those that count by their moves.
+/// the effect may be in the worst tenth of the log; infinite for those that count by the biases of the parameters.
 double MostChange(const Finding& finding, const FrictionChange& change,
                   const Examination& examination) {
   const Impact harm = finding.test->harm;
@@ -237,11 +237,11 @@ double MostChange(const Finding& finding, const FrictionChange& change,
   return by_moves ? kInfinity : kWorstTenth * examination.Rms(finding) / examination.friction;
 }
 
-/// How much of what a finding moves can be: moves of parameters that change the friction by more than what was found take each other
-/// back.
+/// How much of the biases by a finding is possible: where biases of parameters together change the friction by more than what
+/// was found, they partly cancel.
 struct BoundedMoves {
   double most = 0;   // of the friction by which it changes, as a share
-  double share = 1;  // of the moves
+  double share = 1;  // of the biases
 };
 
 BoundedMoves Bounded(const Finding& finding, const FrictionChange& change,
@@ -255,8 +255,8 @@ BoundedMoves Bounded(const Finding& finding, const FrictionChange& change,
   return {most, reach > 0 ? most / reach : 1};
 }
 
-/// Sums up how what was found moves the parameters, and how far that changes the friction: the parameters by all of it, since what
-/// one takes back of another still is in both, the friction by no more than there was.
+/// Sums up how what was found biases the parameters, and how much that changes the friction. The parameters get the whole bias,
+/// since where two biases cancel in the friction both parameters still have theirs. The friction changes by no more than was found.
 void SumBiases(const OverBins& over, Examination& examination) {
   if (examination.Found().empty()) return;
   const FrictionChange change(over, examination.friction);
@@ -281,8 +281,9 @@ void SumBiases(const OverBins& over, Examination& examination) {
   }
 }
 
-/// What findings before adjustment move parameters by, as far as that changes the friction. They may be one and the same thing
-/// seen twice: a row for each. A parameter may move by what the friction changes: what it moves beyond that another one takes back.
+/// The biases of parameters by findings before adjustment, as far as they change the friction. Two findings may be one and the
+/// same thing seen twice, so each has a row. A parameter's bias counts up to what changes the friction by as much as the
+/// finding does: the bias beyond that is cancelled by that of another parameter.
 void AddUnadjusted(const OverBins& over, Examination& examination) {
   const std::vector<const Finding*> found = examination.FoundUnadjusted();
   if (found.empty()) return;
@@ -298,11 +299,11 @@ void AddUnadjusted(const OverBins& over, Examination& examination) {
   }
 }
 
-/// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
-/// than its values are from each other. The mean looks like friction, or like an offset. Of two directions that
-/// differ either may be the one without what disturbs, by as much as their mean is off.
+/// A disturbance that recurs with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
+/// than its values are from each other. The mean looks like friction, or like an offset. Where the two directions
+/// differ, either may be the undisturbed one, and each differs from their mean by as much.
 void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examination) {
-  // how far apart the values lie of all that returns with the holds
+  // the range of all disturbances that recur with the holds
   double range = 0;
   for (const Finding& finding : examination.findings) {
     if (!finding.rejected) continue;
@@ -318,12 +319,12 @@ void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examin
                   fit.BiasBy(range * means).cwiseAbs().rowwise().sum());
 }
 
-/// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
+/// Subtracts what the steps of the torque leave in the residual, and adds a row for how much they bias the parameters. rest: [N]
 void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& examination) {
   const auto& [model, m, bins, derivatives, fit, circumstances] = over;
   const double variance = examination.squares / examination.samples;
   if (const double step = HidingStep(m.torque, variance); step > 0) {
-    // any error within half a step, at each bin the worst
+    // the error may be anything within half a step, so the worst is taken at each bin
     rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
     examination.Add(Source::hidden_steps, Action::widen, step / 2 * fit.MostMoves());
     return;
@@ -334,7 +335,7 @@ void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& e
   examination.Add(Source::rounding, Action::shift, fit.BiasBy(bins.Means(rounding)));
 }
 
-/// What sizes are measured by: the friction of law and heat, without what a map may hold of gravity.
+/// Computes the friction that effects are compared with: that of law and heat, without maps, which may hold gravity.
 void Measure(const FittedModel& model, const Bins& bins, Examination& examination) {
   examination.rows = model.rows;
   examination.samples = bins.weight.sum();
@@ -387,14 +388,14 @@ std::vector<Finding> NotMade(const std::string& reason) {
 
 Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& fit,
                             const Inference& by_noise, const LogSamples& m) {
-  // the fit along the log, and why it may not be examined
+  // the fit along the log, and a reason why it cannot be examined, if there is one
   Examination examination;
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
   const std::string obstacle = Obstacle(model, bins);
   examination.findings = NotMade(obstacle);
   if (!obstacle.empty()) return examination;
 
-  // what parameters, assumptions and heat within the steps can do
+  // what parameters and assumptions can explain, and heat within the steps
   Measure(*model, bins, examination);
   const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
   const OverBins over{*model,
@@ -405,7 +406,7 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
                       CircumstancesOf(*model, m, bins)};
   AddAssumptions(over, fit, by_noise, examination);
 
-  // what is known to act on friction, then what changes within segments, then what stays
+  // first known influences on friction, then structure that changes within segments, then what stays from one to the next
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
   TakeOffRounding(over, rest, examination);
@@ -413,7 +414,7 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   TestStage(Stage::first, bins, over.fit, over.circumstances, rest, level, table);
   TestWithin(over, rest, level, table);
 
-  // what all of that does to the parameters
+  // how all of that biases the parameters
   SumBiases(over, examination);
   AddUnadjusted(over, examination);
   AddHiddenMeans(bins, over.fit, examination);

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kPlaces = 32;           // parts that steps lie between
+constexpr int kPlaces = 32;           // parts of the recording, between which steps lie
 constexpr Index kFirstCycles = 5;     // steps of kCyclesApart; why: the drift goes to two cycles
 constexpr double kBinsACycle = 4;     // why: means over a quarter of a cycle keep 0.9 of it
 constexpr double kCyclesApart = 0.5;  // why: a wave midway between two that are tried keeps 0.81
@@ -31,7 +31,7 @@ MatrixXd Signed(const Bins& bins, const MatrixXd& columns) {
   return SignOf(bins).matrix().asDiagonal() * columns;
 }
 
-/// Columns and the same times s.
+/// Columns, and the same columns times s.
 MatrixXd BothDirections(const Bins& bins, const MatrixXd& columns) {
   MatrixXd both(columns.rows(), 2 * columns.cols());
   both << columns, Signed(bins, columns);
@@ -63,7 +63,7 @@ ArrayXd SquaresOfWaves(const ArrayXd& x, const std::vector<std::complex<double>>
     }
   }
   Eigen::FFT<double>().fwd(spectrum, grid);
-  // what the Gaussians took is given back
+  // corrects for the attenuation by the Gaussians
   ArrayXd squares(count);
   for (Index k = 0; k < count; ++k) {
     const auto at = static_cast<size_t>(k), opposite = static_cast<size_t>((cells - k) % cells);
@@ -142,11 +142,11 @@ Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
 
 Features OfSpeedMemory(const Bins& bins, const Circumstances& circumstances,
                        const GrowingFit& fit) {
-  // without a warming in the fit its heat, which follows the speed late, too, would look like that
+  // without a warming in the fit, the heat would look like such friction, since it follows the speed late, too
   if (circumstances.past.empty() || circumstances.heating.slope.cols() == 0)
     return {MatrixXd(bins.size(), 0)};
   const MatrixXd& all = circumstances.late_speeds;
-  // the time constant that explains most beside the fit
+  // the time constant that explains most in addition to the fit
   Index best = 0;
   fit.ExplainedBy(all).maxCoeff(&best);
   return {all.col(best), static_cast<int>(all.cols()),
@@ -154,7 +154,7 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& circumstances,
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
-  // how many places each row has passed, by the samples before it
+  // the number of places before each row, by the samples before it
   constexpr Index places = kPlaces - 1;
   std::vector<Index> passed;
   const double total = bins.weight.sum();
@@ -164,7 +164,7 @@ Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
     before += weight;
   }
 
-  // the one step, of the offset or of the friction, that explains most beside the fit
+  // the one step, of the offset or of the friction, that explains most in addition to the fit
   const VectorXd offset = VectorXd::Ones(bins.size()), friction = SignOf(bins);
   VectorXd explained(2 * places);
   explained << fit.ExplainedBySteps(passed, places, offset),
@@ -180,7 +180,7 @@ Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
 
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
-  // half a turn with each segment, which changes the sign of its waves
+  // the phase advances by half a turn with each segment, which changes the sign of the waves
   const MatrixXd waves =
       RowsByValue(bins.phase, [](const ArrayXd& phases) { return Waves(kPi * phases); });
   MatrixXd parity(bins.size(), 3);

@@ -6,16 +6,16 @@
 
 namespace warmjoint {
 
-/// 1, |v|: what differs between the directions.
+/// 1, |v|: friction that differs between the directions.
 Features OfDirection(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s u^2, s exp(-u/0.1), s exp(-u/0.3): a curve over speed.
 Features OfSpeed(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s E with three time constants: friction that changes with the losses.
 Features OfEnergy(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
-/// v E of the fit, with what its losses change of E: a slope that warms.
+/// v E of the fit, with what its losses change of E: a slope over speed that changes with the heat.
 Features OfSpeedByEnergy(const Bins& bins, const Circumstances& circumstances,
                          const GrowingFit& fit);
-/// dF/dE(0): a start that was not as warm as taken.
+/// dF/dE(0): a start that was not as warm as assumed.
 Features OfInitialEnergy(const Bins& bins, const Circumstances& circumstances,
                          const GrowingFit& fit);
 /// s L, s |L|, L.
@@ -24,15 +24,15 @@ Features OfLoad(const Bins& bins, const Circumstances& circumstances, const Grow
 Features OfTemperature(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s cos(k pi t), k = 1..4; cos(k pi t), k = 1, 2: slow drift.
 Features OfTime(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
-/// s (u - |v|), u: |v| behind a filter of first order, the best of Circumstances::past: friction that follows the speed
-/// late, and at a steady speed is what the law says.
+/// s (u - |v|), u: |v| after a filter of first order, the best of Circumstances::past: friction that follows the speed
+/// late, and agrees with the law at a steady speed.
 Features OfSpeedMemory(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s or 1 from one of 31 places in the log on: friction or offset that jumps.
 Features OfStep(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// c, s c, and s or 1 times cos(pi x), sin(pi x); x: holds passed, c = 1 in even holds, -1 in odd
-/// ones: what changes every other hold.
+/// ones: structure that alternates from hold to hold.
 Features OfHoldParity(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
-/// s or 1 times y - 1/2, cos(2 pi y); y: share of the hold: what changes within each hold alike.
+/// s or 1 times y - 1/2, cos(2 pi y); y: share of the hold: structure that changes within each hold in the same way.
 Features OfHoldPhase(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s or 1 times cos(2 pi f t), sin(2 pi f t): what is periodic in time. f in steps of half a cycle
 /// over the log, from 2.5 cycles to one a hold, four bins a cycle at least.

@@ -31,7 +31,7 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
     Diagnostic& one = diagnostics.emplace_back();
     one.test = finding.test->name;
     one.made = finding.made;
-    // a test that was not made tells why, and nothing else
+    // a test that was not made says why, and nothing else
     if (!finding.made) {
       one.reason = finding.reason;
       continue;
@@ -47,7 +47,7 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
   return diagnostics;
 }
 
-/// Whether something was found that may stand in the warming in that way.
+/// Whether something was found whose relation to the warming is this one.
 bool Finds(const Examination& examination, HeatRelation warming) {
   return std::ranges::any_of(examination.findings, [=](const Finding& finding) {
     return finding.rejected && finding.test->warming == warming;
@@ -60,7 +60,7 @@ Cause* Row(Source source, Examination& examination) {
   return found == examination.causes.end() ? nullptr : &*found;
 }
 
-/// What all rows are about.
+/// What was examined.
 struct Examined {
   const Identifier& identifier;
   const IdentifierInput& input;
@@ -68,8 +68,8 @@ struct Examined {
   const Inference& by_noise;
 };
 
-/// The parameter that a row moves farthest, with 95 % of that, in half widths of its interval by noise, where that is
-/// beyond one; nothing where there is none.
+/// The parameter that a row biases most, in half widths of its interval by noise, with the bound that holds for 95 % of
+/// that bias. Nothing where no bias exceeds one half width.
 std::optional<MovedParameter> FarthestBeyond(const Cause& cause, const Examined& of) {
   std::optional<MovedParameter> farthest;
   double most = 1;
@@ -93,12 +93,13 @@ std::string QuantityOf(const Finding& finding, const Examined& of) {
   return finding.test->quantity(finding, of.input.measurements);
 }
 
-/// How far a finding changes the friction, beside --relevance: half of that is allowed of what its effect understates.
+/// How much a finding changes the friction, for the comparison with --relevance. Where the effect of a finding understates
+/// it, only half of --relevance is allowed.
 double Counted(const Finding& finding) {
   return (finding.test->harm == Impact::of_effect_twice ? 2 : 1) * finding.harm;
 }
 
-/// Why what was found is too much to live with; nothing where it is not.
+/// Why the findings make the model inadequate; nothing where they do not.
 std::optional<std::string> TooMuch(const Examination& examination, const Finding& worst,
                                    const LackOfFitSettings& judging, const Examined& of) {
   if (Counted(worst) > judging.relevance) {
@@ -112,7 +113,7 @@ std::optional<std::string> TooMuch(const Examination& examination, const Finding
   return ExplainTooMuchTogether(together, kTogether);
 }
 
-/// What drifts is partly taken up by the warming, by how much cannot be known: no interval of it is left.
+/// The rows of the warming. It takes up an unknown part of a drift, so that its rows get no interval where a drift was found.
 std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -122,12 +123,12 @@ std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
   return rows;
 }
 
-/// The row of all findings: refuses the answer that they make wrong, else widens its intervals.
+/// Adds the row of all findings: it refuses an answer that they make wrong, else it widens the intervals.
 void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examination& examination) {
   Cause* const row = Row(Source::findings, examination);
   if (!row) return;
 
-  // what helps against the largest, and which changes the friction most
+  // the remedy for the largest finding, and the finding that changes the friction most
   const std::vector<const Finding*> found = examination.Found();
   const Advice advice{*found[0], of.identifier, of.input, of.fit};
   row->remedy = WithoutWhatWasDone(advice, found[0]->test->remedy(advice));
@@ -149,7 +150,7 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
     return;
   }
 
-  // nobody knows how much of a drift, or of a warm start, the warming took up
+  // the warming took up an unknown part of a drift, or of a warm start
   const bool drifts = Finds(examination, HeatRelation::confounded);
   const auto widen = [&](Source source) {
     for (Cause& open : examination.causes) {
@@ -165,8 +166,8 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
   row->sentence = explain(ExplainWidened(worst.harm) + (without_warming ? kAbsorbedByWarming : ""));
 }
 
-/// What the start does to the numbers: of one that is not known, intervals cover a warm one; of one that is taken to be
-/// cold, a warning where a warm one would leave an interval.
+/// Acts on the belief about the start. Where the start is unknown, intervals cover a warm one. Where it is taken to be
+/// cold, a warning is given if a warm start would change a value beyond its interval.
 void ActOnStart(const Examined& of, StartBelief start, Examination& examination) {
   Cause* const row = Row(Source::cold_start, examination);
   if (!row) return;
@@ -180,13 +181,13 @@ void ActOnStart(const Examined& of, StartBelief start, Examination& examination)
   }
 }
 
-/// Whether a longer recording shows more of what a test looks for: not of what happens once.
+/// Whether a longer recording shows more of what a test looks for. It does not where the structure occurs only once.
 bool Recurs(const LackOfFitTest& test) {
   return test.warming != HeatRelation::starts && &test != FindLackOfFitTest("step");
 }
 
-/// Sentences of what the log leaves open, in the order in which they are read; of steps and unadjusted findings only where they
-/// leave an interval.
+/// Sentences about what the log does not determine, in the order in which they are read; of steps and unadjusted findings only
+/// where they leave an interval.
 void ExplainLog(const Examined& of, Examination& examination) {
   const LogSamples& m = of.input.measurements;
   if (Cause* const row = Row(Source::held_losses, examination)) {
@@ -203,7 +204,7 @@ void ExplainLog(const Examined& of, Examination& examination) {
     if (!moved) continue;
     row->sentence = ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, row->action);
   }
-  // one sentence for all, with what moves a parameter farthest
+  // one sentence for all, with the finding that biases a parameter most
   std::vector<std::string> quantities;
   bool recurs = true;
   for (const Finding* one : examination.FoundUnadjusted()) {

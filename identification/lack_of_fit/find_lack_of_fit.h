@@ -1,4 +1,4 @@
-// Whether a model is adequate: what the residual of its fit still shows, as rows.
+// Whether a model is adequate: what the residual of its fit still shows, as rows (Cause).
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -31,11 +31,10 @@ struct LackOfFit {
 /// (significance.h). What they find is relevant where one finding changes the friction of law and heat by
 /// more than the share `judging.relevance` of its rms over the kept samples (Harm), or where all together
 /// amount to a quarter of it. Then a row refuses the answer, inadequate_model, and names what the
-/// residual depends on and what to try. Of less a row widens the intervals as far as the
-/// parameters would move were it part of the model; none is given of warming beside lack of fit over time or
-/// energy, since nobody can tell
-/// how much of that the warming took up. Where a start that is taken to be cold matters, a row
-/// says how much. Noise that is coloured is no lack of fit: the intervals account for it.
+/// residual depends on and what to try. Where the change is smaller, a row widens the intervals by
+/// what the parameters would change if the features were part of the model. No interval of the warming is given where there is
+/// lack of fit over time or energy, since it is uncertain how much of that the warming took up. Where a start that is taken to
+/// be cold matters, a row says how much. Noise that is coloured is no lack of fit: the intervals account for it.
 /// Of a fit that is not ok no test is made. input: what the identifier saw; by_noise: what noise says of the fit.
 LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
                         const Inference& by_noise, const LackOfFitSettings& judging);

@@ -18,15 +18,16 @@
 namespace warmjoint {
 namespace {
 
-constexpr Eigen::Index kOfEachStep = 8;  // of each step
-constexpr double kMatters = 0.25;        // of tau's deviation; why: it costs 0.7 % of the coverage
+constexpr Eigen::Index kOfEachStep = 8;  // parts of each step
+// of tau's standard error; why: a bias of that size costs 0.7 % of the coverage
+constexpr double kMatters = 0.25;
 
 /// Each value for each part of its sample; empty stays empty. column: [N]; returns [N kOfEachStep].
 Eigen::VectorXd Repeated(const Eigen::VectorXd& column) {
   return column.transpose().replicate(column.size() > 0 ? kOfEachStep : 1, 1).reshaped();
 }
 
-/// The same motion with kOfEachStep samples for each, at its speed throughout. [N kOfEachStep]
+/// The same motion with kOfEachStep samples for each one, all at the speed of that sample. [N kOfEachStep]
 JointTrajectory FinerTrajectory(const JointTrajectory& trajectory, double gear) {
   const Eigen::Index n = trajectory.time.size();
   // a sample lasts until the next one, the last as long as the one before it
@@ -39,7 +40,7 @@ JointTrajectory FinerTrajectory(const JointTrajectory& trajectory, double gear) 
     }
   }
 
-  // every column holds over the step, but for time and positions, which go on
+  // every column is constant over the step, except time and positions, which advance
   JointTrajectory finer;
   for (const auto column :
        {&JointTrajectory::time, &JointTrajectory::velocity, &JointTrajectory::position,
@@ -55,7 +56,7 @@ JointTrajectory FinerTrajectory(const JointTrajectory& trajectory, double gear) 
   return finer;
 }
 
-/// What maps add to law and warming. [N]
+/// The torque that maps add to law and warming. [N]
 Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, const LogSamples& m,
                          const Prediction& prediction) {
   Eigen::VectorXd force = prediction.force;
@@ -86,7 +87,7 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
   return rows;
 }
 
-/// The motion, with a bristle bent at each start as the fit tells, else as the torque does.
+/// The motion, with the deflection of a bristle at each start as the fit gives it, else as the torque gives it.
 JointTrajectory TrajectoryFor(const Fit& fit, const LogSamples& m) {
   JointTrajectory trajectory = TrajectoryOf(m, BristleStart::torque);
   const std::vector<SampleRange> recordings = m.Recordings();
@@ -96,7 +97,7 @@ JointTrajectory TrajectoryFor(const Fit& fit, const LogSamples& m) {
   return trajectory;
 }
 
-/// Where E of a fit jumps along its log: at gaps, for the losses that nobody logged, and at further starts, for the heat
+/// Where E of a fit jumps along its log: at gaps, by the losses that were not logged, and at further starts, by the heat
 /// from before. A start that was not fitted is an assumption.
 struct Jumps {
   std::vector<LogGap> at;        // [J]
@@ -118,8 +119,8 @@ Jumps JumpsOf(const Fit& fit, const LogSamples& m) {
 }
 
 /// Whether the step h of a log matters to its warming: (22) holds W over a step, in which E and
-/// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau); where
-/// that is more than a quarter of the standard deviation of tau. velocity: [N], rad/s or m/s;
+/// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau). It matters where
+/// that is more than a quarter of the standard error of tau. velocity: [N], rad/s or m/s;
 /// step: h, s.
 bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::VectorXd& velocity,
                  double step) {
@@ -132,7 +133,7 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
   return 0.5 * step * power > kMatters * *inference.parameters[*tau].std;
 }
 
-/// Beside a warming that was estimated, the law's parameters act through the losses too. Returns the
+/// Adds what follows from an estimated warming, with which the law's parameters act through the losses too. Returns the
 /// derivatives by the jumps that are no assumption, [N x J].
 Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const LogSamples& m,
                            FittedModel& model) {
@@ -140,7 +141,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   const Thermal& thermal = *fit.friction.thermal;
   model.thermal = thermal;
 
-  // where the log tells mean speeds, these make the losses
+  // where the log has mean velocities, these make the losses
   Eigen::MatrixXd of_loss;
   if (m.loss_velocity) {
     of_loss = NominalDerivatives(fit, *m.loss_velocity, m.load);
@@ -152,7 +153,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
   const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jumps.values);
 
-  // law, heat and, where it was estimated, the first start; else that is an assumption, too
+  // law, heat and, where it was estimated, the first start; where it was not, it is an assumption, too
   const bool starts = !fit.Values(Role::start).empty();
   model.derivatives = all.leftCols(starts ? d + 3 : d + 2);
   std::vector<LogGap> known;
@@ -165,7 +166,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   }
   model.by_initial_energy = all(Eigen::all, by_assumed);
 
-  // how far the jumps may be, and what losses held over each step leave out
+  // how large the jumps may be, and the force that losses held over each step leave out
   model.jump_spread = JumpSpread(known, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   if (StepMatters(fit, inference, m.velocity, model.step)) {
     model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());
@@ -217,7 +218,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (fit.refusal) return std::nullopt;
   const Law& law = *FindLaw(fit.friction.law);
 
-  // what the fit leaves of the torque
+  // the residual of the fit
   FittedModel model;
   model.selection = selection;
   if (m.size() > 1) model.step = MedianStep(m.time);
@@ -237,7 +238,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
     for (const MapAxis& axis : map.axes) model.mapped.push_back(axis.quantity);
   }
 
-  // and how its parameters could change that
+  // the derivatives of the model by the fit's parameters
   model.rows = RowsOf(fit, {Role::law, Role::load, Role::heat, Role::start, Role::gravity});
   if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
   model.cold = NominalDerivatives(fit, m.velocity, m.load);
@@ -246,10 +247,10 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   Eigen::MatrixXd by_jumps(m.size(), 0);
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   model.of_friction = model.derivatives.cols();
-  // gravity's few values join the parameters; the many of `paired` do not: what depends on position
-  // alike in both directions is theirs, and the other features average out over it
+  // gravity's few values join the parameters. The many of `paired` do not: they take up all that depends on position
+  // in the same way in both directions, over which the other features average out
   if (fit.gravity && fit.gravity->kind != GravityKind::paired) {
-    // under a load gravity may act through the friction, too, as the fit itself knows
+    // where friction grows with the load, gravity acts through the friction, too; the fit's own Jacobian includes that
     const bool by_fit = fit.RowOf(Role::load) && fit.jacobian;
     model.derivatives =
         ConcatColumns(model.derivatives,
@@ -273,7 +274,7 @@ Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& meas
       model.Predict(FinerTrajectory(trajectory, measurements.gear), finer_start).force;
   const Eigen::VectorXd held = model.Predict(trajectory, start).force;
 
-  // an eighth of each step leaves an eighth of the error: 8/7 of the difference is all
+  // steps of an eighth leave an eighth of the error, so that the whole error is 8/7 of the difference
   Eigen::VectorXd difference(held.size());
   for (Eigen::Index n = 0; n < held.size(); ++n) difference[n] = fine[n * kOfEachStep] - held[n];
   return difference * static_cast<double>(kOfEachStep) / static_cast<double>(kOfEachStep - 1);

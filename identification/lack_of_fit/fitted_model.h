@@ -13,10 +13,10 @@
 namespace warmjoint {
 
 struct FittedModel {
-  Selection selection;          // samples that took part
+  Selection selection;          // samples that were fitted
   double step = 0;              // of the log, median, s
   Eigen::VectorXd torque;       // [N] tau less gravity, inertia and what a lag adds, N.m or N
-  Eigen::VectorXd residual;     // [N] that less F, N.m or N
+  Eigen::VectorXd residual;     // [N] `torque` less F, N.m or N
   Eigen::MatrixXd derivatives;  // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that
                                 // E makes at gaps, and at further starts if fitted (gaps.h)
   Eigen::MatrixXd cold;  // [N x d] dFn/dp, by the parameters of law and load without their heat
@@ -26,15 +26,16 @@ struct FittedModel {
   Eigen::MatrixXd
       by_initial_energy;        // [N x s] dF/dE(0) of the recordings where it is taken to be known
   Eigen::VectorXd energy;       // [N] E, N.m or N
-  Eigen::VectorXd jump_spread;  // [J] how far E may jump at the gaps, N.m or N
-  /// [N] ForceOfHeldLoss, N.m or N, where that matters.
+  Eigen::VectorXd jump_spread;  // [J] how much E may jump at the gaps, N.m or N
+  /// [N] ForceOfHeldLoss, N.m or N, where the step of the log matters to the warming.
   std::optional<Eigen::VectorXd> held_loss;
-  std::optional<Eigen::VectorXd> maps;  // [N] what they give, N.m or N, where there are any
-  std::vector<MapQuantity> mapped;      // what they are over
+  std::optional<Eigen::VectorXd> maps;  // [N] torque of the maps, N.m or N, where there are any
+  std::vector<MapQuantity> mapped;      // the quantities that the maps are over
 
   std::optional<Thermal> thermal;  // where a warming was estimated
-  std::optional<ClosedLoop> loop;  // there: of the law's parameters, with the jumps
-  bool has_bristle = false;        // whether the law sticks by a state of its own
+  /// where a warming was estimated: that of the law's parameters, with the jumps
+  std::optional<ClosedLoop> loop;
+  bool has_bristle = false;  // whether the law has a state of its own, by which the joint sticks
 };
 
 /// dFn/dp of a law at speeds, by central differences where it is not linear in p. values: [d] p; velocity: [N] rad/s or m/s;
@@ -52,8 +53,8 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
                                          const LogSamples& measurements,
                                          const Selection& selection);
 
-/// What (22) leaves out: the force of a friction whose losses follow its heat all the time, less
-/// its force by (22): 8/7 of what (22) with an eighth of each step makes of it. Constant speed over
+/// The force that (22) leaves out: that of a friction whose losses follow its heat all the time, less
+/// the force by (22). It is 8/7 of the difference that (22) with steps of an eighth makes. The speed is constant over
 /// each step. Returns [N] N.m or N.
 Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const LogSamples& measurements,
                                 const ThermalStart& start = {});

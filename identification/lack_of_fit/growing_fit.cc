@@ -17,11 +17,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit; why: with 0.013 and 0.03
+// what is left of a feature of norm 1 orthogonal to the fit, below which it counts as part of the fit; why: with 0.013 and 0.03
 // no verdict changes in 50 logs of tests/studies/sensitivity/energy-ml.yaml, and one interval is wider with 0.03
 constexpr double kDistinct = 0.02;
-// of a derivative of norm 1 beside the others; why: far above what rounding leaves of one that is a mix of them, 1e-13,
-// and far below what a log tells apart
+// of a derivative of norm 1 orthogonal to the others; why: far above what rounding leaves of one that is a mix of them, 1e-13,
+// and far below what a log can distinguish
 constexpr double kApart = 1e-9;
 constexpr double kNoNorm = 1e-300;          // of a column of zeros
 constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
@@ -33,7 +33,7 @@ std::vector<Index> EndsOf(const VectorXd& weight, Index parts) {
   const double total = weight.sum();
   double before = 0;
   for (Index i = 0; i < weight.size(); ++i) {
-    // the middle of a row says where it belongs
+    // a row belongs to the part in which its middle is
     const double middle = (before + 0.5 * weight[i]) / total * static_cast<double>(parts);
     ends[static_cast<size_t>(middle)] = i + 1;
     before += weight[i];
@@ -56,14 +56,14 @@ MatrixXd RootOf(const MatrixXd& scatter) {
   return along.eigenvectors() * along.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// How many parts carry features: all of them where each carries as much, one where that one
-/// carries all. shares: [parts] squares of the features
+/// The effective number of parts that have a share in features: all parts where each has the same share, 1 where one part
+/// has all of it. shares: [parts] squares of the features
 double CarryingParts(const VectorXd& shares) {
   return shares.sum() * shares.sum() / shares.squaredNorm();
 }
 
-/// Squares of a residual that columns explain beside a fit that leaves nothing of its own in it; 0
-/// for a column that it holds. squares: of the columns; held: of what the fit has of them;
+/// Squares of a residual, orthogonal to the fit, that columns explain in addition to the fit; 0
+/// for a column that the fit holds. squares: of the columns; held: of what the fit has of them;
 /// products: with the residual; all [c].
 VectorXd ExplainedBeside(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& held,
                          const Eigen::ArrayXd& products) {
@@ -125,11 +125,11 @@ void GrowingFit::LearnNoise(const std::vector<Features>& all) {
     count += one.columns.cols();
   }
 
-  // what remains beside them all together is noise
+  // what remains orthogonal to all of them together is noise
   const MatrixXd basis = Orthonormal(std::move(columns), kDistinct).basis;
   noise_ = FitNoise(residual_ - basis * (basis.transpose() * residual_), place_);
 
-  // what all of them took up counts in samples, at most half of them
+  // the squares that all of them took up, as a number of samples, at most half of the samples
   const auto m = static_cast<double>(size());
   taken_ = static_cast<double>(basis.cols());
   const double all_taken = noise_.order() == 0
@@ -141,7 +141,7 @@ void GrowingFit::LearnNoise(const std::vector<Features>& all) {
 }
 
 GrowingFit::Evidence GrowingFit::ByColour(const MatrixXd& own, const VectorXd& b) const {
-  // white noise scatters alike along all directions
+  // white noise has the same scatter along all directions
   const bool white = noise_.order() == 0;
   const Index q = own.cols();
   const MatrixXd scatter = white ? MatrixXd(noise_.variance * MatrixXd::Identity(q, q))
@@ -153,21 +153,20 @@ GrowingFit::Evidence GrowingFit::ByColour(const MatrixXd& own, const VectorXd& b
   const double seen =
       white ? 1 : scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
   const double small = 1 + std::max(4 * seen * (1 + 4 * seen / rows) - 2, 0.0) / rows;
-  // a fit that takes up what is slow leaves a rest that looks too fast: along no direction of the
-  // features is noise quieter than white
+  // a fit that takes up slow noise leaves a residual that looks too fast, so the noise's variance along any direction of the
+  // features is taken to be at least that of white noise
   const MatrixXd unbiased =
       white ? MatrixXd(small * scatter) : NoQuieter(small * scatter, noise_.variance);
-  // how many samples tell the noise, were it AR(1) noise as strong along the features
+  // the number of samples that determine the noise's variance, were it AR(1) noise as strong along the features
   const double red = std::max(small * seen, 1.0);
   const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
   const double fewest = kFewestFree + static_cast<double>(q);
   return {unbiased, HotellingPValue(b, unbiased, std::max(samples, fewest))};
 }
 
-/// By how the scores of the rest scatter from part to part; no evidence where the parts that carry
-/// the features are too few.
+/// The evidence by the scatter of the scores of the residual from part to part; none where too few parts have a share in the features.
 GrowingFit::Evidence GrowingFit::ByParts(const MatrixXd& own, const VectorXd& b) const {
-  // what each part has of the features, and its products with what is left of the residual
+  // the share of each part in the features, and its products with what is left of the residual
   const Index q = own.cols();
   const VectorXd rest = left_ - own * b;
   VectorXd shares(std::ssize(ends_));
@@ -181,17 +180,17 @@ GrowingFit::Evidence GrowingFit::ByParts(const MatrixXd& own, const VectorXd& b)
     begin += count;
   }
 
-  // the parts that carry the features have to outnumber the columns clearly
+  // there have to be clearly more parts with a share in the features than columns
   const double parts = CarryingParts(shares);
   const double degrees_of_freedom = parts - static_cast<double>(fit_.columns.cols() + q);
   if (degrees_of_freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
 
-  // the score of each part: they scatter as much as the noise makes them
+  // the scores of the parts scatter as much as the noise makes them
   MatrixXd scatter = parts / degrees_of_freedom * scores.transpose() * scores;
   const double p = HotellingPValue(b, scatter, parts);
   if (noise_.order() == 0 || p > kWorthACloserLook) return {scatter, p};
 
-  // what the noise of neighbouring parts has in common is not in their scatter
+  // the scatter does not show the noise that neighbouring parts have in common
   scatter *= AcrossParts(own);
   return {scatter, HotellingPValue(b, scatter, parts)};
 }
@@ -212,13 +211,13 @@ double GrowingFit::AcrossParts(const MatrixXd& own) const {
 Finding GrowingFit::Test(const Features& features) const {
   Finding finding;
   finding.period = features.period;
-  // what the features have beside the fit
+  // the part of the features that is orthogonal to the fit
   MatrixXd columns = fit_.Normed(features.columns);
   const MatrixXd shared = fit_.TakeOff(columns);
   const Basis own = Orthonormal(std::move(columns), kDistinct);
   if (own.basis.cols() == 0) return finding;
 
-  // how likely noise alone does that
+  // the probability that noise alone explains as much
   const VectorXd b = own.basis.transpose() * left_;
   Evidence evidence = ByColour(own.basis, b);
   if (Evidence parts = ByParts(own.basis, b); parts.p < evidence.p) evidence = std::move(parts);
@@ -226,12 +225,12 @@ Finding GrowingFit::Test(const Features& features) const {
   // the smaller of two probabilities counts twice, and once for each candidate
   finding.made = true;
   finding.p = std::min(1.0, 2 * evidence.p * features.candidates);
-  // noise alone explains a part of it: that is taken off
+  // the part that noise alone explains is subtracted
   finding.explained = std::max(0.0, b.squaredNorm() - evidence.scatter.trace());
   finding.gain = b.squaredNorm() - static_cast<double>(b.size()) *
                                        std::log(static_cast<double>(size())) * noise_.variance;
 
-  // the parameters give way by what the features share with the fit
+  // the parameters change by what the features share with the fit
   const VectorXd& norms = fit_.norms;
   const MatrixXd give = -fit_.qr.r_inverse.topRows(norms.size()) * (shared * own.r_inverse);
   finding.moves = (give * b).cwiseQuotient(norms);
@@ -264,7 +263,7 @@ VectorXd GrowingFit::ExplainedBySteps(const std::vector<Index>& part, Index plac
     of_part.tail(sums.rows() - 2) += weighed[i] * fit_.qr.basis.row(i).transpose();
   }
 
-  // and of all rows behind each place
+  // and of all rows after each place
   for (Index k = places; k > 1; --k) sums.col(k - 1) += sums.col(k);
   const auto behind = sums.rightCols(places);
   return ExplainedBeside(behind.row(0), behind.bottomRows(sums.rows() - 2).colwise().squaredNorm(),

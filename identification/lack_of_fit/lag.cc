@@ -19,9 +19,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kFewestRows = 40;
-constexpr int kLags = 14;          // time constants that are tried
-constexpr double kOfTheLog = 0.1;  // at most; why: a drive that is later follows nothing
-constexpr Index kSingle = 4;       // samples of a segment that stay by themselves
+constexpr int kLags = 14;  // time constants that are tried
+// at most; why: a drive that is later than that cannot follow a motion
+constexpr double kOfTheLog = 0.1;
+constexpr Index kSingle = 4;  // samples of a segment that stay by themselves
 
 /// Runs of samples that follow a change of friction.
 struct Followers {
@@ -43,7 +44,7 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
     // the further from the change, the longer the runs: half of what has passed
     const Index passed = begin - segment.begin;
     const Index end = std::min(begin + std::max<Index>(1, (passed - kSingle) / 2), segment.end);
-    // kept samples alone count, at their mean time since the change
+    // only kept samples count, at their mean time since the change
     double kept = 0, since = 0;
     for (Index i = begin; i < end; ++i) {
       if (!selection.keep[i]) continue;
@@ -78,7 +79,7 @@ Followers AfterChanges(const VectorXd& friction, const VectorXd& time, const Sel
   return followers;
 }
 
-/// Time constants to try, s, the same ratio apart.
+/// Time constants to try, s, each the same multiple of the one before.
 VectorXd TimeConstants(double step, double hold) {
   const double shortest = step / 8, longest = std::max(0.5 * hold, step);
   return VectorXd::LinSpaced(kLags, std::log(shortest), std::log(longest)).array().exp();
@@ -103,7 +104,7 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
   const Bins& runs = followers.runs;
   if (runs.size() < kFewestRows) return std::nullopt;
 
-  // the decay that explains most beside the fit
+  // the decay that explains most in addition to the fit
   const bool* const keep = selection.keep.data();
   GrowingFit fit({runs.weight, runs.Means(model.derivatives, keep)}, runs.Means(residual, keep),
                  AllOf(runs.size()));
@@ -115,9 +116,9 @@ std::optional<Finding> TestLag(const LackOfFitTest&, const FittedModel& model, c
   fit.LearnNoise({decay});
   Finding finding = fit.Test(decay);
 
-  // a lag leaves a share of what was before, not of what comes: the test has one side
+  // a lag leaves a positive share of the friction before the change, so the test has one side
   const double share = fit.CoefficientOf(decay.columns);
-  // the area under what is left, summed over the samples; what takes more of the log is no lag
+  // the area under what is left, summed over the samples; a longer time than kOfTheLog is not a lag
   finding.lag = share * model.step / (1 - std::exp(-model.step / lags[best]));
   const double longest = kOfTheLog * (m.time[m.size() - 1] - m.time[0]);
   if (share <= 0 || finding.explained <= 0 || finding.lag > longest) finding.p = 1;

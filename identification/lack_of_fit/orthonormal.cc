@@ -24,7 +24,7 @@ class Lengths {
   explicit Lengths(const MatrixXd& columns) : squares_(columns.colwise().squaredNorm()) {}
 
   Index Longest(const MatrixXd& columns, Index first) {
-    // what is short is measured anew, since differences lose it
+    // short columns are measured anew, since differences lose their length
     if (squares_.tail(columns.cols() - first).maxCoeff() < kShort * kShort) {
       squares_ = columns.colwise().squaredNorm();
     }
@@ -37,7 +37,7 @@ class Lengths {
 
   void Swap(Index i, Index j) { std::swap(squares_[i], squares_[j]); }
 
-  /// shares: of the columns behind the i-th, with it
+  /// shares: of the i-th column and of those after it
   template <typename Shares>
   void TakeOff(const Shares& shares) {
     squares_.tail(shares.size()) -= shares.cwiseAbs2();
@@ -47,7 +47,7 @@ class Lengths {
   Eigen::RowVectorXd squares_;
 };
 
-/// Takes off a column what it shares with another one of norm 1; returns their product. Both [m].
+/// Subtracts from a column its projection on another one of norm 1; returns their product. Both [m].
 WARMJOINT_FOR_EACH_PROCESSOR
 double TakeOff(const double* basis, Index m, double* column) {
   // four rows at a time, and those that are left
@@ -72,8 +72,8 @@ double TakeOff(const double* basis, Index m, double* column) {
 }  // namespace
 
 Basis Orthonormal(MatrixXd columns, double distinct) {
-  // what is left of columns in the order in which they join, the basis in the place of those that
-  // did; columns = basis R
+  // columns in the order in which they join: the basis in place of those that joined, and what is left of the others;
+  // columns = basis R
   const Index q = columns.cols(), most = std::min(columns.rows(), q);
   MatrixXd R = MatrixXd::Zero(q, q);
   std::vector<Index> order(static_cast<std::size_t>(q));
@@ -81,7 +81,7 @@ Basis Orthonormal(MatrixXd columns, double distinct) {
   Lengths lengths(columns);
   Index rank = 0;
   for (; rank < most; ++rank) {
-    // the one of which most is left, while that stands out
+    // the one of which most is left, while that is more than `distinct`
     const Index at = lengths.Longest(columns, rank);
     lengths.Swap(at, rank);
     columns.col(at).swap(columns.col(rank));

@@ -20,7 +20,7 @@
 namespace warmjoint {
 namespace {
 
-/// The next number above with one digit that is not 0.
+/// The next larger number with one digit that is not 0.
 double RoundedUp(double value) {
   if (!(value > 0) || !std::isfinite(value)) return 0;
   const double unit = std::pow(10, std::floor(std::log10(value)));
@@ -35,7 +35,7 @@ constexpr double kOfAMotor =
     20;  // waves a turn; why: bearings and cams make fewer, gears of 10 and more as many
 constexpr double kMostOfAGear = 160;  // why: strain wave gears go so far
 
-/// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
+/// What a model holds already, whoever fitted it: the advice for `auto` is not to try what it chose.
 bool HasMap(const Advice& advice, MapQuantity quantity) {
   return std::ranges::any_of(advice.fit.friction.maps, [=](const FrictionMap& map) {
     return FindAxis(map, quantity) != nullptr;
@@ -50,7 +50,7 @@ Remedy Try(const Advice& advice, IdentifyCommand command, std::string words = ""
     const bool sincos = advice.fit.gravity->kind == GravityKind::sincos;
     command = command.With("gravity", sincos ? "sincos" : "paired");
   }
-  // a lag beside a law without map over position
+  // a lag with a law without map over position
   if (advice.fit.torque_lag && options.Has("torque_lag") && !command.Sets("position")) {
     command = command.With("torque_lag", "estimated");
   }
@@ -88,7 +88,7 @@ size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
   return 0;
 }
 
-/// A map with twice as many kernels, as far as there are any.
+/// A map with twice as many kernels, up to the number that the options take.
 Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option) {
   const size_t kernels = 2 * KernelsOver(advice, quantity);
   if (kernels > kMostKernels) {
@@ -98,7 +98,7 @@ Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option) {
   return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
 }
 
-/// Whether gravity may be what acts alike in both directions: it turns once with the joint, so that
+/// Whether a force that acts alike in both directions may be gravity, which has one period in a turn of the joint, so that
 /// along the travel it is one slow wave.
 bool MayBeGravity(const Advice& advice) {
   const Eigen::VectorXd& position = advice.input.measurements.position;
@@ -152,7 +152,7 @@ std::string RemedyForWarmStart(const Identifier& identifier) {
 }
 
 Remedy RemedyForWarming(const Advice& advice) {
-  // no warming yet: one beside whatever else the fit holds
+  // no warming yet: one in addition to whatever else the fit holds
   if (!HasWarming(advice)) {
     if (const double duration = DurationOf(advice); duration < kShortestWarming) {
       return {RemedyForShortLog(duration, kShortestWarming)};
@@ -166,7 +166,7 @@ Remedy RemedyForWarming(const Advice& advice) {
     return Try(advice, warm);
   }
 
-  // a warming that is not enough: perhaps the start was warm
+  // a warming that does not explain it: the start may have been warm
   if (TakesColdStart(advice.input.options)) {
     return {kWarmStartOrOneStage};
   }
@@ -185,7 +185,7 @@ Remedy RemedyForSpeed(const Advice& advice) {
     return {kMapHasSpeed};
   }
 
-  // a map over position takes kernels over speed beside it, a law gets a curve
+  // a map over position gets kernels over speed as well, a law gets a curve
   if (HasMap(advice, MapQuantity::position)) {
     return Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"));
   }
@@ -196,7 +196,7 @@ Remedy RemedyForWarmingSlope(const Advice& advice) {
   if (HasMap(advice, MapQuantity::energy)) {
     return {kRecordMoreWarmUps};
   }
-  // beside a map over position, the map over energy has to follow the slope too
+  // with a map over position, the map over energy has to follow the slope too
   return Try(advice, {advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map"});
 }
 
@@ -230,7 +230,7 @@ Remedy RemedyForDirection(const Advice& advice) {
     return Try(advice, warm_map ? command.With("position", "map") : command);
   }
 
-  // then whatever pushes in one direction, which paired gravity takes up
+  // then a force in one direction of whatever kind, which paired gravity takes up
   if (!mapped && !advice.fit.gravity) {
     const IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
     return {kPushesInOneDirection, command.With("gravity", "paired")};
@@ -250,7 +250,7 @@ Remedy RemedyForLoad(const Advice& advice) {
   }
   const bool may_grow = advice.fit.friction.maps.empty() && !advice.fit.RowOf(Role::load) &&
                         IsLinear(*FindLaw(advice.fit.friction.law));
-  // what the fit took from its gravity is no column of the log
+  // a load that the fit took from its gravity is not a column of the log
   const bool is_logged = advice.input.log.raw().measurements.load.has_value();
   if (!may_grow && !is_logged) return Try(advice, WithMap(advice, MapQuantity::position));
   if (!may_grow) return Try(advice, {"load-map"});
@@ -277,10 +277,10 @@ Remedy RemedyForPeriod(const Advice& advice) {
 
 Remedy RemedyForLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
-  // a lag is estimated beside linear laws alone, without maps and inertia
+  // a lag is estimated with linear laws only, without maps and inertia
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
   const bool asked = AsksForLag(advice.input.options);
-  // holds are free of it some time constants after they began
+  // holds are free of the lag some time constants after they began
   const double trim = RoundedUp(kSettledAfter * advice.finding.lag);
   const std::string cut = advice.fit.inertia || !(trim > 0) ? kShiftTorque : RemedyByTrim(trim);
   if (!can || asked || advice.fit.torque_lag) return {AskForLateTorque(cut)};
@@ -310,7 +310,7 @@ Remedy RemedyForPosition(const Advice& advice) {
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
   constexpr size_t most = kMostKernels / kKernelsAPeriod;
 
-  // ripple of a motor that the log does not know
+  // ripple of a motor whose angle the log does not have
   if (const int gear = GearOf(advice)) {
     return Try(advice,
                WithMap(advice, MapQuantity::motor_position).With("gear", std::to_string(gear)),
@@ -345,7 +345,7 @@ Remedy RemedyForAngleBySpeed(const Advice& advice) {
   IdentifyCommand command =
       WithMap(advice, motor ? MapQuantity::motor_position : MapQuantity::position);
   if (!motor) command = command.With("basis", "velocity");
-  // a map that tells directions alone gets kernels over speed, one that has some twice as many for each direction
+  // a map that distinguishes directions only gets kernels over speed; one that has such kernels gets twice as many for each direction
   const size_t kernels = KernelsOver(advice, MapQuantity::velocity);
   if (kernels <= 2) return Try(advice, command);
   if (kernels > kMostSpeedKernels) {

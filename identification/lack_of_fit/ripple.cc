@@ -27,8 +27,8 @@ constexpr int kMost = 6;  // frequencies that are reported together
 constexpr int kMotorHarmonics = 8;
 constexpr double kFinestPosition = 512;  // cycles over the travel; why: twelve times a map's
 constexpr double kSamplesACycle = 16;    // why: two samples a bin
-constexpr int kSpeedFactors = 4;         // why: they tell five speeds apart
-constexpr double kSpeedsDiffer = 0.02;   // relative; why: bins take such speeds for one
+constexpr int kSpeedFactors = 4;         // why: they distinguish five speeds
+constexpr double kSpeedsDiffer = 0.02;   // relative; why: bins take closer speeds for one
 constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
 
 /// An angle, or a distance, along which ripple is looked for.
@@ -44,12 +44,12 @@ struct AngleAxis {
   double FactorOf(Eigen::Index n) const { return factor.size() > 0 ? factor[n] : 1; }
 };
 
-/// The residual of the kept samples by bins of the axis, apart for each direction and part.
+/// The residual of the kept samples by bins of the axis, separately for each direction and part.
 class BinnedResidual {
  public:
   /// A kept sample.
   struct Sample {
-    double value;   // what is left of its residual, N.m or N
+    double value;   // the part of its residual that is left, N.m or N
     double factor;  // of its ripple
     int bin, part;  // of the axis, of the recording
     int direction;  // 0 forwards, 1 backwards
@@ -79,7 +79,7 @@ class BinnedResidual {
       sums[d] += factor * residual[i];
     }
 
-    // a level of each direction, or a slope, is no ripple
+    // a level of each direction, or a slope, is not ripple
     for (int d = 0; d < 2; ++d) {
       numbers_[d] = counts_.col(d).sum();
       sums[d] /= std::max(numbers_[d], 1.0);
@@ -146,7 +146,7 @@ VectorXd PowerSpectrum(const VectorXd& x, Index length, Index last) {
 /// The frequency that explains most if it covers the axis evenly, times the axis' step; 0 where none does. totals: of the bins
 int StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
                        const MatrixXd& totals) {
-  // with zeros behind for steps below a cycle
+  // followed by zeros, for steps below a cycle
   const auto length = static_cast<Index>(static_cast<double>(binned.bins()) / axis.step);
   VectorXd explained = VectorXd::Zero(axis.frequencies + 1);
   for (int d = 0; d < 2; ++d) {
@@ -178,7 +178,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
   MatrixXd normal = MatrixXd::Zero(4, 4);
   Vector4d score = Vector4d::Zero(), coefficients = Vector4d::Zero();
   for (int d = 0; d < 2; ++d) {
-    // the other direction may not be there at all
+    // one of the directions may have no samples
     Eigen::Matrix2d own = waves.transpose() * binned.counts(d).asDiagonal() * waves;
     own.diagonal().array() += 1e-9 * (1 + own.trace());
     score.segment<2>(2 * d) = waves.transpose() * totals.col(d);
@@ -201,7 +201,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
 
   Finding& finding = ripple.finding;
   finding.made = true;
-  // the strongest of many frequencies: each of them counts
+  // it is the strongest of many frequencies, so the probability is multiplied by their number
   finding.p = std::min(
       1.0, axis.frequencies * axis.factors *
                HotellingPValue(score.segment(first, q), scatter.block(first, first, q, q), parts));
@@ -224,7 +224,7 @@ std::optional<AngleAxis> MotorAxis(const LogSamples& m) {
 }
 
 /// The travel of the kept samples, down to periods of which half of the samples see two a period or more: at speeds that
-/// differ, faster ones tell them, too.
+/// differ, faster ones show them, too.
 std::optional<AngleAxis> PositionAxis(const FittedModel& model, const LogSamples& m) {
   if (m.position_integrated) return std::nullopt;
   const Selection& selection = model.selection;
@@ -234,7 +234,7 @@ std::optional<AngleAxis> PositionAxis(const FittedModel& model, const LogSamples
   const double finest = 2 * MedianInPlace(speeds) * model.step;
   if (!(travel > 0) || !std::isfinite(travel) || !(finest > 0)) return std::nullopt;
 
-  // no more cycles than the speed and the number of samples let one see
+  // no more cycles than the speed and the number of samples can show
   const double cycles = std::min(
       {travel / finest, kFinestPosition, static_cast<double>(kept.size()) / kSamplesACycle});
   if (cycles < 1) return std::nullopt;
@@ -261,13 +261,13 @@ MatrixXd SpeedFactors(const VectorXd& velocity, const Selection& selection) {
   return factors;
 }
 
-/// Along which a test looks; nothing where the log does not tell it.
+/// The axis along which a test looks; nothing where the log does not determine it.
 std::optional<AngleAxis> AxisOf(const LackOfFitTest& test, const FittedModel& model,
                                 const LogSamples& m) {
   return test.over == SeenOver::motor_angle ? MotorAxis(m) : PositionAxis(model, m);
 }
 
-/// One axis, each of whose samples has one factor.
+/// The test along one axis, with one factor for each sample.
 std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
                                 const Selection& selection, VectorXd& residual, ErrorLevel& level) {
   BinnedResidual binned(axis, residual, velocity, selection);
@@ -282,7 +282,7 @@ std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
     if (!strongest) {
       strongest = std::move(ripple.finding);
     } else if (rejects) {
-      // of one axis as one: the strongest frequency stands for all
+      // waves of one axis count as one finding, named by the strongest frequency
       strongest->explained += ripple.finding.explained;
     }
     if (!rejects) break;
@@ -291,7 +291,7 @@ std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
   }
   if (!strongest || !level.Rejects(*strongest)) return strongest;
 
-  // one rejection for the whole axis, and all of its waves off the residual
+  // the whole axis counts as one rejection, and all of its waves are subtracted from the residual
   for (Index i = 0; i < residual.size(); ++i) {
     if (!selection.keep[i]) continue;
     residual[i] -= axis.FactorOf(i) * binned.Taken(axis.phase[i], velocity[i]);
@@ -317,7 +317,7 @@ std::optional<Finding> TestRippleBySpeed(const LackOfFitTest& test, const Fitted
   std::optional<AngleAxis> axis = AxisOf(test, model, m);
   if (!axis) return std::nullopt;
 
-  // as one finding: that of the strongest function of the speed
+  // all functions of the speed count as one finding, that of the strongest
   const MatrixXd factors = SpeedFactors(m.velocity, model.selection);
   axis->factors = static_cast<int>(factors.cols());
   std::optional<Finding> strongest;
@@ -338,7 +338,7 @@ std::optional<Finding> TestFading(const LackOfFitTest&, const FittedModel& model
                                   VectorXd& residual, ErrorLevel& level) {
   if (!model.maps || !model.thermal) return std::nullopt;
 
-  // beside maps whose strength is free
+  // in addition to maps whose strength is free
   const Selection& selection = model.selection;
   const MatrixXd maps = Kept(*model.maps, selection);
   const VectorXd left = Kept(residual, selection);

@@ -9,12 +9,13 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kEven = 1e-6;   // of a step: an error that is no matter
-constexpr double kTells = 0.14;  // of a step: noise that tells the torque within; why: rounding.h
+constexpr double kEven = 1e-6;  // of a step: an error that does not matter
+// of a step: noise that shows the torque within it; why: rounding.h
+constexpr double kTells = 0.14;
 constexpr int kFewestSteps = 3;  // why: whole multiples of one, to 5 %, by chance in 1 of 100
 constexpr int kMostWaves = 50;   // then the next is below 1 % of a step
 
-/// The residual's, in steps, without the part that the steps themselves make.
+/// The standard deviation of the noise in steps: that of the residual without the part that the steps themselves make.
 double NoiseInSteps(double variance, double step) {
   return std::sqrt(std::max(variance - step * step / 12, 0.0)) / step;
 }
@@ -24,7 +25,7 @@ double NoiseInSteps(double variance, double step) {
 double StepOf(const Eigen::VectorXd& torque) {
   if (const double step = Resolution(torque); step > 0) return step;
   Eigen::VectorXd sizes = torque.cwiseAbs();
-  // noise that hides in a step lets most neighbours repeat, and any other need not be sorted
+  // where noise is hidden in a step, most neighbours repeat; in any other log the values need not be sorted
   const Eigen::Index others = sizes.size() - 1;
   if (2 * (sizes.tail(others).array() == sizes.head(others).array()).count() < others) return 0;
   std::ranges::sort(sizes);

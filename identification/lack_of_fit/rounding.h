@@ -17,11 +17,11 @@ namespace warmjoint {
 Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorXd& residual,
                              double variance);
 
-/// q of a torque in steps, of neighbours (robust_noise.h) or, where the direction changes with each, of four or more sizes
-/// |torque|; 0 where there are none. [N] N.m or N
+/// The step q of a torque that is logged in steps, by the differences of neighbours (robust_noise.h) or, where the direction
+/// changes with each sample, by those of four or more different |torque|. 0 where there are no steps. [N] N.m or N
 double StepOf(const Eigen::VectorXd& torque);
 
-/// q of steps that hide the torque within them, else 0: below s = 0.14 q the mean of what is logged follows less than a
+/// The step q where steps hide the torque within them, else 0: below s = 0.14 q the mean of what is logged follows less than a
 /// hundredth of f in the middle of a step, 2 q/(s sqrt(2 pi)) exp(-q^2 / 8 s^2), and the error may be anything up to q/2.
 double HidingStep(const Eigen::VectorXd& torque, double variance);
 

@@ -8,7 +8,7 @@
 
 namespace warmjoint {
 
-/// Rows that depend on one number each, made once for those that are alike. x: [m]; rows(values) makes [n x c] of [n] values;
+/// Rows that depend on one number each, computed once for equal numbers. x: [m]; rows(values) makes [n x c] of [n] values;
 /// returns [m x c].
 template <typename Rows>
 Eigen::MatrixXd RowsByValue(const Eigen::VectorXd& x, Rows&& rows) {

@@ -23,7 +23,7 @@ double HotellingPValue(const Eigen::VectorXd& coefficients, const Eigen::MatrixX
                        double groups) {
   const auto q = static_cast<double>(coefficients.size());
   if (q < 1 || groups <= q + 2) return 1;
-  // a scatter that vanishes along some direction tells nothing
+  // a scatter that vanishes along some direction shows nothing
   const Eigen::LDLT<Eigen::MatrixXd> factors(scatter);
   if (!(factors.vectorD().minCoeff() > 0)) return 1;
   const double square = coefficients.dot(factors.solve(coefficients));

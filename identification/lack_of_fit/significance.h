@@ -24,7 +24,7 @@ struct Finding {
   /// memory, s; 0: none.
   double period = 0;
   std::vector<double> periods{};  // of a ripple: of all waves that were found, the strongest first
-  double lag = 0;                 // of the torque behind the velocity, s; 0: none
+  double lag = 0;                 // of the torque after the velocity, s; 0: none
   double alike = 0;               // share of an angle's part that acts alike in both directions
   Eigen::VectorXd moves;  // [p] change of the fit's parameters when the features join it; or empty
   Eigen::MatrixXd move_spread;  // [p x k] S, the covariance of `moves` is S S^T
@@ -39,15 +39,15 @@ inline constexpr Eigen::Index kParts = 32;
 inline constexpr double kErrorLevel = 0.01;
 
 /// Holm's step-down procedure (Holm 1979, Scand. J. Statist. 6, 65): a p-value counts times the
-/// number of tests that are not rejected yet. Whatever depends on what among the tests, one of
-/// them rejects by chance in a share kErrorLevel of the logs at most.
+/// number of tests that have not rejected yet. Whatever the dependence between the tests, one or more of
+/// them reject by chance in a share kErrorLevel of the logs at most.
 class ErrorLevel {
  public:
-  /// tests: all of the log, those counted that come later.
+  /// tests: the number of all tests of the log, those that come later included.
   explicit ErrorLevel(int tests) : remaining_(tests) {}
 
-  /// Counts the tests of the log in a finding's probability; whether it is then beyond chance, and
-  /// explains anything.
+  /// Adjusts a finding's probability for the number of tests of the log. Returns whether it is then beyond chance, and
+  /// the finding explains anything.
   bool WouldReject(Finding& finding) const;
 
   /// The same, entered in the finding; the next tests then count as one fewer.
@@ -60,7 +60,7 @@ class ErrorLevel {
 /// The probability that q coefficients differ from 0 together as far as these by chance, where
 /// `scatter` [q x q] was summed over `groups` parts of the recording: Hotelling's
 /// T^2 = b^T scatter^-1 b, F = T^2 (groups - q)/(q (groups - 1)) with q and groups - q degrees of
-/// freedom. 1 where the parts are too few to tell, groups <= q + 2.
+/// freedom. 1 where there are too few parts for a test, groups <= q + 2.
 double HotellingPValue(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& scatter,
                        double groups);
 

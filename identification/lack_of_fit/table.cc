@@ -14,7 +14,7 @@
 namespace warmjoint {
 namespace {
 
-/// "time", whatever was found.
+/// Returns a fixed text such as "time", whatever was found.
 template <const char* const& text>
 std::string Say(const Finding&, const LogSamples&) {
   return text;
@@ -46,7 +46,7 @@ std::string MotorAngle(const Finding& finding, const LogSamples& measurements) {
                            speed ? OrElseTime(measurements.gear * *speed / finding.period) : "");
 }
 
-/// "speed x motor angle (period 0.1 rad)", of what changes with both.
+/// Returns a text such as "speed x motor angle (period 0.1 rad)", for ripple that changes with both.
 template <std::string (*angle)(const Finding&, const LogSamples&)>
 std::string BySpeed(const Finding& finding, const LogSamples& measurements) {
   return NameOfRippleBySpeed(angle(finding, measurements));

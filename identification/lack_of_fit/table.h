@@ -1,4 +1,4 @@
-// The tests for lack of fit: what each asks of a residual, what it is called, what would help.
+// The tests for lack of fit: what each looks for in a residual, its name, and its remedy.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace warmjoint {
 
-/// What advice is about: the finding, and how the fit was made.
+/// What a remedy depends on: the finding, and how the fit was made.
 struct Advice {
   const Finding& finding;
   const Identifier& identifier;
@@ -24,9 +24,9 @@ struct Advice {
   const Fit& fit;
 };
 
-/// When a test looks: at what is known to act on friction first, then at what changes within each
-/// segment of constant speed, at samples, where each test has a turn of its own, and then at bins
-/// within them, then at what stays.
+/// The order of the tests. First are those of known influences on friction. Then come those of structure that changes within
+/// each segment of constant speed: at samples, where each test has a stage of its own, and at bins within segments. Last are
+/// those of structure that stays from one segment to the next.
 enum class Stage {
   first,
   fading,
@@ -39,16 +39,18 @@ enum class Stage {
   last
 };
 
-/// What a fitted warming may have taken up of that which a test looks for; `starts`: that the log began warm.
+/// Whether a fitted warming may have taken up a part of the structure that a test looks for (confounded); `starts`: the test
+/// looks for a log that began warm.
 enum class HeatRelation { independent, confounded, starts };
 
-/// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange); its own
-/// size, its effect, where that is friction or where moves do not show it; or the larger; twice its effect where that
-/// understates it, as of a lag. Of a direction its own size, by which the friction of either direction is off. Of a drift beside
-/// a law without heat the smaller of the moves and sqrt(10) times the effect, with heat the moves.
+/// What of a finding counts as a change of the friction. of_moves: how it biases law and heat (FrictionChange). of_effect: its
+/// own size, its effect, where that is friction or where biases of parameters do not show it. of_either: the larger of the two.
+/// of_effect_twice: twice its effect, where the effect understates it, as of a lag. of_direction: its own size, by which the
+/// friction of either direction is off. of_drift: the smaller of the biases and sqrt(10) times the effect where the law has no
+/// heat, the biases where it has.
 enum class Impact { of_moves, of_effect, of_effect_twice, of_direction, of_either, of_drift };
 
-/// Over what residuals show what a test looks for.
+/// The quantity over which residuals show what a test looks for.
 enum class SeenOver { time, position, velocity, energy, motor_angle };
 
 /// One row of the table.
@@ -59,23 +61,22 @@ struct LackOfFitTest {
   HeatRelation warming = HeatRelation::independent;
   Impact harm = Impact::of_moves;
   SeenOver over = SeenOver::time;
-  /// Features over the bins, the best of several candidates beside the fit; of a test that looks
+  /// Features over the bins, those of several candidates that explain most in addition to the fit; of a test that looks
   /// at samples: none.
   Features (*features)(const Bins& bins, const Circumstances& circumstances,
                        const GrowingFit& fit) = nullptr;
   /// What the residual depends on, in a message.
   std::string (*quantity)(const Finding& finding, const LogSamples& measurements) = nullptr;
-  /// The law, identifier or recording that helps; names only what is there.
+  /// The law, identifier or recording that helps; it names only what exists.
   Remedy (*remedy)(const Advice& advice) = nullptr;
-  /// What a test that looks at samples (lag.h, ripple.h) finds; nothing where it is not made.
-  /// residual: [N] tau - F; what is found is taken off it.
+  /// The finding of a test that looks at samples (lag.h, ripple.h); nothing where it is not made.
+  /// residual: [N] tau - F; what is found is subtracted from it.
   std::optional<Finding> (*at_samples)(const LackOfFitTest& test, const FittedModel& model,
                                        const LogSamples& measurements, Eigen::VectorXd& residual,
                                        ErrorLevel& level) = nullptr;
 };
 
-/// All rows. Of those over bins the ones that come first are made first where the rows are too few
-/// for all.
+/// All rows of the table. Where there are too few bins for all tests over bins, those that come first in the table are made.
 const std::vector<LackOfFitTest>& LackOfFitTests();
 
 /// The row of that name; nullptr where there is none.

@@ -16,10 +16,10 @@ constexpr std::uintmax_t kMostFits = 40;
 constexpr int kFewestRuns = 4;
 constexpr double kLagByChance = 1e-3;  // of logs
 
-/// How many time constants, the same ratio apart, are tried before the best is refined.
+/// How many time constants, in a geometric series, are tried before the best is refined.
 constexpr int kLagsTried = 14;
 
-/// Time constants between which a lag can be told, s: from an eighth of a sampling interval, whose
+/// Time constants between which a lag can be determined, s: from an eighth of a sampling interval, whose
 /// e^-8 no sample shows, to the duration of a run, beyond which what it holds looks like a drift of the run.
 struct LagRange {
   double shortest = 0, longest = 0;
@@ -61,7 +61,7 @@ std::optional<double> FindLag(const KeptRuns& runs, const std::function<double(d
       [&](double logarithm) { return squares(std::exp(logarithm)); }, std::log(below),
       std::log(above), kBits, fits);
 
-  // a lag at an end of the range is none that the log tells
+  // a lag at an end of the range is not one that the log determines
   const double lag = std::exp(at);
   if (!std::isfinite(least) || !range.Holds(lag)) return std::nullopt;
   return lag;
@@ -78,7 +78,7 @@ bool SeesLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
     const SampleRange &before = all.runs[r - 1], &run = all.runs[r];
     const double pause = all.time[run.first] - all.time[before.end() - 1];
     const double lasted = all.time[before.end() - 1] - all.time[before.first];
-    // three samples at least, behind a pause no longer than the run before it
+    // three samples at least, after a pause no longer than the run before it
     if (run.count < 3 || pause > lasted) continue;
     drops.push_back(torque[before.end() - 1] - torque[run.first]);
     begins.push_back(held[static_cast<Eigen::Index>(r)]);
@@ -86,7 +86,7 @@ bool SeesLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
   const auto count = std::ssize(drops);
   if (count < kFewestRuns) return false;
 
-  // the share of the drop, and how sure it is
+  // the share of the drop, and its standard error
   const Eigen::Map<const Eigen::VectorXd> x(drops.data(), count), y(begins.data(), count);
   const double share = x.dot(y) / x.squaredNorm();
   const auto degrees_of_freedom = static_cast<double>(count - 1);

@@ -12,14 +12,14 @@ namespace warmjoint {
 
 /// The time constant of the least squares: the best of some, refined between its neighbours by
 /// Brent's method (1973) to 1e-6 of itself. squares: of the fit at a time constant; infinite where it
-/// has none. Nothing where every fit fails or the best lies at an end of those that can be told.
+/// has none. Nothing where every fit fails or the best lies at an end of those that can be determined.
 std::optional<double> FindLag(const KeptRuns& runs, const std::function<double(double)>& squares);
 
-/// Whether runs begin with what a lag leaves them, of those that follow another one within its duration: what they
-/// begin with, d of LaggedRows, over the drop of the torque from the end of the run before to their own start, by least
-/// squares through the origin. A lag leaves a share above 0, and not by chance: one log in a thousand. One number a run,
-/// so that neither the colour of the noise nor the rate counts; Student's t with as many degrees of freedom as runs less
-/// one; Bonferroni over the time constants tried.
+/// Whether runs begin with a remainder that a lag would leave. Only runs count that follow another one within its duration.
+/// Their remainder, d of LaggedRows, is regressed on the drop of the torque from the end of the run before to their own start,
+/// by least squares through the origin. A lag leaves a share above 0, which is tested at one log in a thousand. There is one
+/// number for each run, so that neither the colour of the noise nor the rate counts. The test is by Student's t with as many
+/// degrees of freedom as runs less one, and Bonferroni over the time constants tried.
 /// torque: [n] of the model, without lag; residual: [n] measured less L torque.
 bool SeesLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
              const Eigen::VectorXd& residual);

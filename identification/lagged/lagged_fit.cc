@@ -34,7 +34,7 @@ NoiseModel Autoregressive(double correlation, double variance) {
   return noise;
 }
 
-/// What a search found.
+/// The result of a search.
 struct Found {
   std::shared_ptr<const LaggedRows> rows;
   double squares = kInfinity;
@@ -99,7 +99,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
   const VectorXd left = measured - plain.rows->Lagged(torque);
   if (!SeesLag(*plain.rows, torque, left)) return nullptr;
 
-  // its own colour, or that of white noise behind the lag, where it surely has one
+  // the colour of the residual, or that of white noise that passed the lag, where the residual is surely coloured
   const Selection grid = AllOf(measured.size());
   const NoiseModel noise = FitNoise(measured - plain.rows->FittedTo(measured, torque), grid);
   if (!IsSurelyColoured(noise, measured.size())) return plain.rows;
@@ -122,13 +122,13 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   const VectorXd lagged = rows->Lagged(torque);
   const VectorXd held = rows->InitialStates(measured - lagged).col(0);
 
-  // the model behind the lag
+  // the model after the lag
   Append({TorqueLagParameter(rows->lag(), m)}, fit);
   fit.torque = measured;
   fit.fitted = lagged + rows->Decaying(held);
   fit.torque_lag = FittedLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};
 
-  // how all estimated values move it together, what runs begin with left out
+  // its derivatives by all estimated values, orthogonal to what runs begin with
   fit.jacobian = [rows, of_model = std::move(fit.jacobian), torque, held, all = m.size()] {
     const KeptRuns& kept = *rows->runs();
     MatrixXd columns =
@@ -137,7 +137,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
     return AtSamples(columns, kept, all);
   };
 
-  // and their errors
+  // and the errors of the estimated values
   ErrorModel& errors = fit.errors;
   MatrixXd columns = AtKept(fit.jacobian(), runs);
   if (rows->whitening()) columns = rows->whitening()->Of(columns);
@@ -150,7 +150,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   errors.cofactor = Cofactor(normal);
   errors.whitening = rows->whitening();
 
-  // what runs begin with is fitted, too: it has left the residual smaller than the noise
+  // the remainders at the starts of runs are fitted, too, which makes the residual smaller than the noise
   const auto samples = static_cast<double>(runs.count());
   const auto begun = static_cast<double>(runs.run_count());
   const double grown = std::sqrt(samples / std::max(samples - begun, 1.0));

@@ -1,4 +1,4 @@
-// What a fit becomes where its torque has passed a lag.
+// The fit to a torque that has passed a lag.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +28,8 @@ struct LagOption {
 /// Whether options have it, and it asks for a lag.
 bool AsksForLag(const Options& options);
 
-/// Why the other options or the log rule out the lag that is asked for; nothing where they do not, or
-/// none is.
+/// Why the other options or the log rule out a lag that the options ask for; nothing where they do not, or
+/// where no lag is asked for.
 std::optional<std::string> WhyNoLag(const IdentifierInput& input);
 
 /// A model fitted at one time constant of the lag.
@@ -43,15 +43,15 @@ using FitAtLag = std::function<LaggedModel(const LaggedRows& rows)>;
 
 /// The rows of the best lag, the noise of white colour or, where that would be wrong beyond doubt
 /// (IsSurelyColoured), of the likelier of two: the one that the residual shows, and that of white
-/// noise which the lag has passed, AR(1) with exp(-h / T). Nothing where no lag is seen (SeesLag),
-/// neither beside the fit without one nor behind the best.
-/// measured: [n]; without: [n] torque of that fit, empty where it went astray.
+/// noise which the lag has passed, AR(1) with exp(-h / T). Nothing where no lag is seen (SeesLag), either
+/// in the residual of the fit without one or in that of the best.
+/// measured: [n]; without: [n] torque of that fit, empty where it failed.
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
                                             const Eigen::VectorXd& measured,
                                             const Eigen::VectorXd& without, const FitAtLag& fit_at);
 
-/// Puts the lag into a fit of the model alone to those rows: its row of the table, what it makes of
-/// the model's torque and Jacobian, the errors of all estimated values together. The fit has its
+/// Adds the lag to a fit of the model to those rows: its row of the table, its effect on
+/// the model's torque and Jacobian, and the errors of all estimated values together. The fit has its
 /// table, model and used samples, `jacobian` of the model without lag, and prior of the errors.
 /// model: [N] torque of the model without lag.
 void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd& model,

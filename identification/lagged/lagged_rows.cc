@@ -55,7 +55,7 @@ KeptRuns FindRuns(const LogSamples& m, const Selection& selection) {
 LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
                        std::shared_ptr<const Whitening> whitening)
     : runs_(std::move(runs)), lag_(lag), whitening_(std::move(whitening)) {
-  // how far the lag follows in each step, and what is left of the value that a run began with
+  // the share by which the lag follows in each step, and the part that is left of the value with which a run began
   share_.setZero(size());
   dying_.setOnes(size());
   for (const SampleRange& run : runs_->runs) {
@@ -93,7 +93,7 @@ void LaggedRows::Apply(Rows& rows) const {
   Lag(rows);
   if (whitening_) whitening_->Apply(rows);
 
-  // take off what any d explains: the part along its response
+  // subtract what any d explains, which is the part along its response
   for (const SampleRange& run : runs_->runs) {
     const auto across = across_.segment(run.first, run.count);
     auto part = rows.middleRows(run.first, run.count);
@@ -152,13 +152,13 @@ std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const 
   const double step = runs.Step();
   for (const SampleRange& run : runs.runs) {
     const Index first = next;
-    // its place on a grid of the typical step, behind the sample before in any case
+    // its place on a grid of the typical step, in any case after the sample before
     for (Index i = run.first; i < run.end(); ++i) {
       const auto on = first + std::llround((runs.time[i] - runs.time[run.first]) / step);
       next = places[static_cast<std::size_t>(i)] =
           std::max<Index>(on, i > run.first ? next + 1 : on);
     }
-    // so far on that the noise of one run does not reach the next
+    // the next run is so much later that the noise of one run is not correlated with the next
     next += kApart;
   }
   return std::make_shared<const Whitening>(noise, places);

@@ -30,14 +30,14 @@ struct KeptRuns {
 /// (LogSamples::Recordings).
 KeptRuns FindRuns(const LogSamples& measurements, const Selection& selection);
 
-/// What a log holds of a torque f behind a lag T (low_pass.h) in each run of samples:
+/// What a log holds of a torque f after a lag T (low_pass.h) in each run of samples:
 ///
 ///     tau = L f + d exp(-(t - t0) / T) + noise,
 ///
-/// L the lag settled on the run's first sample. d is what the lag held of all that was before, the
-/// ramp, its inertia and the friction of the run before, none of which need be known: each run has a
-/// d of its own, and the rows are those orthogonal to exp(-(t - t0) / T), so that the others are
-/// fitted as if beside all d. Exact, and linear in f.
+/// L the lag settled on the run's first sample. d is the remainder in the lag of all torque before the run, of the
+/// ramp, its inertia and the friction of the run before. None of these need be known, since each run has a
+/// d of its own, and the rows are those orthogonal to exp(-(t - t0) / T), so that the other unknowns are
+/// fitted as if together with all d. Exact, and linear in f.
 class LaggedRows final : public RowTransform {
  public:
   /// lag: T > 0, s; whitening: of the noise of tau, which must not reach from one run to the next
@@ -45,7 +45,7 @@ class LaggedRows final : public RowTransform {
   LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
              std::shared_ptr<const Whitening> whitening = nullptr);
 
-  /// W P L rows: behind the lag, whitened, and without what any d explains.
+  /// W P L rows: after the lag, whitened, and without what any d explains.
   void Apply(Rows& rows) const override;
   Eigen::Index size() const override { return runs_->count(); }
 
@@ -58,7 +58,7 @@ class LaggedRows final : public RowTransform {
   Eigen::MatrixXd InitialStates(const Eigen::MatrixXd& rows) const;
   /// d exp(-(t - t0) / T). held: [R x q]; returns [n x q].
   Eigen::MatrixXd Decaying(const Eigen::MatrixXd& held) const;
-  /// L f + d exp(-(t - t0) / T) with the d of what L f leaves: f as the log would show it. torque: f;
+  /// L f + d exp(-(t - t0) / T) with the d that explain the residual of L f: f as the log would show it. torque: f;
   /// measured: [n]
   Eigen::VectorXd FittedTo(const Eigen::VectorXd& measured, const Eigen::VectorXd& torque) const;
 

@@ -7,7 +7,7 @@
 namespace warmjoint {
 
 bool IsLinear(const Law& law) {
-  // a parameter that steady sliding does not show is nothing to fit
+  // a law with a parameter that steady sliding does not show cannot be fitted
   const size_t d = law.parameters.size();
   std::vector<double> p(d), q(d), sum(d);
   for (size_t i = 0; i < d; ++i) {

@@ -53,13 +53,12 @@ struct LoadOption {
   }
 };
 
-/// Regressor of Fn with load_gain behind the law's parameters where it is estimated: |load| sign(v). velocity: [N]; load: [N] of
-/// the log; returns [N x d] or [N x d + 1]
+/// Regressor of Fn, with the column of load_gain, |load| sign(v), after those of the law's parameters where it is estimated.
+/// velocity: [N]; load: [N] of the log; returns [N x d] or [N x d + 1]
 Eigen::MatrixXd NominalColumns(const Law& law, PartFit load, const LogSamples& measurements,
                                const Eigen::VectorXd& velocity);
 
-/// The same at the loss velocity of a log, which makes the losses of ClosedLoop::Along; empty where it
-/// tells none.
+/// The same at the loss velocity of a log, which makes the losses of ClosedLoop::Along; empty where the log has none.
 Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& measurements,
                             PartFit load = PartFit::none);
 

@@ -35,11 +35,11 @@ std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
   return paired;
 }
 
-/// Keeps paired samples; says why not where they are too few.
+/// Keeps paired samples; returns a refusal where there are too few.
 std::optional<Refusal> SelectPairs(const IdentifierInput& input, RigidPart& fit) {
   const LogSamples& m = input.measurements;
   const auto paired = PairedCells(input);
-  // in cells passed one way alone, friction and gravity are not told apart
+  // in cells passed in one direction only, friction and gravity cannot be distinguished
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     fit.selection.keep[i] = fit.selection.keep[i] && paired[CellOf(m.position[i])];
   }
@@ -49,7 +49,7 @@ std::optional<Refusal> SelectPairs(const IdentifierInput& input, RigidPart& fit)
     if (paired[i] || paired[(i + kGravityKnots - 1) % kGravityKnots]) fit.knots.push_back(i);
   }
 
-  // what is left must be wide enough, and most of the log
+  // the cells that are left must be wide enough, and hold most of the log
   const auto cells = std::count(paired.begin(), paired.end(), true);
   const double share = static_cast<double>(fit.selection.count()) /
                        static_cast<double>(std::max<Eigen::Index>(input.selection.count(), 1));
@@ -78,7 +78,7 @@ std::optional<Refusal> PrepareGravity(const IdentifierInput& input, FittedGravit
                                       RigidPart& fit) {
   const LogSamples& m = input.measurements;
 
-  // a linear joint carries one weight wherever it is
+  // a linear joint carries the same weight at all positions
   const bool linear = m.joint == JointKind::linear;
   fit.kind = asked == FittedGravity::sincos ? GravityKind::sincos
              : linear                       ? GravityKind::constant
@@ -108,7 +108,7 @@ std::optional<Refusal> PrepareGravity(const IdentifierInput& input, FittedGravit
 }  // namespace
 
 std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit) {
-  // what takes part so far, and no columns yet
+  // the samples that take part so far, and no columns yet
   fit.selection = input.selection;
   fit.columns.resize(input.measurements.size(), 0);
   const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
@@ -116,7 +116,7 @@ std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit
     if (auto why = PrepareGravity(input, gravity, fit)) return why;
   }
 
-  // the inertia, behind gravity
+  // the inertia, after gravity
   const auto& acceleration = input.measurements.acceleration;
   fit.inertia = acceleration.has_value();
   if (fit.inertia) fit.columns = ConcatColumns(fit.columns, *acceleration);
@@ -146,7 +146,7 @@ LinearTask BeginLinear(const IdentifierInput& given, int more) {
   if (given.measurements.load) task.load = given.options.OrDefault<LoadOption>().load;
   RigidPart& gravity = task.gravity;
 
-  // gravity that the motion does not tell from friction ends it here
+  // where the motion does not distinguish gravity from friction, the task is refused
   task.refusal = PrepareRigid(given, gravity);
   if (task.refusal) return task;
 

@@ -1,4 +1,4 @@
-// Gravity and inertia in a fit: columns that join those of the friction, and what becomes of them.
+// Gravity and inertia in a fit: columns that join those of the friction, and their rows of the table.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -18,7 +18,7 @@ inline constexpr FieldInfo kGravityInfo{
         "gravity, fitted with the friction: none, by sin and cos of the position, or whatever both "
         "directions have in common at one position"};
 
-/// The option of an identifier that can tell gravity from friction.
+/// The option of an identifier that can distinguish gravity from friction.
 struct GravityOption {
   FittedGravity gravity = FittedGravity::none;
 
@@ -28,8 +28,8 @@ struct GravityOption {
   }
 };
 
-/// Gravity and inertia as one fit sees them. Torque = M a + F + G(p), Eqs. (5) and (6): F alone makes
-/// heat, so the columns of G and a stand beside the friction, outside of its loss. M is fitted where
+/// Gravity and inertia in one fit. Torque = M a + F + G(p), Eqs. (5) and (6): F alone makes
+/// heat, so the columns of G and a are added to the friction and left out of its loss. M is fitted where
 /// the log has an acceleration (PreparedLog::moving). `paired` keeps the samples whose cell of the
 /// turn is passed in both directions; because G is fitted together with friction and its warming,
 /// the two passes may differ in heat.
@@ -48,11 +48,11 @@ struct RigidPart {
   IdentifierInput Of(const IdentifierInput& given) const { return given.With(selection); }
 };
 
-/// Gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration; or why the log tells
-/// no gravity.
+/// Gravity as the option `gravity` asks for it, if there is one, and inertia where the log has an acceleration; or why the log
+/// does not determine gravity.
 std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit);
 
-/// Puts both into a fit: their model, and their rows of the table behind those that are there.
+/// Puts both into a fit: their model, and their rows of the table after those that are there.
 /// values: [q] fitted.
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSamples& measurements,
               Fit& fit);
@@ -69,16 +69,16 @@ struct LinearTask {
   std::optional<Refusal> refusal;  // why nothing can be fitted; there may be no columns then
 
   int count() const { return static_cast<int>(columns.cols()); }
-  /// Of law and load.
+  /// The number of columns of law and load.
   Eigen::Index law_count() const { return columns.cols() - gravity.count(); }
 };
 
-/// As the options `law` and `gravity` ask for it, with inertia where the log has an acceleration, and load_gain where `load` does and
-/// the log tells the load. more: parameters of the fit beside those of law, load, gravity and inertia.
+/// As the options `law` and `gravity` ask for it, with inertia where the log has an acceleration, and load_gain where `load`
+/// does and the log has the load. more: parameters of the fit in addition to those of law, load, gravity and inertia.
 LinearTask BeginLinear(const IdentifierInput& given, int more);
 
-/// The columns of a task to the torque of the kept samples, as if nothing warmed. Refuses the task where the motion
-/// cannot tell them apart; empty where it is refused already.
+/// Fits the columns of a task to the torque of the kept samples, as if nothing warmed. Refuses the task where the motion
+/// cannot distinguish them; empty where it is refused already.
 LeastSquares SolveLinear(const IdentifierInput& input, LinearTask& task);
 
 /// That refusal. mixed: indices of columns.

@@ -24,7 +24,7 @@ constexpr int kAngles = 256;
 // why: a chi-square of 2 degrees of freedom exceeds 23 by chance once in 100 000 times
 constexpr double kChance = 23;
 
-/// Angles times speeds at which the map is averaged, of one direction of motion.
+/// The grid of angles and speeds of one direction of motion, over which the map is averaged.
 MapPoints Grid(const FrictionMap& map, int direction) {
   // speeds of the map in this direction; one where it has none
   std::vector<double> speeds;
@@ -46,7 +46,7 @@ MapPoints Grid(const FrictionMap& map, int direction) {
 }
 
 /// Harmonics a cos(multiple motor angle - phase) of a map whose first axis is the motor position, its mean over the other
-/// axes in a direction of motion, 0 for v < 0, 1 for v > 0: those multiples of 1 to half its kernels that stand out of the
+/// axes in a direction of motion, 0 for v < 0, 1 for v > 0: those multiples of 1 to half its kernels that exceed the
 /// noise, each with a, N.m or N, and are at least a fifth of the strongest; strongest first. covariance: [q x q] of the
 /// weights.
 std::vector<std::pair<int, double>> DominantHarmonics(const FrictionMap& map,
@@ -90,7 +90,7 @@ FrictionMap ArmMap(const MotorMapSize& size, const MapOptions& settings, JointKi
   return map;
 }
 
-/// Kernels over the joint's position beside the motor's map where none are asked for.
+/// Kernels over the joint's position in addition to the motor's map where none are asked for.
 constexpr int kArmKernels = 20;
 
 /// What a law with a map over position, or over the motor's angle, is fitted to.
@@ -138,7 +138,7 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
 }
 
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
-  // maps know squares alone
+  // maps are fitted by squares only
   const LossKind loss = input.options.Get<LossOption>().loss;
   if (loss != LossKind::squares) {
     return Refused(
@@ -152,7 +152,7 @@ std::optional<ChosenMap> MapGivenEnergy(const IdentifierInput& given,
                                         const Eigen::VectorXd& energy) {
   MapBeginning begin = BeginModel("", given, ModelOf(given));
   if (begin.refusal) return std::nullopt;
-  // shape and strength of the map beside an energy that is known
+  // shape and strength of the map, given the energy
   begin.task.energy = energy;
   const auto chosen = Choose(begin.task.rigid.Of(given), begin.task);
   if (!chosen) return std::nullopt;

@@ -1,4 +1,4 @@
-// Maps over the motor's angle beside one over the joint's, and either beside law and warming.
+// Maps over the motor's angle with one over the joint's, and either of them with law and warming.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ namespace warmjoint {
 /// How many kernels each map has.
 struct MotorMapSize {
   int turn = 36;  // over the motor's turn, on a circle
-  int speed = 3;  // over speed, for each direction, beside those over the turn
+  int speed = 3;  // over speed, for each direction, in addition to those over the turn
   int arm = 20;   // over the joint's travel, for each direction; 0: no such map
 
   template <class A>
@@ -33,8 +33,8 @@ struct MotorMapSize {
 };
 
 /// The motor's map, first, and the joint's, for every width. Where a joint turns so far that fewer than three of its
-/// kernels fall on a turn, they could follow nothing that returns with the turn, only what changes while the joint
-/// wanders, its heat above all: there they stand on a circle, one turn round. points: [n x 5] kept.
+/// kernels fall on a turn, they could follow nothing that is periodic in a turn, only what changes while the joint
+/// drifts along its travel, mostly its heat. In that case they are on a circle of one turn. points: [n x 5] kept.
 MapShapes MotorMaps(const MotorMapSize& size, const MapOptions& settings, JointKind joint,
                     const MapPoints& points);
 
@@ -44,7 +44,7 @@ MapShapes MotorMaps(const MotorMapSize& size, const MapOptions& settings, JointK
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
                          const LogSamples& measurements, Fit& fit);
 
-/// What has a map beside law and warming.
+/// Which map there is in addition to law and warming.
 enum class WarmMap { none, map, motor };
 inline std::span<const Word<WarmMap>> WordsOf(WarmMap) {
   static constexpr std::array words{Word{"none", WarmMap::none}, Word{"map", WarmMap::map},
@@ -52,7 +52,7 @@ inline std::span<const Word<WarmMap>> WordsOf(WarmMap) {
   return words;
 }
 
-/// Maps beside law and warming, and how they are made.
+/// Maps in addition to law and warming, and how they are made.
 struct WarmMapOptions : AddedMapOptions {
   WarmMap position = WarmMap::none;
   int motor_kernels = 36;
@@ -70,7 +70,7 @@ struct WarmMapOptions : AddedMapOptions {
 };
 
 /// Law, warming and the maps that the option `position` names, together. Refuses Huber's
-/// loss, which cannot be had with maps.
+/// loss, which cannot be combined with maps.
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input);
 
 /// A shape of maps, and a prior.
@@ -79,7 +79,7 @@ struct ChosenMap {
   double strength = 0;  // of the prior
 };
 
-/// The maps that the option `position` names, with the kernels that suit the log beside a warming that is known;
+/// The maps that the option `position` names, with the kernels that suit the log, given the warming;
 /// nothing where none can be chosen. energy: [N] E, N.m or N, or empty: 0.
 std::optional<ChosenMap> MapGivenEnergy(const IdentifierInput& input,
                                         const Eigen::VectorXd& energy);

@@ -21,7 +21,7 @@ using Eigen::Index;
 size_t NearestCentre(const GaussianAxis& axis, double x) {
   const std::vector<double>& centres = axis.centres;
   auto begin = centres.begin(), end = centres.end();
-  // with directions apart, centres on the side of x
+  // where directions are separate, centres on the side of x
   if (axis.sides == Sides::apart && x != 0) {
     const auto positive = std::upper_bound(begin, end, 0.0);
     (x > 0 ? begin : end) = positive;
@@ -38,7 +38,7 @@ size_t NearestCentre(const GaussianAxis& axis, double x) {
   return static_cast<size_t>((around ? begin : next ? above : below) - centres.begin());
 }
 
-/// The kernel whose centre is nearest to a sample along every axis; axes whose sides are apart keep to
+/// The kernel whose centre is nearest to a sample along every axis; axes whose sides are separate keep to
 /// the sample's side. points: [n x 5]
 Index NearestKernel(const FrictionMap& map, const MapPoints& points, Index sample) {
   size_t kernel = 0;
@@ -78,7 +78,8 @@ std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const
 
 namespace {
 
-constexpr double kFewest = 2;    // samples; why 2: one alone tells no weight from its noise
+// samples; why 2: one alone does not distinguish a weight from its noise
+constexpr double kFewest = 2;
 constexpr double kShare = 0.02;  // of the median
 constexpr size_t kMostNamed = 3;
 
@@ -139,9 +140,9 @@ void AddHoles(const FrictionMap& map, Index first, Index line, const std::vector
   }
 }
 
-/// As much as data hold a seen kernel, the median of its diagonal of A^T A over s, and at least 1: a weaker
-/// pull leaves a hole to the few samples at its rims, which throw its weights far off. gram: [q x q] of the
-/// kernels; strength: s.
+/// The pull on unseen kernels. It is as large as the data's on a seen kernel, the median of its diagonal of A^T A over s, and at least 1.
+/// Why: with a weaker pull the few samples at the rims of a hole determine its weights, which then get large errors. gram: [q x
+/// q] of the kernels; strength: s.
 double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, double strength) {
   std::vector<double> seen;
   for (Index i = 0; i < gram.rows(); ++i) {
@@ -152,14 +153,14 @@ double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, do
 
 /// [q x q] P of the prior s w^T P w: 1 on the diagonal for seen kernels. An unseen one is drawn to the
 /// straight line between its next seen neighbours along the first axis instead, or to the one that
-/// there is; where its whole line is unseen, to 0. pull: how much more than the others one between two
+/// there is; where its whole line is unseen, it is drawn to 0. pull: how much more than the others one between two
 /// seen ones is drawn; maps over energy or load, whose lines fill as the joint warms, take 1.
 Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
                         double pull) {
   const auto q = static_cast<Index>(unseen.size());
   Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
   Index first = 0;
-  // along energy or load a hole is drawn as the others are, elsewhere harder
+  // along energy or load a hole is pulled as strongly as the others, elsewhere more strongly
   for (const FrictionMap& map : maps) {
     const KernelLines lines(map);
     const Index n = lines.length, size = n * lines.stride;
@@ -197,7 +198,7 @@ std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapP
     // how many samples are nearest to each kernel
     Eigen::VectorXd counts = Eigen::VectorXd::Zero(size);
     for (Index i = 0; i < points.rows(); ++i) ++counts[NearestKernel(map, points, i)];
-    // a kernel is seen where it has two samples at least, and a share of what those usually have
+    // a kernel is seen where it has at least two samples, and a share of the usual number
     std::vector<double> seen;
     std::ranges::copy_if(counts, std::back_inserter(seen),
                          [](double one) { return one >= kFewest; });
@@ -226,7 +227,7 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, Index first,
   for (const double weight : seen) squares += std::pow(weight - mean, 2);
   const double spread = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 
-  // less beside a kernel that is seen
+  // less next to a kernel that is seen
   const KernelLines lines(map);
   std::vector<double> doubt(map.size());
   for (Index k = 0; k < size; ++k) {
@@ -234,7 +235,7 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, Index first,
     const Index line = first + k % lines.stride, i = k / lines.stride;
     const auto below = NextSeen(lines, unseen, line, i, -1);
     const auto above = NextSeen(lines, unseen, line, i, 1);
-    // a kernel beside data is in doubt by half
+    // the doubt of a kernel next to data is half as large
     const bool beside = below == 1 || above == 1;
     if (beside && !(below && above)) continue;  // half a cell at the end of the travel
     doubt[k] = beside ? 0.5 * spread : spread;

@@ -1,4 +1,4 @@
-// How the kernels of a map lie among the samples, and where it has no data.
+// The places of a map's kernels relative to the samples, and where it has no data.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -29,16 +29,16 @@ struct KernelLines {
 std::vector<std::optional<double>> SpeedsAtKernels(const FrictionMap& map, const MapPoints& kept);
 
 /// Kernels to which fewer than 2 samples are nearest, or fewer than a fiftieth of the median of their
-/// map's: there the prior would set the map to 0, to the law's bare level, whatever its neighbours are.
+/// map's. There the prior would set the map to 0, so that only the law is left, whatever its neighbours are.
 /// points: [n x 5] of the samples; returns [q] of all maps' kernels, one map's after the other's.
 std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapPoints& points);
 
-/// s P with the pull that the data ask for: what joins A^T A of the kernels. [q x q]
+/// s P with the pull that suits the data, which is added to A^T A of the kernels. [q x q]
 Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram,
                           const std::vector<bool>& unseen, double strength);
 
-/// What the weights may be off where a map has no data, as a standard deviation: 0 for seen kernels, the
-/// rms spread of the map's seen weights around their mean for unseen ones, half of it beside a seen one,
+/// The error of the weights where a map has no data, as a standard deviation: 0 for seen kernels, the
+/// rms spread of the map's seen weights around their mean for unseen ones, half of it next to a seen one,
 /// and 0 there at an end of the range, where data reach into the half cell. first: the map's first
 /// kernel among all; weights: [q]; returns one for each kernel of the map.
 std::vector<double> DoubtOfHoles(const FrictionMap& map, Eigen::Index first,

@@ -26,7 +26,7 @@ namespace {
 constexpr double kBeyondDoubt =
     3.5;  // standard errors; why: by chance once in a thousand logs, of two values
 
-/// Why no map over a quantity can be told from the kept samples, [n x 5] `points`.
+/// Why the kept samples, [n x 5] `points`, do not determine a map over a quantity.
 std::optional<std::string> Unseen(MapQuantity quantity, const LogSamples& measurements,
                                   const MapPoints& points) {
   if (quantity == MapQuantity::load && !measurements.load) {
@@ -45,7 +45,7 @@ std::optional<std::string> Unseen(MapQuantity quantity, const LogSamples& measur
 void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, Fit& fit) {
   fit.parameters = LawParameters(law, maps.law(), measurements);
   std::vector<std::string> imitated;
-  // what kernels can imitate has no figure of its own
+  // a column that kernels can imitate has no interval of its own
   for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free())) {
     if (i >= static_cast<Eigen::Index>(law.parameters.size())) continue;
     FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
@@ -61,7 +61,7 @@ void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, 
 
 /// The samples that law and maps are fitted to; without maps.
 MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
-  // columns of the law, and beside them those of gravity and inertia
+  // columns of the law, and next to them those of gravity and inertia
   const Law& law = *task.law;
   const Eigen::MatrixXd columns =
       ConcatColumns(LawColumns(law, input.measurements.velocity), task.rigid.columns);
@@ -88,7 +88,7 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
                   StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel),
                   fit.bands.front());
   fit.friction_at_speeds = FrictionAtSpeeds(law, maps, uncertainty, problem.points);
-  // beyond doubt below 0 in the mean of its places
+  // friction that is below 0 beyond doubt, in the mean over its places
   const auto drives = std::ranges::find_if(
       fit.friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
   if (drives != fit.friction_at_speeds.end()) {
@@ -110,7 +110,7 @@ MapTask MakeMapTask(const IdentifierInput& input, const std::string& identifier)
 MapBeginning BeginMaps(const IdentifierInput& given, const std::string& identifier,
                        const std::vector<MapQuantity>& quantities) {
   MapBeginning begin{MakeMapTask(given, identifier), {}, {}};
-  // law, gravity and inertia must be distinct before any map is thought of
+  // law, gravity and inertia must be distinct before maps are fitted
   LinearTask linear = BeginLinear(given, 2);
   begin.task.rigid = linear.gravity;
   const IdentifierInput input = begin.task.rigid.Of(given);
@@ -141,7 +141,7 @@ std::optional<ChosenProblem> Choose(const IdentifierInput& input, const MapTask&
   MapProblem problem = ProblemOf(input, task);
   problem.rows = task.rows;
 
-  // a choice costs fits, so one is made only where there is something to choose
+  // a choice takes many fits, so it is made only where there is more than one possibility
   ChosenMaps best{0, task.settings.strength, 0, {}};
   if (task.candidates.size() > 1 || task.settings.strength == 0) {
     const int folds = task.folds(problem.torque.size());
@@ -174,7 +174,7 @@ namespace {
 /// The task with gravity, and with a constant that a level for each direction would explain as well.
 MapTask WithGravity(const MapTask& task, const MapWeights& fit, const Eigen::VectorXd& position) {
   MapTask with = Settled(task, fit);
-  // maps that need hold no gravity any more have weights of another size
+  // maps that no longer have to follow gravity have weights of another size
   with.settings.strength = 0;
   Eigen::MatrixXd columns = GravityColumns(GravityKind::sincos, {}, position);
   with.rigid.columns = ConcatColumns(ConcatColumns(columns, Eigen::VectorXd::Ones(position.size())),
@@ -183,14 +183,14 @@ MapTask WithGravity(const MapTask& task, const MapWeights& fit, const Eigen::Vec
 }
 
 /// Whether maps over the angle of a joint have taken up gravity: what they hold of g1 sin p + g2 cos p is relevant
-/// beside the friction of the law, and a fit that has both tells that gravity apart from them beyond doubt.
+/// relative to the friction of the law, and a fit that has both distinguishes that gravity from them beyond doubt.
 bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
   const LogSamples& m = input.measurements;
   const bool asks = m.joint == JointKind::rotary && task.rigid.gravity_count() == 0 &&
                     m.position.allFinite() && input.selection.count() > 2 * maps.free() + 6;
   if (!asks) return false;
 
-  // what the maps hold of it, beside law and constant
+  // what the maps hold of it, in addition to law and constant
   const MapTask with = WithGravity(task, maps, m.position);
   const Eigen::MatrixXd gravity = Kept(with.rigid.columns.leftCols(3), input.selection);
   const Law& law = *task.law;
@@ -203,7 +203,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   const double size = (gravity.leftCols(2) * held.solution.head(2)).norm();
   if (size < kDefaultRelevance * of_law.norm()) return false;
 
-  // and whether it is gravity that a fit with both needs
+  // and whether a fit with both needs that gravity
   const std::optional<MapChoice> choice = ChooseAndFit(input, with);
   if (!choice) return false;
   const Uncertainty uncertainty = MapCovariance(choice->problem, choice->fit);
@@ -217,7 +217,7 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
   const LogSamples& m = input.measurements;
   const Law& law = *task.law;
 
-  // the law, and the maps beside it
+  // the law, and the maps next to it
   Fit fit;
   fit.identifier = task.identifier;
   fit.friction = FrictionOf(law, maps.law(), m);
@@ -245,7 +245,7 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
   return fit;
 }
 
-/// Of the law and what stands beside it, without the weights.
+/// The uncertainty of the law and of the other parameters of the table, without the weights.
 Uncertainty OfTable(Uncertainty uncertainty, const MapFit& maps) {
   uncertainty.covariance = uncertainty.covariance.topLeftCorner(maps.free(), maps.free()).eval();
   return uncertainty;

@@ -1,4 +1,4 @@
-// What identifiers with maps share: from candidates of maps to a fit.
+// The common part of identifiers with maps: from candidates of maps to a fit.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,11 @@ struct MapTask {
   MapOptions settings;
   /// Shapes of the maps to choose from, at least one.
   MapShapes candidates{};
-  /// [N] E, N.m or N, as far as it is uncertainty: sign(v) E is taken off the torque. Empty: 0.
+  /// [N] E, N.m or N, as far as it is uncertainty: sign(v) E is subtracted from the torque. Empty: 0.
   Eigen::VectorXd energy{};
-  /// Gravity and inertia beside law and maps, free of any prior; no columns: none.
+  /// Gravity and inertia in addition to law and maps, without a prior; no columns: none.
   RigidPart rigid{};
-  /// Of the only candidate at the kept samples, where they are made already; null: made anew.
+  /// The rows of the only candidate at the kept samples, where they were computed already; null: computed anew.
   std::shared_ptr<const KernelRows> rows{};
 
   /// Of cross validation over so many kept samples.
@@ -33,7 +33,7 @@ struct MapTask {
   }
 };
 
-/// As options with LawOption and MapOptions say, without candidates, gravity and inertia. identifier: its name.
+/// The task that options with LawOption and MapOptions ask for, without candidates, gravity and inertia. identifier: its name.
 MapTask MakeMapTask(const IdentifierInput& input, const std::string& identifier);
 
 /// Where an identifier with maps begins: its settings, and the samples that it fits.
@@ -43,8 +43,8 @@ struct MapBeginning {
   std::optional<Refusal> refusal;  // instead of both, where law or maps cannot be fitted
 };
 
-/// Reads the options that all identifiers with maps share (map_options.h) and looks whether the data tell law, gravity
-/// and inertia apart and vary in each of the quantities that maps are wanted over: those samples that `task.rigid` keeps.
+/// Reads the options that all identifiers with maps share (map_options.h) and checks, for the samples that `task.rigid` keeps,
+/// whether the data distinguish law, gravity and inertia, and vary in each of the quantities that maps are wanted over.
 /// identifier: its name.
 MapBeginning BeginMaps(const IdentifierInput& given, const std::string& identifier,
                        const std::vector<MapQuantity>& quantities);
@@ -80,11 +80,11 @@ Refusal Unsolvable();
 
 /// Law and maps as a fit without warming; where they make a friction, with bands. The table has the
 /// law's parameters; those that the kernels can imitate get no interval and a warning, for only the
-/// prior's taste tells them from a map. uncertainty: of law and weights first (MapCovariance), and maybe more.
+/// choice of the prior distinguishes them from a map. uncertainty: of law and weights first (MapCovariance), and maybe more.
 Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
           const Uncertainty& uncertainty);
 
-/// The same without bands. How sure it is costs as much as the fit: that is found where it is asked for.
+/// The same without bands. The uncertainty costs as much time as the fit, so it is computed only when it is asked for.
 Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice);
 
 }  // namespace warmjoint

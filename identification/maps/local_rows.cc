@@ -14,7 +14,7 @@
 namespace warmjoint {
 namespace {
 
-/// The kernels of one axis that count: neighbours, on a circle across its end.
+/// The kernels of one axis that are not negligible: a run of neighbours, on a circle possibly across its end.
 struct Window {
   std::uint16_t first = 0;
   std::uint16_t count = 0;
@@ -26,7 +26,7 @@ class AxisRow {
  public:
   AxisRow(const GaussianAxis& axis, KernelKind kind) : axis_(axis, kind), places_(axis_.Row()) {}
 
-  /// The kernels that count at x, into phi [axis.size()]; others are not written.
+  /// Writes the kernels that are not negligible at x into phi [axis.size()]; others are not written.
   Window Fill(double x, double* phi) {
     axis_.Kernels(x, active_);
     const double* value = active_.value.data() + active_.begin;
@@ -93,7 +93,7 @@ class AxisTable {
         const size_t before = kernels.size() - begin, size = axis.kernels.size();
         const size_t count = window->count;
         kernels.resize(begin + before * count);
-        // from the back, so that none is overwritten before its turn
+        // from the back, so that none is overwritten before it is used
         for (size_t i = before; i-- > 0;) {
           const Eigen::Index base = kernels[begin + i] * static_cast<Eigen::Index>(size);
           for (size_t k = count; k-- > 0;) {
@@ -138,7 +138,7 @@ class AxisTable {
     for (Eigen::Index before = count - 1; before >= 0; --before) {
       const double product = row[before];
       double* const products = row + before * kernels;
-      // behind the circle's end first: those in front may take the place of the product
+      // kernels after the circle's end come first: those at its begin may overwrite the product
       for (Eigen::Index k = kernels; k-- > to_end;) products[k] = product * phi[k - to_end];
       for (Eigen::Index k = to_end; k-- > 0;) products[k] = product * phi[window.first + k];
     }
@@ -174,13 +174,13 @@ class AxisTable {
   std::vector<Window> windows_;  // [samples x axes]
 };
 
-/// What it costs to add a group's products to those of all kernels, in samples; why 8: it moves the time alone,
-/// no answer.
+/// What it costs to add a group's products to those of all kernels, in samples; why 8: it changes the time only,
+/// not the answer.
 constexpr double kAdding = 8;
 
 using Samples = std::vector<Eigen::Index>::const_iterator;
 
-/// Makes groups of runs of samples with the same windows: one of neighbours that have few kernels apart.
+/// Makes groups of runs of samples with the same windows. Neighbouring runs join one group where they share most of their kernels.
 class GroupMaker {
  public:
   GroupMaker(const AxisTable& table, Eigen::Index kernels)
@@ -211,7 +211,7 @@ class GroupMaker {
     std::vector<Eigen::Index> kernels;  // in the order of AxisTable::Values
   };
 
-  /// What a group costs whose products with each other are summed.
+  /// The cost of a group, whose products with each other are summed.
   static double Cost(Eigen::Index samples, size_t kernels) {
     const auto m = static_cast<double>(kernels);
     return (static_cast<double>(samples) + kAdding) * m * m;
@@ -245,7 +245,7 @@ class GroupMaker {
         for (size_t i = 0; i < run.kernels.size(); ++i) row[column_[run.kernels[i]]] = values[i];
       }
     }
-    // nothing of it stays for the next group
+    // reset for the next group
     for (const Eigen::Index kernel : group.kernels) column_[kernel] = kNone;
     runs_.clear();
     kernels_.clear();

@@ -12,7 +12,7 @@
 
 namespace warmjoint {
 
-/// Samples at which about the same kernels count (PreparedAxis): the rest is below 3e-13 of the largest.
+/// Samples at which about the same kernels are not negligible (PreparedAxis): the others are below 3e-13 of the largest.
 struct RowGroup {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   std::vector<Eigen::Index> samples;  // rows of the points
@@ -39,7 +39,7 @@ NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoint
                             const Eigen::MatrixXd& free, const Eigen::VectorXd& y,
                             Eigen::Index first, Eigen::Index last);
 
-/// Of the kernels of all samples with each y, in chunks. y: [n x k]; returns [kernels x k].
+/// The products of the kernels of all samples with each y, in chunks. y: [n x k]; returns [kernels x k].
 Eigen::MatrixXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
                               const Eigen::Ref<const Eigen::MatrixXd>& y);
 
@@ -63,7 +63,7 @@ class KernelRows {
   /// Normal equations of one span, as LocalNormal. free: [n x p]; y: [n]
   NormalEquations Normal(Eigen::Index span, const Eigen::MatrixXd& free,
                          const Eigen::VectorXd& y) const;
-  /// Of all of them.
+  /// Normal equations of all spans.
   NormalEquations Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const;
 
   /// Products of the rows with each of k torques: [kernels x k]. y: [n x k]

@@ -24,7 +24,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kEnough = 1000;  // samples; why 1000: their mean is sure to 3 % of their spread
+// samples; why 1000: the standard error of their mean is 3 % of their spread
+constexpr Index kEnough = 1000;
 // why: with 0.075 or 0.033 all bands of tests/studies/maps.yaml stay
 constexpr double kBlind = 0.05;  // share of kernels without data
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
@@ -33,7 +34,7 @@ bool IsAlikeInBothDirections(const FrictionMap& map) {
   return map.factor == MapFactor::one && !FindAxis(map, MapQuantity::velocity);
 }
 
-/// Whether the map tells the directions of motion apart and nothing else of the velocity.
+/// Whether the map distinguishes the directions of motion and nothing else of the velocity.
 bool IsByDirection(const FrictionMap& map) {
   const MapAxis* axis = FindAxis(map, MapQuantity::velocity);
   return axis && axis->kernels.sides == Sides::apart && axis->kernels.size() == 2;
@@ -54,7 +55,7 @@ MapPoints PlacesOfBand(const FrictionMap& map, double speed, const MapPoints& ke
     for (size_t a = map.axes.size(); a-- > 0;) {
       const std::vector<double>& centres = map.axes[a].kernels.centres;
       centre[a] = centres[rest % centres.size()];
-      // where the map knows directions alone, the place moves as fast as the samples there
+      // where the map distinguishes directions only, the place has the speed of the samples there
       const bool moved = !speeds.empty() && speeds[static_cast<size_t>(i)];
       if (moved && map.axes[a].quantity == MapQuantity::velocity) {
         centre[a] = std::copysign(*speeds[static_cast<size_t>(i)], centre[a]);
@@ -69,7 +70,7 @@ MapPoints PlacesOfBand(const FrictionMap& map, double speed, const MapPoints& ke
   return places;
 }
 
-/// Kept samples that move in a direction.
+/// Kept samples of one direction of motion.
 std::vector<Index> Towards(int direction, const MapPoints& kept) {
   std::vector<Index> samples;
   for (Index i = 0; i < kept.rows(); ++i) {
@@ -78,7 +79,7 @@ std::vector<Index> Towards(int direction, const MapPoints& kept) {
   return samples;
 }
 
-/// Points of some samples, or of every so manieth where more would hardly change a mean over them.
+/// Points of some samples, or of one in so many of them where more would hardly change a mean over them.
 MapPoints Some(const std::vector<Index>& samples, const MapPoints& kept) {
   const auto all = static_cast<Index>(samples.size()), some = std::min(all, kEnough);
   std::vector<Index> chosen;
@@ -92,7 +93,7 @@ Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints
   return DenseKernels(maps, points, 0, points.rows()).colwise().mean();
 }
 
-/// Over the samples of both directions.
+/// Mean rows over the samples of both directions.
 struct MeanRows {
   Eigen::RowVectorXd backwards, forwards;
 
@@ -106,7 +107,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
                        const MeanRows& means) {
   const Index size = places.rows(), q = fit.layout.weights.size;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
-  // a map that knows directions stands with the law and the mean of the others in its direction
+  // the band of a map that distinguishes directions includes the law and the mean of the other maps in its direction
   if (!IsAlikeInBothDirections(fit.maps[which])) {
     const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
     rows.leftCols(columns.cols()) = columns;
@@ -116,7 +117,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
       if (direction > 0 && means.forwards.size() > 0) rows.row(i).tail(q) = means.forwards;
     }
   }
-  // its own kernels stand at their own places instead of their mean
+  // its own kernels are evaluated at their own places instead of their mean
   Index first = fit.free();
   for (size_t i = 0; i < which; ++i) first += static_cast<Index>(fit.maps[i].size());
   const auto own = static_cast<Index>(fit.maps[which].size());
@@ -124,7 +125,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
   return rows;
 }
 
-/// How much of a place's kernels has no data.
+/// The share of a place's kernels that has no data.
 double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
   double share = 0;
   for (size_t k = 0; k < fit.unseen.size(); ++k) {
@@ -133,9 +134,9 @@ double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
   return share;
 }
 
-constexpr double kDead = 1e-3;  // of the variance; why: far below what few draws can tell
+constexpr double kDead = 1e-3;  // of the variance; why: far below what few draws can show
 
-/// Samples after which nothing is left of a start from 0.
+/// The number of samples after which the effect of a start from 0 has died away.
 Index Settling(const NoiseModel& noise, Index most) {
   if (noise.order() == 0) return 0;
   const Eigen::VectorXd covariances = CovariancesOf(noise, most);
@@ -195,7 +196,7 @@ std::vector<FrictionMap> TwiceAsFine(std::vector<FrictionMap> maps) {
   return maps;
 }
 
-/// A fit with twice the kernels, and how far noise alone takes it and the one with its own kernels.
+/// A fit with twice the kernels, and by how much noise alone changes it and the fit with the map's own kernels.
 struct FinerFit {
   MapWeights twice;
   Eigen::MatrixXd shaken;        // [p + q x draws] changes of x of the fit with its own
@@ -214,13 +215,13 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
   std::optional<MapWeights> twice = finer_fits.Fit();
   if (!twice) return std::nullopt;
 
-  // of the fit's own equations the torques change the products alone
+  // the torques change only the products of the fit's own equations
   NormalEquations normal(fit.x.size());
   normal.gram = fit.gram;
   normal.rows = own.torque.size();
   RepeatedFit own_fits(own, std::move(normal), fit.strength);
 
-  // the same noise to both, on top of what was measured, where bounds hold as they do there
+  // the same noise is added to the measured torque in both fits, so that the same bounds hold as there
   StartStream stream({});
   Eigen::MatrixXd torques = DrawNoise(noise, own.torque.size(), kDraws, stream);
   torques.colwise() += own.torque;
@@ -232,8 +233,8 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
 }
 
 /// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that are not known,
-/// NaN, are left out. Averages below 0, and those of nothing, are 0. Since chance alone leaves some above 0, all are
-/// made smaller until those at known places sum up to no more than the squares do.
+/// NaN, are left out. Averages below 0, and those without a known square, are 0. Since chance alone leaves some above 0, all
+/// are scaled down until those at known places sum up to no more than the squares do.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
   const KernelLines lines(map);
   const Index stride = lines.stride;
@@ -285,7 +286,7 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
     if (finer) {
       const Eigen::MatrixXd more = RowsAt(law, finer->twice, which, places, *finer_means);
       Eigen::VectorXd missed = value - more * finer->twice.x;
-      // where one of them has no data it follows nothing, and the neighbours tell
+      // where one of the maps has no data it cannot follow the torque, and the neighbours give the value
       for (Index i = 0; i < missed.size(); ++i) {
         const bool blind = maps.unseen[first + static_cast<size_t>(i)];
         if (blind || ShareOfUnseen(more.row(i), finer->twice) > kBlind) {
@@ -301,7 +302,7 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
         DoubtOfHoles(map, static_cast<Index>(first), maps.unseen, maps.weights());
     first += map.size();
     for (Index i = 0; i < places.rows(); ++i) {
-      // where the map has no data it may be as far off as it varies elsewhere
+      // where the map has no data, its error may be as large as its variation elsewhere
       const double deviation = std::hypot(std::sqrt(variance[i]), doubt[static_cast<size_t>(i)]);
       band.value.push_back(value[i]);
       band.std.push_back(deviation);
@@ -312,8 +313,8 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
 
 namespace {
 
-// rad; why: a filter against aliasing at half the sampling rate leaves 0.97 of what turns by less in a sample, and less of what
-// turns by more
+// rad; why: a filter against aliasing at half the sampling rate leaves 0.97 of a wave whose phase turns by less in a sample,
+// and less of faster waves
 constexpr double kShown = std::numbers::pi / 2;
 
 /// Amplitude of the k-th harmonic of values at even places around a circle, N.m or N.
@@ -344,7 +345,7 @@ void WidenUnresolved(const FrictionMap& motor, const LogSamples& m, double reach
     for (size_t i = 0; i < count; ++i) values[j].push_back(band.value[i * stride + j]);
   }
   const auto phase = [&](size_t j, int k) { return k * angle * std::abs(speeds[j]); };
-  // the line that tells how strong the k-th harmonic is: its own, or the slowest of its direction that shows it
+  // the line that shows how strong the k-th harmonic is: its own, or the slowest of its direction that shows it
   const auto shows = [&](size_t j, int k) {
     std::optional<size_t> slowest;
     for (size_t l = 0; l < stride; ++l) {
@@ -371,7 +372,7 @@ void WidenUnresolved(const FrictionMap& motor, const LogSamples& m, double reach
 
 namespace {
 
-/// a of the mean over the points of a group, or over every so manieth of many. [p + q]
+/// The row a of the mean over the points of a group, or over one in so many of a large group. [p + q]
 Eigen::RowVectorXd MeanOver(const std::vector<Index>& group, const Law& law, const MapFit& fit,
                             const MapPoints& kept) {
   const MapPoints points = Some(group, kept);

@@ -90,7 +90,7 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
   const ClosedLoop loop = LoopOf(m, *task_.law, maps);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
 
-  // gravity and inertia make no heat: out of the scan, beside the loop in the fit
+  // gravity and inertia make no heat: they are left out of the scan, and are added to the loop in the fit
   const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task_.rigid.columns;
   const Eigen::VectorXd rigid = maps.fit().rigid();
   InitialGuess from = ScanTimeConstant(loop, level - offsets * rigid, kept_);
@@ -99,7 +99,7 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
   from.parameters.conservativeResize(d + rigid.size());
   from.parameters.tail(rigid.size()) = rigid;
 
-  // what the maps left is about the noise
+  // the residual of the maps is about as large as the noise
   const double scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count()));
   const ClosedLoop with_starts = loop.WithJumps(Behind(starts_));
   ThermalRows rows{.loop = with_starts,
@@ -109,7 +109,7 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
                    .initial = initial_,
                    .scale = scale,
                    .jump_spread = JumpSpread(starts_, 0, 1)};
-  // jumps first beside a fit without them, which tells how warm the joint was, then with all else
+  // jumps are first added to a fit without them, which shows how warm the joint was, then estimated with all else
   const bool is_first = !fit_;
   const ClosedLoop with_jumps = loop.WithJumps(Behind(gaps_));
   if (!is_first) {
@@ -118,7 +118,7 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
   }
   fit_ = FitThermalFriction(is_first ? rows : rows.Along(with_jumps), from);
   if (is_first && gaps_.size() > starts_.size()) FitJumps(rows, gaps_, from, *fit_);
-  // the energy by this warming, beside which the maps are fitted next
+  // the energy by this warming, which is given when the maps are fitted next
   energy_ = with_jumps.Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
                 .energy;
   return fit_->converged && energy_.allFinite();

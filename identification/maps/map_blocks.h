@@ -1,4 +1,4 @@
-// Where the fit of law, maps and heat begins: law and maps given the heat, and the heat given the maps.
+// The start of the fit of law, maps and heat: law and maps given the heat, and the heat given the maps.
 #pragma once
 
 #include <memory>
@@ -11,24 +11,24 @@
 
 namespace warmjoint {
 
-/// Law and maps with one energy after the other: what does not depend on E is made once.
+/// Law and maps with one energy after the other: what does not depend on E is computed once.
 class MapBlock {
  public:
   /// input: must outlive this; task: its energy is not read.
   MapBlock(const IdentifierInput& input, MapTask task);
 
-  /// Chooses shape and strength beside E, and fits. energy: [N] N.m or N, or empty: 0. False where nothing
+  /// Chooses shape and strength given E, and fits. energy: [N] N.m or N, or empty: 0. False where nothing
   /// can be solved.
   bool ChooseGiven(const Eigen::VectorXd& energy);
   /// Fits once more with the shape and strength that were chosen last.
   bool FitGiven(const Eigen::VectorXd& energy);
 
-  /// Takes an x that was found otherwise, beside its energy. x: [p + q]
+  /// Takes an x that was found otherwise, with its energy. x: [p + q]
   void Take(Eigen::VectorXd x, const Eigen::VectorXd& energy);
 
   const MapWeights& fit() const { return *fit_; }
   const RepeatedFit& solver() const { return *repeated_; }
-  /// Of the residual over the kept samples.
+  /// The squares of the residual over the kept samples.
   double Squares() const { return (torque_ - fit_->fitted).squaredNorm(); }
   /// Values of the maps at all samples, [N] N.m or N.
   Eigen::VectorXd Everywhere() const;
@@ -39,7 +39,7 @@ class MapBlock {
   MapTask Settled() const;
 
  private:
-  /// Leaves law and maps what an energy leaves of the torque.
+  /// Sets the torque of law and maps to the measured one less that of an energy.
   void LeaveTo(const Eigen::VectorXd& energy);
 
   const IdentifierInput& input_;
@@ -59,7 +59,7 @@ class WarmingBlock {
   /// known of E(0).
   WarmingBlock(const IdentifierInput& input, const MapTask& task, const InitialEnergy& initial);
 
-  /// Fits beside the maps' latest, from the warming that was found last, or from a scan. False where
+  /// Fits given the latest maps, from the warming that was found last, or from a scan. False where
   /// it does not converge.
   bool FitGiven(const MapBlock& maps);
 
@@ -71,7 +71,7 @@ class WarmingBlock {
   const IdentifierInput& input_;
   const MapTask& task_;
   const InitialEnergy initial_;
-  const std::vector<LogGap> starts_;  // of further recordings, where E(0) is open
+  const std::vector<LogGap> starts_;  // of further recordings, where E(0) is estimated
   const std::vector<LogGap> gaps_;
   const Eigen::VectorXd kept_;  // [N] 1 where a sample counts
   std::optional<ThermalFit> fit_;

@@ -18,7 +18,7 @@
 namespace warmjoint {
 namespace {
 
-/// What cross validation says of one strength.
+/// The result of cross validation for one strength.
 struct StrengthTrial {
   double strength = 0;
   bool possible = true;    // whether the fit to all rows leaves all parameters above their bounds
@@ -28,7 +28,7 @@ struct StrengthTrial {
 constexpr int kStrengths = 20;  // why: up to 300 times the mean diagonal, where nothing is left
 constexpr int kStride = 4;      // why 4: two decades, within which the error has one valley
 
-/// Strengths s of a prior: 20, half a decade apart, from 1e-7 of the mean diagonal of the kernels' Gram matrix
+/// Strengths s of a prior: 20 in steps of half a decade, from 1e-7 of the mean diagonal of the kernels' Gram matrix
 /// on. free: leading columns without a prior.
 std::vector<double> Strengths(const NormalEquations& normal, Eigen::Index free) {
   const double scale = normal.gram.diagonal().tail(normal.product.size() - free).mean();
@@ -37,7 +37,7 @@ std::vector<double> Strengths(const NormalEquations& normal, Eigen::Index free) 
   return strengths;
 }
 
-/// Of the parameters, in the fit to all rows.
+/// The lower bounds of the parameters, in the fit to all rows.
 class LowerBounds {
  public:
   LowerBounds(const NormalEquations& all, Eigen::Index free, const std::vector<double>& lower)
@@ -46,7 +46,7 @@ class LowerBounds {
     if (std::ranges::any_of(lower, bounds)) ridge_.emplace(all, free);
   }
 
-  /// Whether the fit with a strength leaves them.
+  /// Whether the fit with a strength keeps within them.
   bool HoldWith(double strength) {
     if (!ridge_) return true;
     const std::optional<Eigen::VectorXd> x = ridge_->Solve(strength);
@@ -115,9 +115,9 @@ bool AsGood(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& best) {
   return worse.sum() <= std::sqrt(parts) * deviation;
 }
 
-/// Those strengths among which the choice falls, ascending: the one with the least error of those that are
+/// The strengths from which one is chosen, ascending: the one with the least error of those that are
 /// possible, the stronger ones that are as good, and some others. The error has one valley over the
-/// strengths, or several of which every fourth strength tells the deepest. Without those that are too small
+/// strengths, or several; every fourth strength then shows which is the deepest. Without those that are too small
 /// to solve. parts: of the rows; lower: bounds of the free parameters, or empty: none.
 std::vector<StrengthTrial> SearchStrengths(const std::vector<NormalEquations>& parts,
                                            const NormalEquations& all, Eigen::Index free,
@@ -142,7 +142,7 @@ std::vector<StrengthTrial> SearchStrengths(const std::vector<NormalEquations>& p
   return curve.Solved();
 }
 
-// why several: a joint warms up but once; with 12, one load map moves by a third of its half width
+// why several: a joint warms up but once; with 12, one load map changes by a third of its half width
 constexpr Eigen::Index kSpans = 8;  // of each fold, of maps over the energy
 
 /// One candidate with one strength.
@@ -157,7 +157,7 @@ bool IsOverEnergy(const std::vector<FrictionMap>& maps) {
 }
 
 /// The normal equations of each fold: one part of the recording, or, since a joint warms up but
-/// once, of maps over the energy kSpans shorter ones that lie a fold's turn apart.
+/// once, for maps over the energy, kSpans shorter parts, between which lie parts of all other folds.
 std::vector<NormalEquations> Folds(const MapProblem& problem, int folds) {
   const Eigen::Index n = problem.torque.size();
   const Eigen::Index spans = folds * (IsOverEnergy(problem.maps) ? kSpans : 1);
@@ -179,8 +179,8 @@ std::vector<NormalEquations> Folds(const MapProblem& problem, int folds) {
   return parts;
 }
 
-/// What kernels can imitate of the law, at the law's own least squares: a prior alone would share it out anew in
-/// each part, and weak ones let it run far off.
+/// The columns of the law that kernels can imitate, held at the law's own least squares. Why: the prior would divide them
+/// between law and maps in another way in each part, and with a weak prior their values become very large.
 struct HeldLaw {
   std::vector<Eigen::Index> columns;
   Eigen::VectorXd values;
@@ -210,7 +210,7 @@ NormalEquations AddTrials(const MapProblem& problem, size_t candidate, int folds
   NormalEquations all = parts[0];
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
 
-  // what is left where the law is held
+  // the problem that is left with the law held
   const HeldLaw held(all, problem.free.cols(), problem.lower);
   const Eigen::Index free = problem.free.cols() - held.values.size();
   for (NormalEquations& part : parts) part = part.Holding(held.columns, held.values);
@@ -252,7 +252,7 @@ ChosenMaps ByLeavingOut(const MapProblem& problem) {
   const NormalEquations normal = NormalOf(problem);
   const std::vector<RowGroup> groups =
       GroupRows(problem.maps, problem.points, 0, problem.torque.size());
-  // the strength that predicts samples best which the fit has not seen
+  // the strength that best predicts samples which the fit has not seen
   ChosenMaps best = Nothing();
   for (const double strength : Strengths(normal, problem.free.cols())) {
     const double error = LeaveOneOut(groups, problem.free, problem.torque, normal, strength);
@@ -268,7 +268,7 @@ ChosenMaps ByEvidence(const MapProblem& problem) {
   const double highest = Strengths(normal, problem.free.cols()).back();
   const double strength = evidence.strength();
   const double criterion = -2 * evidence.log_evidence / static_cast<double>(normal.rows);
-  // without any sign of the kernels it grows without bounds
+  // where nothing shows the kernels, it grows without bounds
   if (!std::isfinite(criterion) || !(strength < highest)) {
     return {0, highest, std::isfinite(criterion) ? criterion : 0, normal};
   }

@@ -11,7 +11,7 @@
 
 namespace warmjoint {
 
-/// By what maps and the strength s of the prior are chosen.
+/// The criterion by which maps and the strength s of the prior are chosen.
 enum class StrengthRule { cross_validation, leave_one_out, evidence };
 inline std::span<const Word<StrengthRule>> WordsOf(StrengthRule) {
   static constexpr std::array words{Word{"cv", StrengthRule::cross_validation},
@@ -32,16 +32,16 @@ struct ChosenMaps {
   std::optional<NormalEquations> normal{};  // of these maps, where something can be solved
 };
 
-/// The best of the candidates with one of 20 strengths each, half a decade apart, from 1e-7 of the
+/// The best of the candidates with one of 20 strengths each, in steps of half a decade, from 1e-7 of the
 /// mean diagonal of the kernels' Gram matrix on; or with the strength of the most evidence.
 ///
 /// Cross validation takes the fewest kernels and then the strongest prior that are as good as the
 /// best within one standard error of the parts' differences (Breiman and others 1984, 3.4.3). And
-/// it takes only what leaves the parameters above problem.lower, where anything does. What the kernels
-/// can imitate of the law is held at the law's own least squares meanwhile: a motion that
-/// repeats itself, so that in both directions each position has its one speed, hides in every part
-/// what a weak prior does to such columns. Large weights would cancel against a
-/// parameter of the wrong sign, and what is fitted would be how the controller answers to small errors of
+/// it takes only candidates and priors that leave the parameters above problem.lower, if there are any. The columns of the law
+/// that the kernels can imitate are held at the law's own least squares meanwhile. Why: where a motion
+/// repeats itself, so that in both directions each position has one speed, no part shows
+/// the effect of a weak prior on such columns. Large weights would cancel against a
+/// parameter of the wrong sign, and the fit would describe how the controller reacts to small errors of
 /// the speed.
 /// The candidates with the most kernels, which cost the most, are tried only where the next finest are the best of the others.
 /// problem.maps is not read. candidates: at least one, by their number of kernels; folds: contiguous parts of the kept samples

@@ -25,7 +25,7 @@ using Eigen::Index;
 
 constexpr double kImitated = 1e-3;  // share of a column's squares
 
-/// Those under which the maps are what deviates from the columns `shared`.
+/// The conditions under which the maps are orthogonal to the columns `shared`.
 Conditions Deviating(const Eigen::MatrixXd& gram, Eigen::Index free,
                      const std::vector<Eigen::Index>& shared) {
   const Eigen::Index d = gram.rows(), count = static_cast<Eigen::Index>(shared.size());
@@ -37,11 +37,11 @@ Conditions Deviating(const Eigen::MatrixXd& gram, Eigen::Index free,
   return conditions;
 }
 
-/// Of the weights of one line. [n x n]
+/// The correlation of the weights of one line. [n x n]
 Eigen::MatrixXd CorrelationOf(const KernelLines& lines, double length) {
   const Index n = lines.length;
   Eigen::MatrixXd smear(n, n);
-  // smeared with the distance in kernels, around the circle where there is one
+  // smoothed by the distance in kernels, around the circle where there is one
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
       const Index apart = std::abs(i - j);
@@ -55,7 +55,7 @@ Eigen::MatrixXd CorrelationOf(const KernelLines& lines, double length) {
 }
 
 /// Correlation of the weights of maps, one map's after the other's, those `unseen` left out, as if independent ones
-/// had been smeared along each line of the first axis by a Gaussian of `length` / sqrt(2) spacings: far from the ends
+/// had been smoothed along each line of the first axis by a Gaussian of `length` / sqrt(2) spacings: far from the ends
 /// exp(-d^2 / (2 length^2)) at d kernels' distance; 0 between lines. length > 0; returns [s x s] of the s seen ones.
 Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
                                    const std::vector<bool>& unseen, double length) {
@@ -66,14 +66,14 @@ Eigen::MatrixXd CorrelationInLines(const std::vector<FrictionMap>& maps,
     const KernelLines lines(map);
     const Index stride = lines.stride, size = lines.length * stride;
     const Eigen::MatrixXd line = CorrelationOf(lines, length);
-    // kernels of one line lie a stride apart
+    // kernels of one line have a distance of one stride
     for (Index k = 0; k < stride; ++k) {
       const auto of_line = Eigen::seq(first + k, first + size - stride + k, stride);
       all(of_line, of_line) = line;
     }
     first += size;
   }
-  // weights with data alone
+  // only weights with data
   std::vector<Index> seen;
   for (Index k = 0; k < q; ++k) {
     if (!unseen[static_cast<size_t>(k)]) seen.push_back(k);
@@ -121,7 +121,7 @@ RepeatedFit::RepeatedFit(const MapProblem& problem, NormalEquations normal, doub
       shared_(ImitatedLaw(gram_, problem.free.cols(), problem.lower)) {
   const Eigen::Index free = problem.free.cols(), q = gram_.rows() - free;
   const Eigen::MatrixXd kernels = gram_.bottomRightCorner(q, q);
-  // where there are no data the neighbours tell more than the law alone
+  // where there are no data, the neighbours give a better value than the law alone
   gram_.bottomRightCorner(q, q) += PenaltyOf(problem.maps, kernels, unseen_, strength);
   plain_ = std::make_shared<const Conditioned>(
       gram_, Conditions{Eigen::MatrixXd(0, gram_.rows()), Eigen::VectorXd(0)});
@@ -141,13 +141,13 @@ RepeatedFit::Bounds RepeatedFit::Bounded() const {
     const auto at = static_cast<Eigen::Index>(j);
     if (after[at] >= lower[j]) continue;
 
-    // a bound costs nothing where the fit without conditions is on its other side, or as far off as noise puts it
+    // a bound does not contradict the data where the fit without conditions is beyond it, or differs from it by no more than noise
     if (x.size() == 0) x = plain_->Solve(normal_.product);
     const double noise = std::max(normal_.Squares(x), 0.0) / static_cast<double>(normal_.rows);
     const double below = std::max(0.0, lower[j] - x[at]);
     const double variance = noise * plain_->Solve(Eigen::VectorXd::Unit(after.size(), at))[at];
     const auto shared = std::ranges::find(shared_, at);
-    // within its interval, where the data tell one
+    // within its interval, where the data determine one
     const double reach =
         shared != shared_.end()
             ? std::sqrt(kNoChance)
@@ -171,7 +171,7 @@ std::optional<Eigen::VectorXd> RepeatedFit::Unknowns() {
     return std::nullopt;
   }
   const Bounds bounds = Bounded();
-  // the factors of the latest bounds serve again as long as the same ones hold
+  // the factors of the latest bounds are used again as long as the same bounds hold
   if (bounds.columns.empty()) {
     latest_ = deviating_;
   } else if (!latest_ || latest_->conditions() != bounds.conditions) {
@@ -179,7 +179,7 @@ std::optional<Eigen::VectorXd> RepeatedFit::Unknowns() {
   }
   if (!latest_->works()) return std::nullopt;
   Eigen::VectorXd x = latest_->Solve(normal_.product);
-  // at the bound, not beside it by rounding
+  // exactly at the bound, not off by rounding
   for (const Eigen::Index j : bounds.columns) x[j] = problem_.lower[static_cast<size_t>(j)];
   return x.allFinite() ? std::optional(x) : std::nullopt;
 }

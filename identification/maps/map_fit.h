@@ -1,4 +1,4 @@
-// Law and maps fitted together, and how sure the fit is.
+// Law and maps fitted together, and the uncertainty of the fit.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -16,11 +16,11 @@
 
 namespace warmjoint {
 
-/// Columns of the law, or others without a prior, that the kernels can imitate, to a thousandth of their squares: the
-/// prior alone tells these apart from a map. gram: [d x d] A^T A of `free` such columns and the kernels; ascending.
+/// Columns of the law, or others without a prior, that the kernels can imitate, to a thousandth of their squares: only the
+/// prior distinguishes these from a map. gram: [d x d] A^T A of `free` such columns and the kernels; ascending.
 std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::Index free);
 
-/// Those of them that have a bound, which is the law's mark. lower: [free]
+/// Those of them that have a bound, since only columns of the law have one. lower: [free]
 std::vector<Eigen::Index> ImitatedLaw(const Eigen::MatrixXd& gram, Eigen::Index free,
                                       const std::vector<double>& lower);
 
@@ -35,7 +35,7 @@ struct MapProblem {
   Selection selection;            // n of its samples are kept
   std::vector<double> lower{};    // [p] bounds of the parameters
   Eigen::Index of_law = 0;  // the first so many of p are the law's, the others gravity and inertia
-  /// Of `maps` at `points`, where they are made already; null: made anew.
+  /// The rows of `maps` at `points`, where they were computed already; null: computed anew.
   std::shared_ptr<const KernelRows> rows{};
 };
 
@@ -64,39 +64,39 @@ struct MapFit : MapWeights {
 };
 
 /// argmin |y - A x|^2 + s w^T P w, s P: PenaltyOf (holes.h). How much of a column x_j of the law that kernels can imitate
-/// (ImitatedColumns) stands in the law and how much in the maps is no matter of the data. The maps are what
+/// (ImitatedColumns) is in the law and how much in the maps does not depend on the data. The maps are what
 /// deviates from the law there, x_j^T (kernels w) = 0 over the samples, as smooth terms of additive models are
-/// centred (Wood 2017, 5.4.1); where that puts the parameter below its bound and the data know no better, it is held
-/// there. Nothing where the system is singular to rounding or overflows.
+/// centred (Wood 2017, 5.4.1); where that puts the parameter below its bound and the data do not contradict the bound, it is
+/// held there. Nothing where the system is singular to rounding or overflows.
 /// normal: NormalOf(problem).
 std::optional<MapFit> FitMaps(const MapProblem& problem, NormalEquations normal, double strength);
 
-/// FitMaps to one torque after the other on the same rows: what depends on the rows alone is made once, and the latest
-/// conditions that a torque asked for are kept.
+/// FitMaps to one torque after the other on the same rows: what depends only on the rows is computed once, and the latest
+/// conditions are kept.
 class RepeatedFit {
  public:
   /// problem: must outlive this; normal: NormalOf(problem).
   RepeatedFit(const MapProblem& problem, NormalEquations normal, double strength);
 
-  /// To problem.torque, or the latest torque. Nothing where the system is singular to rounding or overflows.
+  /// Fits problem.torque, or the latest torque. Nothing where the system is singular to rounding or overflows.
   std::optional<MapWeights> Fit();
-  /// To another torque, [n] N.m or N.
+  /// Fits another torque, [n] N.m or N.
   std::optional<MapWeights> To(const Eigen::VectorXd& torque);
   /// The weights at some x, [p + q].
   MapWeights At(Eigen::VectorXd x) const;
-  /// Those of the latest fit.
+  /// The conditions of the latest fit.
   const Conditions& conditions() const { return latest_->conditions(); }
   /// s P of the kernels, [q x q].
   Eigen::MatrixXd penalty() const;
   /// x of each of k torques alone, [p + q x k]. torques: [n x k] N.m or N
   std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& torques);
-  /// The latest, and how sure it is: but for the bounds of columns that the data tell, since how sure these are is a
-  /// matter of the fit without.
+  /// The latest solution, and how sure it is. That is found without the bounds of columns that the data determine, since how
+  /// sure these are follows from the fit without bounds.
   MapFit Complete(MapWeights latest) const;
 
  private:
-  /// The conditions of `deviating_`, but with the bounds that hold for this torque, those of columns that the maps
-  /// cannot be last; and these columns.
+  /// The conditions of `deviating_`, but with the bounds that hold for this torque, where the bounds of columns that the maps
+  /// cannot imitate come last; and these columns.
   struct Bounds {
     Conditions conditions;
     std::vector<Eigen::Index> columns;
@@ -112,16 +112,16 @@ class RepeatedFit {
   double strength_;
   std::vector<bool> unseen_;                      // [q] kernels without data
   Eigen::MatrixXd gram_;                          // [p + q]^2 with the prior
-  std::vector<Eigen::Index> shared_;              // columns that law and maps both can be
+  std::vector<Eigen::Index> shared_;              // columns of the law that the maps can imitate
   std::shared_ptr<const Conditioned> plain_;      // without conditions
-  std::shared_ptr<const Conditioned> deviating_;  // the maps are what deviates from the law
+  std::shared_ptr<const Conditioned> deviating_;  // with the maps orthogonal to such columns
   std::shared_ptr<const Conditioned> latest_;
 };
 
 /// The maps with their weights, one map's after the other's. weights: [q]
 std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen::VectorXd& weights);
 
-/// How sure its parameters and weights are (uncertainty.h).
+/// The uncertainty of its parameters and weights (uncertainty.h).
 Uncertainty MapCovariance(const MapProblem& problem, const MapFit& fit);
 
 /// Sum of maps at some points, [n] N.m or N.

@@ -26,11 +26,11 @@ Fit FitCold(const IdentifierInput& input, const MapTask& task) {
   return AsFit(input, task, choice->fit, MapCovariance(choice->problem, choice->fit));
 }
 
-/// What a log that knows nothing of its start says of one that was expected: the fit that takes E(0)
-/// from the log, where that contradicts; else nothing.
+/// The fit that estimates E(0) from the log alone, where this contradicts the expected E(0);
+/// else nothing.
 std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& task,
                                    const InitialEnergy& expected) {
-  // law, maps and warming with an E(0) that the log alone tells
+  // law, maps and warming with an E(0) that is estimated from the log alone
   const auto alone = FitWarmMaps(input, task, InitialEnergy::estimated);
   if (!alone || !alone->converged) return std::nullopt;
   Fit fit = AsFit(input, *alone);
@@ -70,7 +70,7 @@ Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& war
   return PredictFriction(friction, measurements, warm.Start()).energy;
 }
 
-/// Rows of what the first fit tells of the heat, without intervals.
+/// The rows of the heat as the first fit estimates them, without intervals.
 std::vector<FitParameter> HeatOf(const Fit& warm, const LogSamples& m) {
   std::vector<FitParameter> rows = HeatParameters(*warm.friction.thermal, m);
   std::ranges::copy_if(warm.parameters, std::back_inserter(rows), [](const FitParameter& row) {
@@ -89,14 +89,14 @@ Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   if (!GivesFriction(fit)) return fit;
   const std::vector<FitParameter> heat = HeatOf(warm, m);
   Append(heat, fit);
-  // friction that drives itself by its own heat is no model
+  // friction that drives the joint by its own heat is not a valid model
   const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());
   if (prediction.first_driving < m.size()) {
     return Refused(fit.identifier, Status::inadequate_model,
                    ExplainDriving(m.time[prediction.first_driving], kFewerKernels));
   }
 
-  // what the torque is compared with follows from that heat
+  // the torque is compared with the model with that heat
   fit.fitted = Kept(prediction.force, fit.used);
   fit.count += static_cast<int>(heat.size());
   fit.effective_parameters += static_cast<double>(heat.size());
@@ -159,7 +159,7 @@ Fit FitMapModel(const std::string& name, const IdentifierInput& given, const Map
   const IdentifierInput input = begin.task.rigid.Of(given);
   if (model.heat == MapHeat::none) return FitCold(input, begin.task);
 
-  // E, with these maps beside it
+  // E, with these maps
   Fit warm = FitWarm(input, begin.task);
   const bool warms = GivesFriction(warm);
   if (!model.over_energy || (!warms && model.heat == MapHeat::estimated)) return warm;

@@ -1,4 +1,4 @@
-// The fit behind every identifier with maps: law, maps, and the heat that they share.
+// The fit that every identifier with maps makes: law, maps, and the heat that they share.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -18,16 +18,16 @@ using MapMaker = std::function<MapShapes(const MapPoints& points)>;
 enum class MapHeat {
   none,
   estimated,   // together with law and maps; without a warming there is no fit
-  where_seen,  // or none
+  where_seen,  // where the log shows a warming, else without
   of_law,      // as a law without maps has it (fit_law.h), or no fit
 };
 
 /// What an identifier fits maps over, of which shapes, with what heat.
 struct MapModel {
   std::vector<MapQuantity> quantities{};  // that the log must have, and vary
-  MapMaker maps{};                        // beside the law, to choose from; not read with of_law
+  MapMaker maps{};  // in addition to the law, to choose from; not read with of_law
   MapHeat heat = MapHeat::none;
-  /// With of_law: the warming where more than the law's level follows the heat, of which `found` knows; or none.
+  /// With of_law: the warming where more than the law's level depends on the heat, given the warming `found`; or none.
   Thermal (*heat_of_all)(const IdentifierInput& input, const Law& law,
                          const Thermal& found) = nullptr;
   /// Maps over E and others in their place, once the heat is known; or none. Where no heat is seen, over the others.
@@ -39,13 +39,13 @@ struct MapModel {
 MapBeginning BeginModel(const std::string& name, const IdentifierInput& given,
                         const MapModel& model);
 
-/// By ridge regression on the kernels' weights, with gravity and inertia where the options ask for them; with heat in
-/// turns (warm_maps.h), from the E(0) that the options say.
+/// Fits by ridge regression on the kernels' weights, with gravity and inertia where the options ask for them. With heat the fit
+/// alternates between heat and maps (warm_maps.h), from the E(0) that the options say.
 ///
 /// Over E, F = Fn(v) + sign(v) E + maps: E comes from the fit with heat, with its start and its jumps; law and maps are
-/// fitted to what it leaves of the torque; then the whole friction predicts E anew, until E rests to 1e-4 of its range:
-/// the friction of the fit is consistent with its own heat. Gain and time constant stay as they were, without intervals:
-/// the maps share what they do. name: of the identifier
+/// fitted to what it leaves of the torque; then the whole friction predicts E anew, until E changes by less than 1e-4 of its
+/// range. So the friction of the fit is consistent with its own heat. Gain and time constant stay as they were, without
+/// intervals, since the maps take up a part of their effect. name: of the identifier
 Fit FitMapModel(const std::string& name, const IdentifierInput& given, const MapModel& model);
 
 }  // namespace warmjoint

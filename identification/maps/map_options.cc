@@ -15,12 +15,12 @@ Eigen::VectorXd Column(MapQuantity quantity, const MapPoints& points) {
   return points.col(static_cast<int>(quantity));
 }
 
-// of ln |v|; why: speeds nearer to each other are one, as for friction at speeds (make_bands.cc), and what lies further
-// apart than the ends of a group was not held
+// of ln |v|; why: speeds nearer to each other count as one, as for friction at speeds (make_bands.cc), and a group
+// whose ends differ by more than twice that was not held
 constexpr double kOneSpeed = 0.2;
 
-/// Speeds that a log holds, ascending, those next to each other in ratio as one where there are more than `most`; none where it
-/// moves at all speeds. speed: [n] of the samples, rad/s or m/s, above 0
+/// Speeds that a log holds, ascending, those next to each other in ratio as one where there are more than `most`; none where
+/// the joint moves at all speeds. speed: [n] of the samples, rad/s or m/s, above 0
 std::vector<double> HeldSpeeds(Eigen::VectorXd speed, std::size_t most) {
   struct Group {
     double lowest, highest, sum, count;
@@ -61,7 +61,7 @@ std::vector<double> HeldSpeeds(Eigen::VectorXd speed, std::size_t most) {
 // log says nothing, a normalised map holds the value of the nearer
 constexpr double kNarrow = 1.0 / 3;
 
-/// Centres at these speeds of both directions of motion, kept apart.
+/// Centres at these speeds, separately for both directions of motion.
 GaussianAxis AxisAt(const std::vector<double>& speeds) {
   GaussianAxis axis;
   axis.sides = Sides::apart;

@@ -60,7 +60,7 @@ struct MapOptions {
   }
 };
 
-/// Over what a map over position has its kernels.
+/// The quantities over which a map over position has its kernels.
 enum class MapBasis { position, direction, velocity };
 inline std::span<const Word<MapBasis>> WordsOf(MapBasis) {
   static constexpr std::array words{Word{"position", MapBasis::position},
@@ -89,7 +89,7 @@ struct PositionMapOptions {
   }
 };
 
-/// Passes fields on to a visitor, whose meanings tell that they are of a map beside something else.
+/// Passes fields on to a visitor. Their meanings say that they belong to a map that is added to something else.
 template <class A>
 struct OfTheMap {
   A* visitor;
@@ -112,7 +112,7 @@ struct AddedMapOptions : MapOptions, PositionMapOptions {
   }
 };
 
-/// One for each width to choose from. maps(width): of one, in spacings
+/// The shapes of each width to choose from. maps(width): those of one width, in spacings
 template <typename Maps>
 MapShapes ForEachWidth(const MapOptions& options, const Maps& maps) {
   MapShapes shapes;
@@ -124,9 +124,9 @@ MapShapes ForEachWidth(const MapOptions& options, const Maps& maps) {
 /// points: [n x 5] of the kept samples.
 MapAxis RangeAxis(MapQuantity quantity, const MapPoints& points, int count, double width);
 
-/// Centres at the speeds that the samples hold, `count` at most for each direction of motion, one side apart from the other,
-/// and so narrow that between two of them a normalised map holds the value of the nearer; where the samples move at all
-/// speeds, even centres over these. A count of 1 tells the directions apart and nothing else.
+/// Centres at the speeds that the samples hold, `count` at most for each direction of motion. The directions are separate,
+/// and the kernels so narrow that between two of them a normalised map holds the value of the nearer. Where the samples are at
+/// all speeds, the centres are even over these. A count of 1 distinguishes the directions and nothing else.
 MapAxis VelocityAxis(const MapPoints& points, int count, double width);
 
 /// Even centres over one turn of the motor or of the joint, 2 pi rad, on a circle.

@@ -14,10 +14,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A step that promises less moves no unknown by more than 0.001 of its deviation, and the next one by far less: each costs a pass over
-/// the rows.
+/// A fit ends at a step that promises less than this, since it changes no unknown by more than 0.001 of its deviation, and the
+/// next step by far less, while each costs a pass over the rows.
 constexpr double kRests = 1e-6;
-/// Which bounds of the law hold is asked again at each solution.
+/// The most rounds in which the bounds of the law that hold are determined again at the solution.
 constexpr int kMostConditions = 3;
 
 Layout JoinedLayout(const Layout& maps, const Layout& heat) {
@@ -39,7 +39,7 @@ Conditions Extended(const Conditions& conditions, Index p) {
 /// 1 over the norm of each column: the gain's are far from the others'.
 VectorXd ScaleOf(const MatrixXd& gram) { return gram.diagonal().cwiseSqrt().cwiseInverse(); }
 
-/// Of gram step = product from x on, so that x + step keeps the conditions.
+/// The step of gram step = product from x, for which x + step keeps the conditions.
 VectorXd StepUnder(const Conditions& conditions, const MatrixXd& gram, const VectorXd& product,
                    const VectorXd& x) {
   const VectorXd scale = ScaleOf(gram);
@@ -77,7 +77,7 @@ bool WarmMapFit::Refine(MapBlock& block) {
     const Conditions conditions = block.solver().conditions();
     MinimiseUnder(Extended(conditions, layout().size()));
     if (!converged_) break;
-    // others may hold beside the energy that was found
+    // with the energy that was found, other conditions may hold
     const VectorXd energy = rows_.Energy();
     if (!block.FitGiven(energy)) return false;
     const bool hold = block.solver().conditions() == conditions;
@@ -131,7 +131,7 @@ void WarmMapFit::HeatInto(ThermalFit& warming) const {
 }
 
 Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) const {
-  // independent weights: with those that go together gain and time constant are off by half of what is said
+  // with independent weights, since with correlated ones the standard errors of gain and time constant would be wrong by a half
   return warmjoint::CovarianceOf(
       {.rows = [&](Index first, Index last) { return rows_.Between(first, last); },
        .cofactor = Cofactor(Penalised()),

@@ -13,7 +13,7 @@
 namespace warmjoint {
 
 /// argmin |y - f(x)|^2 + s w^T P w + what was known of the heat, f the force of law, maps, heat, gravity and inertia over the closed
-/// loop, under the conditions that set law and maps apart (map_fit.h). Unknowns: law, rigid part, weights, heat, start, jumps.
+/// loop, under the conditions that separate law and maps (map_fit.h). Unknowns: law, rigid part, weights, heat, start, jumps.
 class WarmMapFit {
  public:
   /// Shapes, strength and what is known of the heat are those of the blocks; input: must outlive this.
@@ -27,16 +27,16 @@ class WarmMapFit {
   int iterations() const { return iterations_; }
   const Layout& layout() const { return rows_.layout(); }
   const WarmMapRows& rows() const { return rows_; }
-  /// Writes what the fit tells of the heat.
+  /// Writes the heat that the fit estimates into `warming`.
   void HeatInto(ThermalFit& warming) const;
-  /// How sure all of it is (uncertainty.h). maps: the block's; residual: [n] that is left, N.m or N
+  /// The uncertainty of all unknowns (uncertainty.h). maps: the block's; residual: [n] that is left, N.m or N
   Uncertainty CovarianceOf(const MapFit& maps, const Eigen::VectorXd& residual) const;
 
  private:
   /// From x_ on under conditions.
   void MinimiseUnder(const Conditions& conditions);
   RowSums At(const Eigen::VectorXd& x);
-  /// J^T J with what pulls the weights, and what was known. [p x p]
+  /// J^T J with the prior of the weights, and what was known beforehand. [p x p]
   Eigen::MatrixXd Penalised() const;
 
   const Selection& selection_;
@@ -44,7 +44,7 @@ class WarmMapFit {
   double variance_;          // about that of the noise, (N.m)^2 or N^2
   WarmMapRows rows_;
   Eigen::VectorXd prior_,
-      mean_;           // [p] the noise's variance over that of each unknown beside the log, or 0
+      mean_;           // [p] the noise's variance over the prior variance of each unknown, or 0
   Eigen::VectorXd x_;  // [p]
   bool converged_ = false;
   int iterations_ = 0;

@@ -12,7 +12,7 @@
 
 namespace warmjoint {
 
-/// What law, maps and heat are made of.
+/// The parts of law, maps and heat.
 struct WarmMapParts {
   const Law& law;
   std::vector<FrictionMap> maps{};           // shapes
@@ -55,7 +55,8 @@ class WarmMapRows {
     LoopEnd at;
   };
 
-  /// Rows of all samples first <= n < last, in the order of the loop: law, weights, k, log tau, E0, jumps, then what makes no heat.
+  /// Rows of all samples first <= n < last, in the order of the loop: law, weights, k, log tau, E0, jumps, then gravity and
+  /// inertia, which make no heat.
   /// at: of the loop at the first, led on to the last; [last - first x d + q + 3 + J + r]
   ClosedLoop::Rows Along(Eigen::Index first, Eigen::Index last, LoopEnd& at) const;
   double InitialEnergy() const;

@@ -26,15 +26,16 @@ namespace {
 
 constexpr WarmingContext kContext{kWithTheMaps, "position-ridge"};
 
-/// Whether further turns would leave what warming takes of the residual below half of what can be seen. Blocks in turn grow by a
-/// geometric series, of which two terms tell the limit (Aitken). first, second: after these turns, in variances of the noise
+/// Whether further turns would leave the part of the residual that warming explains below half of what can be seen. That part
+/// grows by a geometric series, of which two terms determine the limit (Aitken). first, second: after these turns, in variances
+/// of the noise
 bool IsInsignificant(double first, double second) {
   const double growth = second - first;
   const double ratio = std::abs(growth) < std::abs(first) ? growth / first : 1;
   return second + growth * ratio / (1 - ratio) < 0.5 * kVisibleWarming;
 }
 
-/// Of law and heat without the weights between them.
+/// The uncertainty of law and heat without the weights, which are between them.
 Uncertainty WithoutWeights(Uncertainty uncertainty, const MapFit& maps) {
   std::vector<Eigen::Index> places(static_cast<size_t>(uncertainty.covariance.cols()));
   std::iota(places.begin(), places.end(), 0);
@@ -65,7 +66,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& uncertainty, const LogSamp
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
                                     const InitialEnergy& initial) {
-  // maps as if nothing warmed, then twice warming and maps, each beside the other
+  // maps as if nothing warmed, then twice warming and maps, each given the other
   MapBlock block(input, task);
   if (!block.ChooseGiven({})) return std::nullopt;
   WarmingBlock warming(input, task, initial);
@@ -109,7 +110,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
     return Refused(name, Status::not_converged, kMapsDoNotRest);
   }
 
-  // law and maps, as sure as the warming beside them leaves them
+  // law and maps, with the uncertainty that the warming adds to theirs
   const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
                                    TorqueOfEnergy(input, warm.task.energy);
   const Uncertainty uncertainty = warm.joint->CovarianceOf(warm.fit, residual);
@@ -130,7 +131,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   const Eigen::VectorXd of_end = warm.joint->rows().OfEnd();
   fit.end_energy_std = std::sqrt(of_end.dot(uncertainty.covariance * of_end));
   if (!GivesFriction(fit)) return fit;
-  // a friction that drives itself by its own heat is no model
+  // a friction that drives the joint by its own heat is not a valid model
   const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).first_driving; at < m.size()) {
     return Refused(name, Status::inadequate_model,

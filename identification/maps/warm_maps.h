@@ -15,19 +15,20 @@ namespace warmjoint {
 /// A fit of F = Fn(v) + maps + sign(v) E over the closed loop.
 struct WarmMaps {
   MapTask task;              // with the choice made, and E
-  MapFit fit;                // law and maps beside E
+  MapFit fit;                // law and maps, given E
   ThermalFit warming;        // its heat: gain, time constant, E(0), jumps
   std::vector<LogGap> gaps;  // where E jumps
   /// Drop of |e|^2 that warming brings, over the noise's variance. Where it stays far below what can be seen,
   /// nothing else is set but the name in `task`.
   double visible = 0;
   bool converged = false;
-  std::shared_ptr<const WarmMapFit> joint{};  // null where no warming was found beside the maps
+  /// null where no warming was found in addition to the maps
+  std::shared_ptr<const WarmMapFit> joint{};
 };
 
-/// Least squares of law, maps and heat together over the closed loop (warm_map_fit.h). It begins where two turns of each beside the
-/// other end: maps and their strength by ridge on what E leaves of the torque; the warming, the law and one factor on the maps
-/// by maximum likelihood (thermal_fit.h). At gaps E jumps, as energy-ml has it.
+/// Least squares of law, maps and heat together over the closed loop (warm_map_fit.h). It begins where two turns of each, given
+/// the other, end: maps and their strength by ridge on what E leaves of the torque; the warming, the law and one factor on the
+/// maps by maximum likelihood (thermal_fit.h). At gaps E jumps, as energy-ml has it.
 /// task.energy is not read; input: must outlive the result; initial: what is known of E(0). Nothing where no fit can be solved.
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
                                     const InitialEnergy& initial);

@@ -11,7 +11,7 @@ Conditioned::Conditioned(const Eigen::MatrixXd& gram, Conditions conditions)
     held_.compute(gram);
     return;
   }
-  // what the conditions fix gets a firm diagonal, which changes nothing where they hold
+  // a large diagonal is added along the conditions, which changes nothing where they hold
   held_.compute(gram + firm_ * rows.transpose() * rows);
   along_ = held_.solve(rows.transpose());
   small_.compute(rows * along_);

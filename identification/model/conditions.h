@@ -12,7 +12,7 @@ struct Conditions {
   Eigen::VectorXd values;  // [k]
 
   bool operator==(const Conditions& other) const {
-    // of as many conditions, which Eigen compares
+    // Eigen compares only matrices of equal size
     return values.size() == other.values.size() && rows == other.rows && values == other.values;
   }
 };

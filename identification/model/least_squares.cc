@@ -18,7 +18,7 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
   const Eigen::MatrixXd R = qr.matrixQR().topRows(d).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(R, Eigen::ComputeFullV);
 
-  // directions that the data leave open, and columns with a share of at least a tenth in any of them
+  // directions that the data do not determine, and columns with a share of at least a tenth in any of them
   const Eigen::VectorXd& singular = svd.singularValues();
   result.rank = (singular.array() > indistinct * singular[0]).count();
   if (result.rank < d) {

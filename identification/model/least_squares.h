@@ -1,4 +1,4 @@
-// Linear least squares that says when its answer is void.
+// Linear least squares that reports columns which cannot be distinguished.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,11 @@ inline constexpr double kIndistinct = 0.01;
 
 /// Answer of min |A x - y|.
 struct LeastSquares {
-  Eigen::VectorXd solution;         // [d]; empty where columns cannot be told apart
-  Eigen::MatrixXd cofactor;         // [d x d] (A^T A)^-1; times the noise variance: the covariance
-  Eigen::Index rank = 0;            // number of directions that can be told apart
-  std::vector<Eigen::Index> mixed;  // columns that cannot be told apart from each other, or are 0
+  Eigen::VectorXd solution;  // [d]; empty where columns cannot be distinguished
+  Eigen::MatrixXd cofactor;  // [d x d] (A^T A)^-1; times the noise variance: the covariance
+  Eigen::Index rank = 0;     // number of directions that can be distinguished
+  /// columns that cannot be distinguished from each other, or are 0
+  std::vector<Eigen::Index> mixed;
 };
 
 /// Solves by Householder QR of A with its columns scaled to norm 1 (Golub and Van Loan, Matrix

@@ -16,19 +16,19 @@ using Eigen::VectorXd;
 /// Damping after the first step that did not lower the squares, as a share of the diagonal.
 constexpr double kFirstDamping = 1e-3;
 
-/// Share of the diagonal up to which steps are about those without damping.
+/// Share of the diagonal up to which steps are about the same as those without damping.
 constexpr double kLight = 0.1;
-/// Of the squares, what rounding makes of a sum of 1e6 terms.
+/// The rounding error of a sum of 1e6 squares, as a share of it.
 constexpr double kRounding = 1e-12;
 
-/// How much the diagonal grows: more and more with each step that fails, less with each that does what it promised, by the rules of
-/// Madsen, Nielsen and Tingleff (Methods for non-linear least squares problems, 2004, 3.2).
+/// How much the diagonal grows: more and more with each step that fails, less with each that lowers the squares as predicted,
+/// by the rules of Madsen, Nielsen and Tingleff (Methods for non-linear least squares problems, 2004, 3.2).
 class Damping {
  public:
   double share() const { return share_; }
   /// Whether a step is about the undamped one.
   bool IsLight() const { return share_ <= kLight; }
-  /// ratio: of what the squares fell by to what was promised
+  /// ratio: of the fall of the squares to the predicted fall
   void AfterFall(double ratio) {
     share_ *= std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3));
     growth_ = 2;
@@ -54,7 +54,7 @@ std::vector<Index> PushedOut(const SquaresProblem& problem, const VectorXd& x,
   return pushed;
 }
 
-/// The step that the normal equations ask for, each unknown no farther than it may. fixed: unknowns that stay
+/// The step by the normal equations, in which each unknown is limited to its largest step. fixed: unknowns that stay
 VectorXd StepOf(const SquaresProblem& problem, const VectorXd& x, const RowSums& sums,
                 double damping, const std::vector<Index>& fixed) {
   MatrixXd h = sums.gram;
@@ -103,7 +103,7 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
       const VectorXd step = next - x;
       const double promised = step.dot(2 * found.sums.product - found.sums.gram * step);
       RowSums there = problem.sums(next);
-      // at a minimum nothing is promised; where it takes damping to promise nothing, the squares do not do as they promise
+      // at a minimum no fall is predicted; where only damping makes the predicted fall that small, the squares do not fall as predicted
       const bool promises = std::abs(promised) > (damping.IsLight() ? rests : problem.rests);
       found.converged = !promises && damping.IsLight();
       stuck = !promises && !damping.IsLight();

@@ -1,4 +1,4 @@
-// The least squares of a model: the one solver of what is fitted to a log by its derivatives.
+// The least squares of a model: the one solver for models that are fitted to a log by their derivatives.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 namespace warmjoint {
 
 /// Rows of a least-squares problem at a point x, summed, over the variance of the noise: J the derivatives of the model, r what it
-/// leaves of the data. What is known beside the data counts as rows, too.
+/// leaves of the data. What is known in addition to the data counts as rows, too.
 struct RowSums {
   Eigen::MatrixXd gram;     // [p x p] J^T J
   Eigen::VectorXd product;  // [p] J^T r, minus half the slope of the squares
@@ -28,8 +28,8 @@ struct SquaresProblem {
                                 const Eigen::VectorXd& x)>
       step{};
   int most_iterations = 50;
-  /// Fall of the squares that the next step promises, in variances of the noise, at which a fit rests: no unknown is farther from
-  /// the minimum than its root, in standard deviations.
+  /// Predicted fall of the squares by the next step, in variances of the noise, at which a fit has converged: no unknown is
+  /// farther from the minimum than its root, in standard deviations.
   double rests = 1e-10;
   /// Squares that the rounding of the data leaves of an exact fit, which no step lowers.
   double least = 0;
@@ -37,7 +37,7 @@ struct SquaresProblem {
 
 struct Minimum {
   Eigen::VectorXd x;                   // [p]
-  RowSums sums;                        // there
+  RowSums sums;                        // at x
   std::vector<FitPoint> trace;         // all iterates, the last is x
   std::vector<Eigen::Index> at_bound;  // unknowns that the squares push against their bounds
   double fell = 0;                     // the squares in the last iteration
@@ -45,8 +45,8 @@ struct Minimum {
 };
 
 /// From x on by Gauss-Newton's steps, damped as Levenberg and Marquardt do (SIAM J. Appl. Math. 11, 1963) where one does not
-/// lower the squares. Unknowns at a bound that the squares push outwards stay there. Has not converged where the squares are
-/// not finite, or fall by none of what the steps promise.
+/// lower the squares. Unknowns at a bound that the squares push outwards stay there. It has not converged where the squares are
+/// not finite, or do not fall although the steps predict it.
 Minimum Minimise(const SquaresProblem& problem, Eigen::VectorXd x);
 
 }  // namespace warmjoint

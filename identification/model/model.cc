@@ -36,7 +36,7 @@ VectorXd HeatBlock::Fill(const VectorXd& x, const ModelRows& friction, ModelRows
   const double k = x[gain], tau = std::exp(x[log_time_constant]);
   const double pole = std::exp(-step / tau), cooling = 1 - pole;
   const Index n = speed.size();
-  // the level of friction, which brakes or is none
+  // the level of friction, which brakes or is 0
   VectorXd level = sign.cwiseProduct(friction.force);
   const VectorXd counts = (level.array() > 0).select(sign, 0.0);
   level = level.cwiseMax(0.0);
@@ -56,7 +56,7 @@ VectorXd HeatBlock::Fill(const VectorXd& x, const ModelRows& friction, ModelRows
   };
   scan([&](Index i) { return fed[i] * level[i]; }, energy);
 
-  // its derivatives by what makes the level, by k and by log tau
+  // its derivatives by the unknowns of the level, by k and by log tau
   VectorXd slope(n);
   const auto add = [&](Index column, const auto& input) {
     scan(input, slope);

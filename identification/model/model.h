@@ -49,7 +49,7 @@ struct GivenForce {
   Eigen::VectorXd At(const Eigen::VectorXd& z) const { return force + directions * z; }
 };
 
-/// Where a given force's unknowns stand.
+/// The places of a given force's unknowns in x.
 struct GivenPlaces {
   Eigen::Index log_gain = 0;
   double sign = 1;  // of the gain
@@ -112,7 +112,7 @@ struct Model {
   Eigen::VectorXd PriorPrecision() const;
   /// [P] means of the priors, 0 without one.
   Eigen::VectorXd PriorMean() const;
-  /// Appends rows and returns where they stand.
+  /// Appends rows and returns their places.
   Slice Append(const std::vector<Unknown>& rows);
   /// Force and derivatives at x. energy: gets E, [N], of a model with heat.
   ModelRows Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* energy = nullptr) const;

@@ -8,7 +8,7 @@
 namespace warmjoint {
 namespace {
 
-/// Where the eigenvalues of a matrix scaled to a unit diagonal count as 0.
+/// Eigenvalues of a matrix scaled to a unit diagonal that are smaller count as 0.
 constexpr double kNoInformation = 1e-12;  // why: the rounding of some 1e4 samples' products
 
 struct Scaled {
@@ -44,7 +44,7 @@ Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
   // scaled to a diagonal of 1, so that units do not count
   const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * normal * scale.asDiagonal());
-  // columns that are not told apart leave the errors without a bound
+  // where columns cannot be distinguished, the errors have no bound
   if (!scale.allFinite() || !(factors.vectorD().minCoeff() > 1e-13)) {
     return Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::infinity());
   }
@@ -103,7 +103,7 @@ NormalEquations NormalEquations::Holding(const std::vector<Eigen::Index>& held,
     if (std::ranges::find(held, i) == held.end()) rest.push_back(i);
   }
   NormalEquations reduced(static_cast<Eigen::Index>(rest.size()));
-  // what the held values explain goes off the products and the squares
+  // the part that the held values explain is subtracted from the products and the squares
   reduced.gram = gram(rest, rest);
   reduced.product = product(rest) - gram(rest, held) * values;
   reduced.squares = squares - 2 * values.dot(product(held)) + values.dot(gram(held, held) * values);

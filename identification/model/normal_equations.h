@@ -13,9 +13,9 @@ Eigen::MatrixXd GramOf(const Eigen::MatrixXd& J);
 /// throughout where they are singular to rounding.
 Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal);
 
-/// x = H^-1 b of a positive semidefinite H of any scale; directions that H does not know stay 0.
+/// x = H^-1 b of a positive semidefinite H of any scale; directions in which H is 0 stay 0.
 Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& b);
-/// The inverse in the same sense.
+/// The pseudoinverse in the same sense.
 Eigen::MatrixXd InverseScaled(const Eigen::MatrixXd& h);
 
 /// Normal equations of y = A x + e; sums over rows, so that those of parts add up and those of

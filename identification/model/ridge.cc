@@ -35,14 +35,14 @@ Eigen::VectorXd SolveTridiagonal(const Eigen::VectorXd& diagonal, const Eigen::V
 }  // namespace
 
 Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {
-  // free columns that suit each kernel, and those that suit the torque
+  // the coefficients of the free columns by regression of each kernel, and of the torque, on them
   const Eigen::Index q = normal.product.size() - free;
   const Eigen::LLT<Eigen::MatrixXd> factors(normal.gram.topLeftCorner(free, free));
   slopes_ = factors.solve(normal.gram.topRightCorner(free, q));
   intercept_ = factors.solve(normal.product.head(free));
   log_free_determinant_ = 2 * factors.matrixLLT().diagonal().array().log().sum();
 
-  // kernels beside the free columns, made tridiagonal
+  // kernels after the free columns were eliminated, made tridiagonal
   const Eigen::MatrixXd left =
       normal.gram.bottomRightCorner(q, q) - normal.gram.bottomLeftCorner(q, free) * slopes_;
   const Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal(left);
@@ -51,7 +51,7 @@ Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {
   off_diagonal_ = tridiagonal.subDiagonal();
   right_ = basis_.transpose() *
            (normal.product.tail(q) - slopes_.transpose() * normal.product.head(free));
-  // eigenvalues tell determinants and effective parameters at any strength
+  // the eigenvalues give determinants and effective parameters at any strength
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
   eigen.computeFromTridiagonal(diagonal_, off_diagonal_, Eigen::EigenvaluesOnly);
   eigenvalues_ = eigen.eigenvalues().cwiseMax(0);
@@ -91,12 +91,12 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free) {
   Evidence evidence;
   double strength = 1e-3 * ridge.eigenvalues().maxCoeff();
   for (int round = 0; round < kMostRounds; ++round) {
-    // gamma weights are told by the data; alpha and beta follow from it
+    // the data determine gamma of the weights; alpha and beta follow from gamma
     const Eigen::VectorXd x = ridge.Solve(strength);
     evidence.gamma = ridge.EffectiveParameters(strength) - p;
     evidence.alpha = evidence.gamma / x.tail(x.size() - free).squaredNorm();
     evidence.beta = (n - p - evidence.gamma) / normal.Squares(x);
-    // until the strength of the prior stays
+    // until the strength of the prior no longer changes
     const double next = evidence.strength();
     const bool settled = std::abs(next - strength) <= 1e-12 * strength;
     strength = next;
@@ -113,7 +113,7 @@ ShiftedCholesky::ShiftedCholesky(const Eigen::MatrixXd& matrix)
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-      // the diagonal gets the shift, and stands whatever it is
+      // the diagonal gets the shift, so it is kept whatever its value
       if (i != j && std::abs(matrix(i, j)) <= unseen * scale[i] * scale[j]) continue;
       entries.emplace_back(i, j, matrix(i, j));
     }
@@ -142,7 +142,7 @@ LocalRidge::LocalRidge(const NormalEquations& normal, Eigen::Index free)
 
 std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
   if (!kernels_.Factor(strength)) return std::nullopt;
-  // kernels are eliminated first; the few free columns solve what is left beside them
+  // kernels are eliminated first; the few free columns solve what is left after that
   const Eigen::MatrixXd solved = kernels_.Solve(border_);
   const auto columns = border_.leftCols(free_);
   const Eigen::MatrixXd left = corner_ - columns.transpose() * solved.leftCols(free_);
@@ -150,7 +150,7 @@ std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
   if (factors.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd x(free_ + border_.rows());
   x.head(free_) = factors.solve(product_ - columns.transpose() * solved.col(free_));
-  // weights that suit the free columns
+  // the weights, given the free columns' coefficients
   x.tail(border_.rows()) = solved.col(free_) - solved.leftCols(free_) * x.head(free_);
   return x;
 }

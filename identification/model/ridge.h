@@ -29,8 +29,9 @@ class Ridge {
 
  private:
   Eigen::Index free_;
-  Eigen::MatrixXd slopes_;        // [free x q] free columns' answer to each kernel
-  Eigen::VectorXd intercept_;     // [free] their answer to y
+  /// [free x q] coefficients of the free columns by regression of each kernel on them
+  Eigen::MatrixXd slopes_;
+  Eigen::VectorXd intercept_;     // [free] the same by regression of y
   Eigen::MatrixXd basis_;         // [q x q] Q of the tridiagonal form Q T Q^T
   Eigen::VectorXd diagonal_;      // [q] of T
   Eigen::VectorXd off_diagonal_;  // [q - 1] of T
@@ -72,7 +73,7 @@ class ShiftedCholesky {
   std::unique_ptr<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factors_;
 };
 
-/// x(strength) of Ridge, for kernels most pairs of which never meet: the kernels' Gram matrix K is
+/// x(strength) of Ridge, for kernels most pairs of which do not overlap: the kernels' Gram matrix K is
 /// factored as a sparse one, the p free columns F are its border,
 ///   [K + s I   B] [w]   [b]
 ///   [B^T       F] [f] = [c].

@@ -18,10 +18,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostIterations = 40;
-/// Drop of the cost, in units of the noise, at which a fit rests. Why: it moves no parameter by 1 % of its deviation.
+/// Drop of the cost, in units of the noise, at which a fit has converged. Why: such a drop changes no parameter by 1 % of its deviation.
 constexpr double kRests = 1e-4;
 
-/// The squares of a model over the kept samples, whose noise is learnt as the fit goes on.
+/// The squares of a model over the kept samples, whose noise is estimated during the fit.
 class ModelSquares {
  public:
   ModelSquares(const Model& model, const ModelSamples& samples)
@@ -100,8 +100,8 @@ NoiseScale NoiseScaleOf(const VectorXd& e) {
   const Index n = e.size();
   if (n < 8) return noise;
   noise.variance = std::max(e.squaredNorm() / static_cast<double>(n), 1e-300);
-  // autocorrelations by the square of the spectrum, padded so that the ends do not meet
-  // to a power of two, which the transform is fast for
+  // autocorrelations by the square of the spectrum, padded so that the ends do not overlap,
+  // to a power of two, for which the transform is fast
   std::size_t length = 16;
   while (length < static_cast<std::size_t>(2 * n)) length *= 2;
   std::vector<double> padded(length, 0.0);
@@ -126,7 +126,7 @@ SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,
   SquaresProblem problem = WithinLimits(model, held);
   SolvedModel solved;
   solved.noise = squares.NoiseAt(x);
-  // a step by the noise of the fit so far, until both rest
+  // one step by the noise of the fit so far, until step and noise no longer change
   problem.most_iterations = 1;
   for (; solved.iterations < kMostIterations && !solved.converged; ++solved.iterations) {
     const double scale = solved.noise.scale();

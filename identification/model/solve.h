@@ -16,7 +16,7 @@ struct ModelSamples {
   std::vector<Eigen::Index> starts;            // first samples of all recordings but the first
 };
 
-/// How much a sample says: 1 / (variance x autocorrelation time).
+/// The information in a sample: 1 / (variance x autocorrelation time).
 struct NoiseScale {
   double variance = 1;
   double correlation = 1;  // samples: 1 + 2 sum of the autocorrelations until they fall below 0.05
@@ -45,12 +45,12 @@ struct SolvedCovariance {
   double block = 0;  // s
 };
 
-/// Sandwich H^-1 (sum over blocks of time of (J^T e)(J^T e)^T B / (B - 1) + prior) H^-1, H = J^T J / scale + prior. Blocks last four times the residual's
-/// correlation, .5 s at least and a twentieth of the log at most.
+/// Sandwich H^-1 (sum over blocks of time of (J^T e)(J^T e)^T B / (B - 1) + prior) H^-1, H = J^T J / scale + prior. Blocks last
+/// four times the residual's correlation, .5 s at least and a twentieth of the log at most.
 SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
                               const SolvedModel& solved);
 
-/// What rows say in blocks of time.
+/// The scatter of rows between blocks of time.
 struct BlockScatter {
   Eigen::MatrixXd
       squares;  // [p x p] sum over the blocks of s s^T, s the sum of a block's rows, times B / (B - 1)

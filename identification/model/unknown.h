@@ -1,4 +1,4 @@
-// One table of what a fit does not know: names, units, bounds and priors in one place.
+// The table of a fit's unknowns: names, units, bounds and priors in one place.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ struct Unknown {
   double start = 0;                              // x at which the fit begins
   double lower = -kInfinity, upper = kInfinity;  // of x
   std::optional<Normal> prior{};
-  double largest_step = kInfinity;  // of x in one iteration, where the model bends
+  double largest_step = kInfinity;  // of x in one iteration, where the model is not linear
   LawPart part = LawPart::other;
 };
 

@@ -83,7 +83,7 @@ void SetFallingModel(const FallingLaw& law, double exponent, const Layout& at,
   const Eigen::VectorXd values = law.values(x, exponent);
   fit.friction = FrictionOf(law.law, values, measurements);
   fit.parameters = LawParameters(law.law, values, measurements);
-  // vs is fitted by its logarithm; an exponent behind what stands in x was given
+  // vs is fitted by its logarithm; an exponent, which follows the rows that are in x, was given
   fit.parameters[at.log_vs()].coordinate = Coordinate::logarithm;
   for (FitParameter& given : std::span(fit.parameters).subspan(at.shape.end())) {
     given.estimated = false;

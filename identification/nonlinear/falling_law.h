@@ -1,4 +1,4 @@
-// Laws whose level falls with speed, as their fits see them.
+// Laws whose level falls with speed, in the form that their fits use.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -20,11 +20,11 @@
 
 namespace warmjoint {
 
-/// What the fit of a law with the Stribeck effect knows of it beside its table. Its levels, p, are the l
+/// What the fit of a law with the Stribeck effect knows of it in addition to its table. Its levels, p, are the l
 /// parameters before stribeck_velocity, of which the force of steady sliding is linear.
 struct FallingLaw {
   const Law& law;
-  const Law& without;           // the law that is left where nothing falls, its table a part of x
+  const Law& without;           // the law that is left without the fall, whose table is a part of x
   std::string_view steady;      // the law of the same friction in steady sliding, exponent 2
   Layout (*layout)(bool heat);  // LayoutOf it
   /// The values of its table at x of such a layout. exponent: of a law that has one
@@ -37,7 +37,7 @@ struct FallingLaw {
   void (*keep)(double* p, double least, double most);
 
   Eigen::Index levels() const { return fall.size(); }  // l
-  /// The name of the last of them, which tells the level at rest.
+  /// The name of the last of them, which determines the level at rest.
   std::string_view rest() const { return law.parameters[static_cast<size_t>(levels() - 1)].name; }
 };
 
@@ -45,8 +45,8 @@ struct FallingLaw {
 using SteadyFallingLaws = LawList<Stribeck, AsymmetricStribeck>;
 using BristleFallingLaws = LawList<LuGre, AsymmetricLuGre>;
 
-/// Where the unknowns of a fit of L stand: law and shape as in its table, of which an exponent is given;
-/// the heat where it is fitted; the inertia where a bristle asks for samples that accelerate.
+/// The places of the unknowns of a fit of L: law and shape as in its table, of which an exponent is given;
+/// the heat where it is fitted; the inertia where a bristle needs samples that accelerate.
 template <typename L>
 constexpr Layout LayoutOf(bool heat = false) {
   constexpr bool bristle = LawWithBristle<L>;
@@ -65,7 +65,7 @@ std::array<T, L::parameters.size()> ValuesOf(const T* x, double exponent = 2) {
   constexpr Layout at = LayoutOf<L>();
   std::array<T, L::parameters.size()> values;
   std::copy_n(x, at.shape.end(), values.begin());
-  // some stand in x by their logarithms
+  // some are in x by their logarithms
   values[at.log_vs()] = exp(x[at.log_vs()]);
   if constexpr (LawWithBristle<L>) {
     values[at.log_stiffness()] = exp(x[at.log_stiffness()]);
@@ -97,7 +97,7 @@ F BestRefined(const std::vector<FitPoint>& points, const Refine& refine,
   return *std::move(best);
 }
 
-/// The points of a scan, by those rows of the table that stand in x. deviation: of the residuals of which the
+/// The points of a scan, by those rows of the table that are in x. deviation: of the residuals of which the
 /// squares are, N.m or N; exponent: of a law that has one; count: of samples.
 std::vector<Iterate> ScanTrace(const FallingLaw& law, double exponent,
                                const std::vector<FitPoint>& points, double deviation,

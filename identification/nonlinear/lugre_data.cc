@@ -21,7 +21,7 @@ Mask Rests(const LogSamples& m) {
   const double most = MeasureVelocity(m).Rest();
   Mask rests = Mask::Constant(m.size(), false);
   for (Index i = 0; i < m.size();) {
-    // a rest is long enough a run that hardly moves
+    // a rest is a run, long enough, in which the joint hardly moves
     Index end = i;
     while (end < m.size() && std::abs(m.velocity[end]) <= most) ++end;
     if (end - i >= kRest) rests.segment(i, end - i) = true;
@@ -36,7 +36,7 @@ struct Grid {
   std::vector<Index> starts;  // index into `samples`, above 0
 };
 
-/// Every so manieth sample of each recording.
+/// One in `every` samples of each recording.
 Grid EverySample(const LogSamples& m, Index every) {
   Grid grid;
   for (const SampleRange& one : m.Recordings()) {
@@ -65,7 +65,7 @@ Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd&
 LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const FallingLaw& law,
                        const Mask& used, double scale) {
   const LogSamples& m = input.measurements;
-  // rests stand still, and constant speed has no acceleration
+  // at rest the velocity is 0, and constant speed has no acceleration
   const Eigen::VectorXd still = Rests(m).select(0.0, m.velocity.array());
   const Eigen::VectorXd time = m.time(grid.samples);
   Eigen::VectorXd acceleration = Acceleration(time, m.velocity(grid.samples), grid.starts);
@@ -116,7 +116,7 @@ Selection SteadySamples(const IdentifierInput& input, double distance) {
   const Eigen::VectorXd& v = m.velocity;
   Selection steady{Mask::Constant(m.size(), false), {}};
   double travelled = 0;  // since the last turn
-  // bristles are steady some presliding distances behind a turn, where the speed hardly changes
+  // bristles are steady some presliding distances after a turn, where the speed hardly changes
   for (Index i = 1; i + 1 < m.size(); ++i) {
     travelled = v[i] * v[i - 1] > 0
                     ? travelled + 0.5 * std::abs(v[i] + v[i - 1]) * (m.time[i] - m.time[i - 1])
@@ -126,7 +126,7 @@ Selection SteadySamples(const IdentifierInput& input, double distance) {
                      std::abs(v[i + 1] - v[i]) <= most && std::abs(v[i - 1] - v[i]) <= most;
   }
 
-  // every so manieth of them
+  // one in so many of them
   const Index every = 1 + steady.count() / kSteadySamples;
   Index seen = 0;
   for (Index i = 0; i < m.size() && every > 1; ++i) {

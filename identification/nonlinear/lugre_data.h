@@ -1,4 +1,4 @@
-// What of a recording shows the LuGre law, and how it is laid out for its fit.
+// The samples of a recording that show the LuGre law, and the problem of its fit.
 #pragma once
 
 #include "identification/identifier.h"
@@ -12,7 +12,7 @@ namespace warmjoint {
 ///   bristle   runs over all samples; in rests of five samples and more, whose speed is noise
 ///             (VelocityScale::Rest), it stays as it is; its bend at each start is estimated
 ///   a         central differences of the velocity; 0 in segments of constant speed, where they
-///             would be noise alone
+///             would be only noise
 LugreProblem MakeLugreProblem(const IdentifierInput& input, const FallingLaw& law, double scale);
 
 /// Every other sample of each recording, and its problem as if the log held no others.
@@ -21,10 +21,10 @@ struct HalvedProblem {
   LugreProblem problem;
 };
 
-/// For finding out how much the sampling matters: uses those samples that `problem` uses.
+/// The halved problem shows how much the sampling matters; it uses those samples that `problem` uses.
 HalvedProblem Halve(const IdentifierInput& input, const LugreProblem& problem);
 
-/// The kept samples that slide steadily, were presliding over after `distance`, rad or m: four
+/// The kept samples of steady sliding, if presliding is over after `distance`, rad or m: four
 /// times that from the last turn or rest, at the speed of both neighbours to 5 %. At most
 /// 4000, evenly chosen.
 Selection SteadySamples(const IdentifierInput& input, double distance);

@@ -61,14 +61,14 @@ std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first,
   return by_load;
 }
 
-/// The torque at x. What a recording began with no sample tells alone: its first has the noise of
-/// one, which a slow start carries along for the whole distance over which the bristle bends, many samples and
+/// The torque at x. No single sample determines the load with which a recording began: the first sample has noise,
+/// which at a slow start would stay for the whole distance over which the bristle bends, in many samples and
 /// all with the same error. But the law is linear in s0, the load at the start,
 ///     F = F(s0 = 0) + b s0,   b = dF/ds0, which dies away as exp(-sigma0 |x| / g),
 /// so that least squares give it at any x (variable projection, Golub and Pereyra 1973):
 ///     s0 = sum b (tau - F(s0 = 0) - M a) / d^2 / (sum b^2 / d^2 + 1 / q^2)
 /// over the used samples with their deviations d. q, the rms of the torque, keeps s0 near 0 where
-/// none of them tells. Derivatives by x go through s0, so that a covariance from them knows that it
+/// none of them determines it. Derivatives by x include those of s0, so that a covariance from them takes into account that it
 /// was estimated, too.
 template <typename L, typename T>
 LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
@@ -83,7 +83,7 @@ LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
     const LugreRun<L, T> run(problem.motion, first, end, p, T(0));
     const std::vector<T> by_load = ByLoad<L>(problem.motion, first, p, run);
 
-    // from a start without load, and what the samples tell of it
+    // from a start without load, and what the samples show of it
     T weighted_sum(0), weight(static_cast<double>(n) / problem.torque.squaredNorm());
     for (Eigen::Index i = first; i < end; ++i) {
       const auto k = static_cast<size_t>(i - first);
@@ -96,7 +96,7 @@ LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
       weight += weighted * by_load[k];
     }
 
-    // from the load that suits them
+    // from the load by least squares
     response.loads.push_back(weighted_sum / weight);
     for (size_t k = 0; k < by_load.size(); ++k) {
       response.torque[static_cast<size_t>(first) + k] += by_load[k] * response.loads.back();
@@ -107,7 +107,7 @@ LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
 
 constexpr int kDistances = 16;  // of the grids
 constexpr int kVelocities = 16;
-constexpr double kFall = 1.3;  // ks over kc before a fall is known
+constexpr double kFall = 1.3;  // ks over kc before the fall is estimated
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -120,7 +120,7 @@ class Residuals {
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
     using std::isfinite;
-    // the bristles move along the whole log, residuals are of the samples that are used
+    // the bristles are followed along the whole log, residuals are of the samples that are used
     const std::vector<T> torque = FollowLugre<L>(problem_, x).torque;
     Eigen::Index row = 0;
     for (size_t k = 0; k < torque.size(); ++k) {
@@ -185,7 +185,7 @@ void Complete(const LugreProblem& problem, FitPoint& point) {
   const Layout at = problem.layout();
   double& inertia = point.x[at.inertia()];
   inertia = 0;
-  // what is left without inertia
+  // the residual without inertia
   Eigen::VectorXd r(n);
   point.squares = kInfinity;
   if (!ResidualsAt(problem, point.x, r.data())) return;
@@ -200,8 +200,8 @@ void Complete(const LugreProblem& problem, FitPoint& point) {
   point.squares = (r + inertia * a).squaredNorm();
 }
 
-/// Moves the linear parameters and M, of which the torque is nearly linear, to what suits the rest of a point
-/// best: steps of Gauss and Newton, with ks within 1 and 3 kc as starts are.
+/// Sets the linear parameters and M, in which the torque is nearly linear, to their best values given the others of a
+/// point, by Gauss-Newton steps with ks within 1 and 3 kc as in starts.
 void CompleteLevels(const LugreProblem& problem, FitPoint& point) {
   constexpr int kSteps = 2;
   const Layout at = problem.layout();
@@ -216,10 +216,10 @@ void CompleteLevels(const LugreProblem& problem, FitPoint& point) {
     if (!DerivativesAt(problem, point.x, r, jacobian)) break;
     const Eigen::MatrixXd J = jacobian(Eigen::all, linear);
     const Eigen::VectorXd change = SolveLeastSquares(J, -r).solution;
-    if (change.size() == 0) break;  // the samples do not tell them apart
+    if (change.size() == 0) break;  // the samples do not distinguish the unknowns
     FitPoint next = point;
     next.x(linear) += change;
-    // outside of the law's bounds no step goes on
+    // steps end outside of the law's bounds
     if (!next.x.allFinite() || !(problem.law->coulomb(at.law.In(next.x).data()) > 0)) break;
     problem.law->keep(at.law.In(next.x).data(), 1, 3);
     next.x[at.inertia()] = std::max(0.0, next.x[at.inertia()]);

@@ -14,7 +14,7 @@
 namespace warmjoint {
 
 /// tau = F + M a over the samples of `used`. The bristle runs over all samples; how it is bent as
-/// each recording begins is estimated beside x.
+/// each recording begins is estimated in addition to x.
 struct LugreProblem {
   MotionPieces motion;                                   // of the N samples
   Eigen::VectorXd acceleration;                          // [N] rad/s^2 or m/s^2
@@ -39,7 +39,7 @@ struct LugreProblem {
 /// Points on a grid over sigma0 and sigma1: presliding distances d = ks / sigma0 from a quarter of
 /// the shortest distance between samples to the longest between turns, and sigma1 / sigma0 of 0, 1 and
 /// 10 sampling intervals. steady(d): x with law and ln vs of the samples that slide steadily then, nothing
-/// where they do not tell. The inertia is what suits each best. Best first, by the sum of squared residuals,
+/// where they do not determine it. The inertia is what suits each best. Best first, by the sum of squared residuals,
 /// each over its deviation.
 std::vector<FitPoint> ScanBristle(
     const LugreProblem& problem, const LogSamples& measurements,
@@ -47,7 +47,7 @@ std::vector<FitPoint> ScanBristle(
 
 /// A point with its fall from the level at rest replaced by others: vs at 16 values, even in ln vs
 /// over three decades up to the fastest sample, each with the levels, the slope and the inertia that
-/// suit it best: those of the point may have grown around a fall that is not there. Best first.
+/// suit it best, since those of the point may belong to a fall that the log does not have. Best first.
 std::vector<FitPoint> ScanFall(const LugreProblem& problem, const FitPoint& point, double fastest);
 
 struct LugreFit {

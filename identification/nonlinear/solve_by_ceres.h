@@ -14,11 +14,11 @@
 
 namespace warmjoint {
 
-/// Keeps what Ceres logs below fatal errors off stderr, from the first call on. A fit says in its
-/// status what became of it; Ceres would say it once more, and unasked.
+/// Keeps what Ceres logs below fatal errors off stderr, from the first call on. A fit reports failures in its
+/// status, so that the messages of Ceres are not needed.
 void QuietCeres();
 
-/// Where a minimisation ended.
+/// The point at which a minimisation ended.
 template <int P>
 struct CeresSolution {
   Eigen::VectorXd residuals;                                           // [n]
@@ -26,8 +26,8 @@ struct CeresSolution {
   bool converged = false;
 };
 
-/// A cost that fails where a residual or a derivative is not a finite number. Ceres takes a failure
-/// as a step that it must not make, and says nothing; of such numbers it writes to stderr.
+/// A cost that fails where a residual or a derivative is not a finite number. Ceres rejects the step after a failure
+/// without a message, while it would write such numbers to stderr.
 template <int P>
 class FiniteCost final : public ceres::SizedCostFunction<ceres::DYNAMIC, P> {
  public:

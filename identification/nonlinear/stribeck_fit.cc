@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kVelocities = 16;  // of the grid
 
-/// Residuals (F - tau) / scale of the kept samples less what columns take of them, as Ceres' automatic derivatives want them.
+/// Residuals (F - tau) / scale of the kept samples, orthogonal to columns, in the form for Ceres' automatic derivatives.
 template <typename L, PartFit W>
 class Residuals {
  public:
@@ -35,7 +35,7 @@ class Residuals {
     const std::vector<ThermalHold<T>> holds = HoldsOf(x);
     T energy(0);
     T* const first = residuals;
-    // friction with the heat that all samples before have left
+    // friction with the heat of all samples before
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
       T force = L::Force(v, law.data());
@@ -54,7 +54,7 @@ class Residuals {
   static constexpr Layout kAt = LayoutOf<L>(W == PartFit::estimated);
 
  private:
-  /// Takes off the part of the residuals that lies along the basis.
+  /// Subtracts the part of the residuals that is in the span of the basis.
   template <typename T>
   void TakeOff(T* residuals) const {
     for (const auto& column : basis_.colwise()) {
@@ -119,7 +119,7 @@ StribeckFit Refine(const StribeckProblem& problem, const FitPoint& start) {
     return fit;
   }
 
-  // the rigid part is what the friction by itself leaves along its columns
+  // the rigid part is the projection of the friction's residual on its columns
   Eigen::VectorXd alone(n);
   const double* const at = x.data();
   double* into = solution.jacobian.data();
@@ -144,7 +144,7 @@ Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
   return columns;
 }
 
-/// The start at one vs: everything else from it.
+/// The start at one vs, from which all other parameters follow.
 std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity) {
   const LogSamples& m = problem.measurements;
   const Eigen::MatrixXd columns = LinearColumns(problem, velocity);
@@ -163,7 +163,7 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
     at.law.In(point.x) = cold.solution.head(columns.cols());
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
-    // with warming: the time constant that explains most beside these columns
+    // with warming: the time constant that explains most in addition to these columns
     const InitialGuess start = ScanBesideRigid(columns, cold.solution.tail(q), problem);
     const Eigen::VectorXd law = start.parameters.head(columns.cols());
     at.law.In(point.x) = law;

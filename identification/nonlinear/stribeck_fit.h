@@ -29,7 +29,7 @@ struct StribeckOptions {
   }
 };
 
-/// What is fitted to what.
+/// The model and the samples of a fit.
 struct StribeckProblem {
   const LogSamples& measurements;
   const Selection& selection;  // E runs over all samples, the fit is to those kept
@@ -38,17 +38,16 @@ struct StribeckProblem {
   PartFit warming = PartFit::none;
   double scale = 1;                                        // about the torque's rms, N.m or N
   const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
-  Eigen::MatrixXd
-      rigid{};  // [N x q] gravity and inertia, whose unknowns stand behind x; [0 x 0]: none
+  Eigen::MatrixXd rigid{};  // [N x q] gravity and inertia, whose unknowns follow x; [0 x 0]: none
 
   Layout layout() const { return law.layout(warming == PartFit::estimated); }
 };
 
-/// Columns with those of the problem's rigid part behind them. columns: [N x d]; returns [N x d + q]
+/// Columns, followed by those of the problem's rigid part. columns: [N x d]; returns [N x d + q]
 Eigen::MatrixXd BesideRigid(const Eigen::MatrixXd& columns, const StribeckProblem& problem);
 
-/// A start for columns of friction, the rigid part behind them and the warming: the scan over tau once the rigid part of a fit without
-/// warming is out of the loss. columns: [N x d]; rigid: [q] of that fit; parameters of what it returns: [d + q]
+/// A start for columns of friction, the rigid part that follows them and the warming: the scan over tau once the rigid part of
+/// a fit without warming is subtracted from the loss. columns: [N x d]; rigid: [q] of that fit; parameters of what it returns: [d + q]
 InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
                              const StribeckProblem& problem);
 
@@ -67,7 +66,7 @@ struct StribeckFit {
 };
 
 /// Minimises the sum of squares from a start by Levenberg-Marquardt. Gravity and inertia are linear: the squares are those of what is
-/// left beside their columns (variable projection, Golub and Pereyra 1973).
+/// left orthogonal to their columns (variable projection, Golub and Pereyra 1973).
 StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start);
 
 }  // namespace warmjoint

@@ -62,7 +62,7 @@ std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
       evidence.fall_deviation < kImpreciseFall * std::abs(evidence.fall)) {
     return std::nullopt;
   }
-  // errors without a bound have no size to tell
+  // errors without a bound have no size that could be reported
   const double factor = std::exp(1.96 * evidence.log_deviation);
   if (!std::isfinite(factor) || !std::isfinite(evidence.fall_deviation)) {
     return NoFall(law, measurements, selection).message;

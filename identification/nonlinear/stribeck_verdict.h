@@ -1,4 +1,4 @@
-// Whether a motion shows the Stribeck effect well enough to tell its two parameters.
+// Whether a motion shows the Stribeck effect well enough to determine its two parameters.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace warmjoint {
 
-/// What a fit says of its Stribeck effect.
+/// The figures of a fit that show how well its Stribeck effect is determined.
 struct StribeckEvidence {
   double fall = 0;            // ks - kc, N.m or N
   double fall_deviation = 0;  // its standard deviation
@@ -22,20 +22,20 @@ struct StribeckEvidence {
 /// missing slow speeds. selection: samples at constant speed.
 std::string SlowSpeeds(const LogSamples& measurements, const Selection& selection);
 
-/// Why not even the law without its fall, Eq. (2) or (3), can be told, which comes before any Stribeck
-/// effect; nothing where it can. unknown: rows of the law that then cannot be told; rigid: [N x q] columns of gravity and inertia
-/// beside it, or none.
+/// Why not even the law without its fall, Eq. (2) or (3), is identifiable, which is checked before any Stribeck
+/// effect; nothing where it is. unknown: rows of the law that then are not identifiable; rigid: [N x q] columns of gravity and
+/// inertia that are fitted with it, or none.
 std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
                                       std::span<const ParameterInfo> unknown,
                                       const Eigen::MatrixXd& rigid = {});
 
-/// A fit that does not come to rest.
+/// The refusal of a fit that did not converge.
 Refusal NotConverged();
 
 /// Why no scan finds a fall from the level at rest. selection: samples at constant speed.
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection);
 
-/// What a fit says of its effect. at: of x; uncertainty: of law and ln vs, at least, where x has them.
+/// The figures of a fit about its Stribeck effect. at: of x; uncertainty: of law and ln vs, at least, where x has them.
 StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
                             const Uncertainty& uncertainty);
 

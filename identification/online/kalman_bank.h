@@ -18,7 +18,7 @@ struct RecursiveState {
   Eigen::Matrix<double, D, D> cofactor;  // [d x d] (sum of f^age a a^T)^-1
 };
 
-/// Nothing known: estimate 0, cofactor `doubt` times the identity. doubt: large beside the inverse
+/// The state before any sample: estimate 0, cofactor `doubt` times the identity. doubt: large relative to the inverse
 /// of the regressor's squares.
 template <int D>
 RecursiveState<D> KnowNothing(Eigen::Index d, double doubt) {
@@ -41,7 +41,7 @@ void TakeIn(const Eigen::Matrix<double, D, 1>& a, double y, double forgetting,
   state.cofactor = (state.cofactor - scale * outer) * (1 / forgetting);
 }
 
-/// Where p, k, ln tau and E stand in a state: d parameters of the law, heat, and the energy now.
+/// The places of p, k, ln tau and E in a state: d parameters of the law, heat, and the energy now.
 constexpr Layout StateLayout(Eigen::Index d) {
   return Layout::InOrder({{&Layout::law, d}, {&Layout::heat, 2}, {&Layout::start, 1}});
 }
@@ -72,7 +72,7 @@ template <int D>
 struct KalmanOutcome {
   KalmanState<D> state;
   double innovation = 0;  // measured less expected level, N.m or N; 0 where not measured
-  double variance = 0;    // that it was expected to have; 0 where not measured
+  double variance = 0;    // expected variance of the innovation; 0 where not measured
 };
 
 /// Takes in sign(v) tau = g . p + E + noise, which the state enters linearly.
@@ -91,7 +91,7 @@ void Correct(const KalmanSample<D>& sample, double noise, KalmanOutcome<D>& outc
   covariance.noalias() -= scaled * Pa.transpose();
 }
 
-/// Moves E over one interval; p, k and ln tau stay.
+/// Predicts E over one interval; p, k and ln tau stay.
 template <int D>
 void Predict(const KalmanSample<D>& sample, KalmanState<D>& state) {
   auto& [mean, covariance] = state;
@@ -120,7 +120,7 @@ void Predict(const KalmanSample<D>& sample, KalmanState<D>& state) {
 /// motion
 ///   E <- te E + k (1 - te) |v| (g . p + E),  te = exp(-h/tau),
 /// which are Eqs. (20) and (22) with (19). E has no noise of its own: it follows from the
-/// parameters, and the covariance carries how (Ljung 1979: the filter then descends on the
+/// parameters, and the covariance contains this dependence (Ljung 1979: the filter then descends on the
 /// prediction error). noise: variance of the torque's noise, (N.m)^2 or N^2.
 template <int D>
 KalmanOutcome<D> KalmanStep(const KalmanState<D>& state, const KalmanSample<D>& sample,
@@ -133,7 +133,7 @@ KalmanOutcome<D> KalmanStep(const KalmanState<D>& state, const KalmanSample<D>& 
 
 /// Filters side by side. Given tau, the law, the gain and the energy enter the measurement almost
 /// linearly, because the level g . p + E that feeds the losses is itself measured; ln tau does not.
-/// So that no filter ever strays from where it was linearised, each knows ln tau beforehand to
+/// So that no filter gets far from the point at which it was linearised, each has a prior of ln tau with a deviation of
 /// about the distance to its neighbours, and the data weigh them (a Gaussian sum: Alspach and
 /// Sorenson 1972).
 template <int D>
@@ -142,10 +142,10 @@ struct KalmanBank {
   std::array<KalmanState<D>, kMembers> members;
   std::array<double, kMembers> log_weight;  // the greatest is 0; -infinity: dropped
   double noise = 0;                         // variance of the torque's noise, as seen so far
-  double count = 0;                         // samples that this stands on
+  double count = 0;                         // samples that this was computed from
 };
 
-/// Where a bank begins.
+/// The start of a bank.
 template <int D>
 struct KalmanPrior {
   KalmanState<D> state;  // of (p, k, ln tau, E); ln tau is set for each member

@@ -16,23 +16,23 @@ using Eigen::Index;
 
 constexpr double kTurnsBeyond =
     20;  // deviations of the position's noise from a turning point; why: 20 make noise 5 % of a way
-constexpr double kMovesBeyond = 4;  // the same, from which on the joint has moved
+constexpr double kMovesBeyond = 4;  // the same, beyond which the joint has moved
 constexpr double kHalf =
-    0.5;  // of the level; why: what lies below is nearer to no friction than to all of it
+    0.5;  // of the level; why: a smaller torque is nearer to no friction than to all of it
 constexpr double
     kMost = 0.35,
     kLeast =
         -0.25;  // of the level in the gap, in the mean; why: a motor has some friction of its own
 constexpr double kFull =
-    0.7;  // of the level at once behind the gap; why: a bristle or a spring brings it up slowly
+    0.7;  // of the level at once after the gap; why: a bristle or a spring brings it up slowly
 constexpr Index kFewestInGap = 2;       // samples; why: one may be late
-constexpr Index kBehind = 4;            // samples behind the gap, whose median counts
+constexpr Index kBehind = 4;            // samples after the gap, whose median counts
 constexpr std::size_t kFewestLegs = 8;  // of motion in one direction
 constexpr double kAlike = 0.25;         // of the gap, from leg to leg in the median
 constexpr double kOfTheTime =
-    0.5;  // of what times differ by; why: torque that is late is late by a time
+    0.5;  // of the spread of the times; why: a late torque is late by a time, not by a way
 constexpr double kShare =
-    0.01;  // of the samples of a fit; why: their torque is off by all of the friction, 10 % in the rms
+    0.01;  // of the samples of a fit; why: the error of their torque is all of the friction, 10 % in the rms
 
 /// Motion in one direction, from one turning point to the next.
 struct Leg {
@@ -40,7 +40,7 @@ struct Leg {
   double direction = 1;
 };
 
-/// Legs whose turning points lie `least` or further apart, the first and the last left out: a log cuts them.
+/// Legs whose turning points have a distance of `least` or more, without the first and the last: the log has only a part of these.
 std::vector<Leg> FindLegs(const Eigen::VectorXd& position, double least) {
   std::vector<Leg> legs;
   Index low = 0, high = 0, from = 0;
@@ -81,7 +81,7 @@ double LevelOf(const Measurements& m, const std::vector<Leg>& legs, double direc
   return MedianOf(torques);
 }
 
-/// What a leg shows behind its turning point.
+/// What a leg shows after its turning point.
 struct Gap {
   double way = 0, time = 0;  // rad or m, s: until the torque is there
   Index first = 0, end = 0;  // samples in it
@@ -139,7 +139,7 @@ std::optional<std::string> Backlash(const Measurements& m, const Selection& sele
     return std::nullopt;
   }
 
-  // what of it a fit takes
+  // the part of the gaps that a fit takes
   const SampleMask used = HoldsSpeeds(m, selection) ? selection.keep : moving;
   Index within = 0;
   for (const Gap& gap : gaps) within += used.segment(gap.first, gap.end - gap.first).count();

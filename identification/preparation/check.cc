@@ -76,7 +76,7 @@ MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& s
   check.rest_share = static_cast<double>(resting) / n;
   check.segments = static_cast<int>(selection.segments.size());
   check.levels = Levels(selection.segments);
-  // travel, and what the velocity itself leaves unknown
+  // travel, and the noise and resolution of the velocity
   check.lower = measurements.position.minCoeff();
   check.upper = measurements.position.maxCoeff();
   check.speed_noise = scale.noise;
@@ -91,7 +91,7 @@ struct Direction {
 };
 
 constexpr double kAnotherSpeed =
-    1.1;  // times; why: a slope over less is lost in a level's own error
+    1.1;  // times; why: a slope over a smaller range is lost in the error of a level
 
 Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
   Direction direction;
@@ -107,7 +107,7 @@ Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
 
 /// The same of motion of any kind: nearly all speeds of the samples that a fit takes, two levels where they differ.
 Direction SpeedsWithSign(const LogView& moving, int sign) {
-  constexpr double tail = 0.02;  // why: a few samples at a turn or a peak tell nothing of a slope
+  constexpr double tail = 0.02;  // why: a few samples at a turn or a peak show nothing of a slope
   std::vector<double> speeds;
   for (Index i = 0; i < moving.measurements.size(); ++i) {
     const double speed = sign * moving.measurements.velocity[i];
@@ -119,7 +119,7 @@ Direction SpeedsWithSign(const LogView& moving, int sign) {
   return {fastest > kAnotherSpeed * slowest ? 2 : 1, slowest, fastest};
 }
 
-/// All that the judgements look at.
+/// The data for all judgements.
 struct ShownMotion {
   const Measurements& measurements;
   const SamplingCheck& sampling;
@@ -127,7 +127,7 @@ struct ShownMotion {
   std::string_view speed_unit, length_unit;
   Direction positive, negative;
 
-  /// Whether a fit has anything to take.
+  /// Whether there are samples that a fit can take.
   bool moves() const { return positive.levels + negative.levels > 0; }
   double slowest() const {
     if (positive.levels == 0) return negative.slowest;
@@ -174,7 +174,7 @@ Judged ViscousCoulomb(const ShownMotion& e) {
 
 Judged Asymmetric(const ShownMotion& e) {
   if (!e.moves()) return {false, Coulomb(e).reason};
-  // both directions, since the difference between them is what is asked for
+  // both directions, since their difference is to be determined
   if (!e.both_directions()) {
     return {false, fmt::format("all that is fitted moves in the {} direction; record both",
                                e.positive.levels > 0 ? "positive" : "negative")};
@@ -313,14 +313,14 @@ RecordingCheck CheckRecording(const PreparedLog& log) {
   check.joint = measurements.joint;
   check.torque_unit = measurements.torque_unit;
   check.notes = measurements.notes;
-  // what was measured, and what that lets the user identify
+  // what was measured, and what can be identified from it
   check.sampling = CheckSampling(measurements.time, scale.step);
   check.motion = CheckMotion(measurements, scale, selection);
   if (log.source() == MotionSource::positions) {
     check.motion.position_resolution = MeasurePositionNoise(measurements.position).resolution;
   }
   check.faults = log.faults();
-  // what fits take
+  // the samples that fits take
   check.motion.holds_speeds = log.holds_speeds();
   check.motion.fitted =
       (check.motion.holds_speeds ? log.constant_speed() : log.moving()).selection.count();

@@ -11,7 +11,7 @@ namespace warmjoint {
 /// A log that is shorter shows no warming, s.
 inline constexpr double kShortestWarming = 180;  // why: joints warm with time constants of minutes
 
-/// What `check` finds that the recording lacks to show friction of that kind, with its remedy; where it
+/// What the recording lacks to show friction of that kind, by `check`, with its remedy. Where it
 /// lacks nothing, a doubt about the torque column.
 std::string WhyNotConverged(const PreparedLog& log, FrictionKind kind);
 

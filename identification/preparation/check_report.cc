@@ -22,7 +22,7 @@ std::string SamplingLine(const SamplingCheck& sampling) {
       sampling.samples, sampling.duration, sampling.rate, 100 * sampling.jitter, gaps);
 }
 
-/// What a person knows of the joint at a glance: both columns in degrees contradict nothing else.
+/// A line with the turns of the joint, which a person can judge at a glance. Why: where both columns are in degrees, nothing else shows it.
 std::string TurnsLine(const RecordingCheck& check) {
   if (check.joint != JointKind::rotary || check.motion.levels.empty()) return "";
   constexpr double turn = 2 * std::numbers::pi;  // rad
@@ -89,7 +89,7 @@ std::string CheckToText(const RecordingCheck& check) {
   text += TurnsLine(check);
   text += DirectionLine(check.motion, 1, speed_unit);
   text += DirectionLine(check.motion, -1, speed_unit);
-  // how well the velocity is known; noise says nothing of one that was smoothed from rounded positions
+  // the noise or resolution of the velocity; a velocity that was smoothed from rounded positions has no noise to report
   if (check.motion.position_resolution > 0) {
     text += fmt::format("resolution  the position comes in steps of {:.3g} {}",
                         check.motion.position_resolution, kPositionUnit.For(check.joint));

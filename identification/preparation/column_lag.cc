@@ -18,13 +18,14 @@ using Eigen::VectorXd;
 
 constexpr double kCertain = 5;    // standard errors; why 5: by chance 1 in 2 million
 constexpr double kOfAStep = 0.1;  // why: an inertia takes as little from a slope as its own error
-constexpr double kOfTheSpeed = 0.01;  // why: friction at that speed moves by less than a hundredth
-constexpr Index kFewest = 30;         // windows; why: their scatter is known to a seventh
-constexpr Index kLongest = 256;       // samples of a window; why: longer ones hold whole moves
+// why: friction at that speed changes by less than a hundredth
+constexpr double kOfTheSpeed = 0.01;
+constexpr Index kFewest = 30;    // windows; why: their scatter is known to a seventh
+constexpr Index kLongest = 256;  // samples of a window; why: longer ones hold whole motions
 constexpr double kBend = 1.345;  // deviations; why: Huber's loss keeps 95 % of efficiency there
 constexpr int kRounds = 5;       // of its weights
 
-/// Windows one after the other: what the integral of the column has beside the positions' change, and columns for it.
+/// Windows one after the other: by how much the integral of the column exceeds the positions' change, and columns that explain it.
 struct Windows {
   VectorXd excess;      // [n] rad or m
   Eigen::MatrixX3d by;  // [n x 3] change of velocity, duration, change of position
@@ -67,7 +68,7 @@ std::optional<Solved> Solve(const Windows& windows) {
     solved.x = factors.solve(windows.by.transpose() * weights.cwiseProduct(windows.excess));
     const VectorXd left = (windows.excess - windows.by * solved.x).cwiseAbs();
     const double scale = MedianOf(left) / 0.6745;  // of |z|, z a standard normal variable
-    // what is exact has no errors
+    // an exact column has no errors
     if (!(scale > 0)) {
       solved.error.setZero();
       return solved;

@@ -1,4 +1,4 @@
-// Whether a velocity column is late, or off, beside the slope of its positions.
+// Whether a velocity column is late, or has an offset, relative to the slope of its positions.
 #pragma once
 
 #include <warmjoint/recording.h>
@@ -15,17 +15,17 @@ struct ColumnAgainstSlope {
   double step = 0;                      // s, of the log
   double speed = 0;                     // rms, rad/s or m/s
 
-  /// By a tenth of a sample or more, beyond chance.
+  /// Whether it is late by a tenth of a sample or more, beyond chance.
   bool IsLate() const;
-  /// By 1 % of the speed or more, beyond chance.
+  /// Whether it has an offset of 1 % of the speed or more, beyond chance.
   bool IsOff() const;
 };
 
 /// Over windows of a few samples the integral of v is
 ///     integral - Delta p = -lag Delta v + offset T + share Delta p,
-/// share for a column that is scaled a little. Least squares with Huber's loss over windows without gaps; of several lengths
-/// the one that knows the lag best. So neither the noise of single samples nor a drift of the integral counts. Nothing
-/// with fewer than 30 windows. Positions must have been logged.
+/// `share` for a column with a small scale error. Least squares with Huber's loss over windows without gaps; of several lengths
+/// that with the smallest error of the lag is taken. So neither the noise of single samples nor a drift of the integral counts.
+/// Nothing with fewer than 30 windows. Positions must have been logged.
 std::optional<ColumnAgainstSlope> CompareColumn(const Measurements& measurements);
 
 /// "the velocity column lags its positions by 12 ms (1.2 samples): ..."

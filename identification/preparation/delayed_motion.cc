@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 /// A time between two samples of a piece.
 struct Between {
-  Index before = 0;           // the sample before it; the next one is behind it
+  Index before = 0;           // the sample before it; the next one is after it
   double share = 0;           // of the step that has passed, 0 to 1
   double step = 0;            // s
   Index first = 0, last = 0;  // samples of the piece
@@ -35,7 +35,7 @@ double WithSlopes(const Between& at, const VectorXd& column, const VectorXd& slo
   return Hermite(at, column[i], column[i + 1], slopes[i], slopes[i + 1]);
 }
 
-/// By slopes over both neighbours, one-sided at the ends of a piece.
+/// The cubic with slopes over both neighbours, one-sided at the ends of a piece.
 double ThroughFour(const Between& at, const VectorXd& time, const VectorXd& column) {
   const auto slope = [&](Index i) {
     const Index low = std::max(at.first, i - 1), high = std::min(at.last, i + 1);
@@ -57,7 +57,7 @@ std::vector<SampleRange> Pieces(const LogSamples& m) {
   return pieces;
 }
 
-/// Fills what one sample sees of the motion at a time.
+/// Fills sample i of `late` with the motion at a time.
 void Take(const LogSamples& m, const Between& at, Index i, LogSamples& late) {
   late.position[i] = WithSlopes(at, m.position, m.velocity);
   late.velocity[i] = WithSlopes(at, m.velocity, *m.acceleration);
@@ -82,7 +82,7 @@ LogView Delayed(const LogView& view, double delay) {
       const double step = m.time[before + 1] - m.time[before];
       const Between at{before, (t - m.time[before]) / step, step, piece.first, piece.end() - 1};
       Take(m, at, i, late.measurements);
-      // a neighbour at which the time is not does not count
+      // where the time is exactly at one sample, the other neighbour does not count
       const auto& keep = view.selection.keep;
       late.selection.keep[i] =
           (keep[before] || at.share == 1) && (keep[before + 1] || at.share == 0);

@@ -1,11 +1,11 @@
-// Motion of any kind as a torque that comes late has followed it.
+// Motion of any kind, shifted in time to the torque that follows it late.
 #pragma once
 
 #include <warmjoint/prepared_log.h>
 
 namespace warmjoint {
 
-/// The motion at t - delay beside the torque at t, of a log with its acceleration (PreparedLog::moving): positions and
+/// The motion at t - delay with the torque at t, of a log with its acceleration (PreparedLog::moving): positions and
 /// velocities by cubic Hermite polynomials with their known slopes, the acceleration and the motor's position by those through
 /// four samples, means between samples by straight lines. Columns that were not measured with the motion, as a load, stay. It
 /// keeps the samples around whose t - delay both neighbours are kept; none whose t - delay lies in a gap or outside of its

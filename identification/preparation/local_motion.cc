@@ -15,22 +15,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// why each number is what it is: tests/studies/identification.md
+// why each number has its value: tests/studies/identification.md
 constexpr Index kHalfWidths[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  // samples to each side
 constexpr Index kWide = 6;           // from which half width on the degree is five
-constexpr double kByChance = 1e-3;   // of good windows, taken for bent
+constexpr double kByChance = 1e-3;   // of windows whose polynomial fits, rejected by chance
 constexpr double kJump = 0.1;        // of the acceleration's rms
 constexpr double kBeyondMedian = 4;  // of the change over two samples
 constexpr double kDeviations = 5;    // of the noise
 constexpr double kEven = 1e-3;       // of the step by which evenly sampled times may differ
 
-/// What is fitted: a series, and which derivative of it is the acceleration.
+/// The fitted series, and which derivative of it is the acceleration.
 struct Series {
   const VectorXd& values;
   Index derivative;  // 1 of a velocity, 2 of a position
   double noise;      // standard deviation of one value
 
-  /// Of the polynomials: that of the velocity is the third, and in wide windows the fifth.
+  /// The degree of the polynomials. The velocity is of third degree, and in wide windows of fifth.
   Index Degree(Index half_width) const { return derivative + (half_width < kWide ? 2 : 4); }
 };
 
@@ -144,9 +144,9 @@ double SpreadOfSteps(const VectorXd& time, const std::vector<SampleRange>& piece
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-/// Standard deviation of the stamps beside the moments of the samples, s, as polynomials through the positions show it where
-/// stamps are uneven: they leave v^2 s^2 beside the noise of a position, in the median over what moves. No more than the
-/// steps themselves spread; 0 of even stamps.
+/// Standard deviation of the time stamps from the moments of the samples, s, as polynomials through the positions show it where
+/// stamps are uneven: they leave v^2 s^2 in addition to the noise of a position, in the median over samples in motion. No more
+/// than the steps themselves spread; 0 of even stamps.
 double StampNoise(const Measurements& m, const std::vector<SampleRange>& pieces, const Scale& scale,
                   double noise, const SampleMask& moving) {
   const double most = SpreadOfSteps(m.time, pieces);
@@ -214,7 +214,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
   for (const Index half_width : kHalfWidths) {
     if (2 * half_width < series.Degree(half_width) + 1) continue;
     scales.push_back(ScaleOf(m, pieces, series, half_width));
-    // positions at stamps that are off by s are off by v s, most in the fastest half of the motion
+    // positions at time stamps with an error s have an error v s, which is largest in the fastest half of the motion
     if (scales.size() == 1 && source == MotionSource::positions) {
       stamps = StampNoise(m, pieces, scales.back(), series.noise, moving);
       const VectorXd speed = Chosen(m.velocity, moving);
@@ -227,7 +227,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
     if (noise <= kAcceptedNoise * rms) break;
   }
 
-  // each sample takes the widest that nothing contradicts
+  // each sample takes the widest window that nothing contradicts
   LocalMotion motion{m.velocity, VectorXd::Zero(m.size()), {}};
   motion.known.setConstant(m.size(), false);
   for (auto scale = scales.rbegin(); scale != scales.rend(); ++scale) {

@@ -1,4 +1,4 @@
-// Velocity and acceleration of a joint from noisy samples, unsmoothed where its motion bends.
+// Velocity and acceleration of a joint from noisy samples, without smoothing over corners of the motion.
 #pragma once
 
 #include <warmjoint/prepared_log.h>
@@ -14,7 +14,7 @@ namespace warmjoint {
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;
 
-/// Speed from which on a sample moves clearly; why: tests/studies/identification.md.
+/// Speed from which on a joint clearly moves; why: tests/studies/identification.md.
 inline constexpr double kClear = 0.05;  // of the velocity's root mean square
 
 struct LocalMotion {
@@ -24,13 +24,13 @@ struct LocalMotion {
   SampleMask known;
 };
 
-/// Samples that move, faster than 5 % of the velocity's root mean square. What is said of a
-/// motion (its noise, its acceleration, how much that changes) is said of these: a rest, whose velocity many drives
-/// log as zeros, would make it small. velocity: [N] rad/s or m/s
+/// Samples at which the joint moves, faster than 5 % of the velocity's root mean square. Figures of a
+/// motion (its noise, its acceleration, how much that changes) are computed from these: a rest, whose velocity many drives
+/// log as zeros, would make them small. velocity: [N] rad/s or m/s
 SampleMask InMotion(const Eigen::VectorXd& velocity);
 
-/// What of `known` lies at no corner of the velocity: where the acceleration changes from one side of a sample to the
-/// other by no more than a tenth of its root mean square, four times the median change of what is `moving`, or five
+/// The samples of `known` that are at no corner of the velocity: where the acceleration changes from one side of a sample to
+/// the other by no more than a tenth of its root mean square, four times the median change of the samples `moving`, or five
 /// times the noise of a change; and so at the neighbours, whose acceleration spans it.
 /// changes: [N] rad/s^2 or m/s^2, as are rms, of the acceleration, and noise, of a change.
 SampleMask AwayFromCorners(const SampleMask& known, const Eigen::VectorXd& changes,

@@ -48,14 +48,14 @@ std::optional<std::string> WrappedPosition(const Measurements& measurements, con
   const double longest = LongestStep(m.time);
   std::vector<double> jumps;
   double mirrored = 0,
-         upper = 0;  // jumps behind which the positions run back, and where they begin or end
+         upper = 0;  // jumps after which the positions run back, and where they begin or end
   // steps within a recording that cover a large part of the range at once
   for (Index i = 1; i + 1 < m.size(); ++i) {
     const double h = m.time[i] - m.time[i - 1];
     const double jump = m.position[i] - m.position[i - 1];
     if (h > longest || !(std::abs(jump) > kOfTheRange * range)) continue;
 
-    // the distance of the next step at the speed beside the jump, where there is no jump
+    // the distance of the next step, which is about what the step of the jump would cover without a jump
     const double beside = std::abs(m.position[i + 1] - m.position[i]);
     if (std::abs(jump) <= kBeyond * beside) continue;
     jumps.push_back(std::abs(jump) + beside);

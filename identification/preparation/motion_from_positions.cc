@@ -82,7 +82,7 @@ std::vector<Index> TurningPoints(const VectorXd& p, double hysteresis) {
     // the extremes since the last turning point
     if (p[i] > p[high]) high = i;
     if (p[i] < p[low]) low = i;
-    // what leads back beyond the hysteresis shows that the extreme before it was a turn
+    // a path back by more than the hysteresis shows that the extreme before it was a turn
     if (direction >= 0 && p[high] - p[i] > hysteresis) {
       if (direction > 0 || high > 0) turns.push_back(high);
       direction = -1;
@@ -125,7 +125,7 @@ void MakeMonotone(const VectorXd& time, VectorXd& p, Index first, Index last, do
       pools.back().Add(behind);
     }
   }
-  // straight lines between the middles of the runs, level before the first and behind the last
+  // straight lines between the middles of the runs, level before the first and after the last
   size_t k = 0;
   for (Index i = first; i <= last; ++i) {
     while (k + 1 < pools.size() && pools[k + 1].Middle() <= time[i]) ++k;
@@ -150,7 +150,7 @@ class MotionBuilder {
         velocity_(log.velocity) {
     const std::vector<Plateau>& plateaus = found_.plateaus;
     for (const Plateau& plateau : plateaus) TakeSpeed(plateau);
-    // before, between and behind the plateaus; or along all of a log that has none
+    // before, between and after the plateaus; or along all of a log that has none
     const Index last = time_.size() - 1;
     FollowSamples(0, plateaus.empty() ? last : plateaus.front().begin);
     for (size_t i = 0; i + 1 < plateaus.size(); ++i) FollowTransition(i);

@@ -12,13 +12,13 @@ namespace warmjoint {
 /// backwards) and central differences. Pieces between gaps (more than three median steps) are
 /// treated one by one. A piece whose steps differ by more than 1 % is put on an even grid of its
 /// mean step by straight lines, filtered there, and read back at its own times. time: [N] s,
-/// increasing; position: [N] rad or m. cutoff: Hz; above 0.4 of the sampling rate the filter is
-/// left out. Returns [N] rad/s or m/s.
+/// increasing; position: [N] rad or m. cutoff: Hz; above 0.4 of the sampling rate there is no
+/// filter. Returns [N] rad/s or m/s.
 Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                                double cutoff);
 
-/// A cutoff for DeriveVelocity, in Hz: 100 Hz, which passes what a joint's controller does, or less
-/// where the noise of the position would otherwise drown its slope. White noise of standard
+/// A cutoff for DeriveVelocity, in Hz: 100 Hz, which passes the bandwidth of a joint's controller, or less
+/// where the noise of the position would otherwise exceed its slope. White noise of standard
 /// deviation s on the position leaves sqrt(h (2 pi)^2 2/3 fc^3) s on the velocity (h: step, s);
 /// the cutoff is lowered until that is 1 % of the velocity's root mean square, at most to 0.02 of
 /// the sampling rate. s comes from the median of the position's fourth differences, or from its
@@ -26,7 +26,7 @@ Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorX
 double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position);
 
 /// Velocities such that the sum of |v| h, with v held until the next sample, is the path that the
-/// positions show, changes of speed included; that is what warms the joint.
+/// positions show, changes of speed included, since this path determines how the joint warms.
 ///
 /// - Each segment has one velocity, the slope of its positions, with a drift where the positions
 ///   bend by more than four standard errors.
@@ -37,8 +37,8 @@ double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position
 /// - Any other transition has the speed from sample to sample along its monotone stretches
 ///   (MonotonePath); there the segments keep the samples that they were given.
 ///
-/// Not across gaps, where the last velocity holds. found: segments that move at a constant speed,
-/// and those that stand. Linear in the number of samples.
+/// Not across gaps, where the last velocity holds. found: segments of constant speed,
+/// and those at rest. The time is linear in the number of samples.
 FilledLog MotionFromPositions(const Measurements& measurements, const ConstantSpeed& found);
 
 /// Positions of a joint that turns round only where these lead back by more than `hysteresis`. Each

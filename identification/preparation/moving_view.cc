@@ -28,11 +28,11 @@ constexpr double kGain =
 constexpr double kContradicts = 2;  // path by positions over that by velocities, or the inverse
 
 constexpr double kSomeHeld =
-    0.1;  // of what moves; why: of a sine less than a hundredth looks like a hold
+    0.1;  // of the samples in motion; why: of a sine less than a hundredth looks like a hold
 constexpr double kUnresolvedTurns =
-    5e-3;  // of the path; why: by as much may a warming be off before its log says so
+    5e-3;  // of the path; why: a warming may have an error of that size before a warning is given
 constexpr double kHeld =
-    0.5;  // of what moves; why: what fewer hold, peaks among them, shows less than the rest
+    0.5;  // of the samples in motion; why: fewer held samples, peaks among them, show less than the other samples
 constexpr double kFollowed = 0.5;  // why: of half the samples deviations are 1.4 times as large
 
 double RootMeanSquare(const VectorXd& x) {
@@ -56,8 +56,8 @@ double SlopeThrough(const Eigen::Ref<const VectorXd>& time,
 }
 
 /// Differences of fourth order, through two samples on each side, less near the ends of pieces: of
-/// second order, the motion's third derivative would stand in the acceleration, which after a
-/// reversal pushes as friction does. [N] rad/s^2 or m/s^2
+/// second order, the motion's third derivative would be part of the acceleration, which after a
+/// reversal acts like friction. [N] rad/s^2 or m/s^2
 VectorXd Differences(const Measurements& m, const std::vector<SampleRange>& pieces) {
   VectorXd slopes = VectorXd::Zero(m.size());
   for (const auto& [first, count] : pieces) {
@@ -93,7 +93,7 @@ VectorXd Jumps(const Measurements& m, const std::vector<SampleRange>& pieces) {
 std::optional<LocalMotion> ByDifferences(const Measurements& m,
                                          const std::vector<SampleRange>& pieces) {
   LocalMotion motion{m.velocity, Differences(m, pieces), {}};
-  // noise of the acceleration, against what of its rms is motion
+  // noise of the acceleration, compared with the part of its rms that is motion
   const SampleMask moving = InMotion(m.velocity);
   const double noise = NoiseOfVelocity(m.velocity), step = MedianStep(m.time);
   const double left = kGain * noise / step,
@@ -101,7 +101,7 @@ std::optional<LocalMotion> ByDifferences(const Measurements& m,
   if (left * left > kAcceptedNoise * kAcceptedNoise * (rms * rms - left * left)) {
     return std::nullopt;
   }
-  // samples beside a jump of the acceleration are not known
+  // the motion at samples next to a jump of the acceleration is not known
   motion.known = AwayFromCorners(SampleMask::Constant(m.size(), true), Jumps(m, pieces), moving,
                                  rms, noise * std::sqrt(6.0) / step);
   return motion;
@@ -113,8 +113,8 @@ double MeanSpeed(double from, double to) {
   return from * to < 0 ? (a * a + b * b) / (2 * (a + b)) : (a + b) / 2;
 }
 
-/// Of a velocity that is a straight line from sample i to the next: the means of |v| and of v^2 over
-/// that of |v|. Where it turns, both sides of the turn count.
+/// Computes, for a velocity that is a straight line from sample i to the next, the mean of |v|, and the mean of v^2 over
+/// that of |v|. Where the velocity changes its sign, both sides of the turn count.
 void TakeLine(const VectorXd& velocity, Index i, BetweenSamples& between) {
   const double from = velocity[i], to = velocity[i + 1];
   const double a = std::abs(from), b = std::abs(to);
@@ -142,7 +142,7 @@ void FollowPositions(const Measurements& m, Index first, Index last, BetweenSamp
   between.loss_velocity.segment(first, last - first) *= ratio;
 }
 
-/// The same for each stretch of a piece that moves clearly in one direction.
+/// The same for each stretch of a piece in which the joint clearly moves in one direction.
 void FollowPositions(const Measurements& m, const SampleRange& piece, double clear,
                      BetweenSamples& between) {
   const Index end = piece.first + piece.count;
@@ -158,7 +158,7 @@ void FollowPositions(const Measurements& m, const SampleRange& piece, double cle
   }
 }
 
-/// Counts what a joint moves between a sample at rest and the next with that one.
+/// Adds the path between a sample at rest and the next one to that of the next one.
 void PassRest(const Measurements& m, const SampleRange& piece, VectorXd& speed) {
   for (Index i = piece.first; i + 2 < piece.first + piece.count; ++i) {
     if (m.velocity[i] != 0) continue;
@@ -168,8 +168,8 @@ void PassRest(const Measurements& m, const SampleRange& piece, VectorXd& speed) 
   }
 }
 
-/// Segments of a selection whose positions change by less than half, or by more than one and a half times, what their
-/// speed has them: rests of a column with an offset, and creeping.
+/// Segments of a selection whose positions change by less than half, or by more than one and a half times, of the path by their
+/// speed: rests of a column with an offset, and creeping.
 std::vector<Segment> ContradictedSegments(const Measurements& m, const Selection& selection) {
   std::vector<Segment> contradicted;
   if (m.position_integrated || m.position.size() != m.size()) return contradicted;
@@ -193,7 +193,7 @@ BetweenSamples MeansBetween(const Measurements& m, const std::vector<SampleRange
                             double clear) {
   BetweenSamples between{m.velocity.cwiseAbs(), m.velocity};
   const bool has_positions = m.position.size() == m.size() && m.position.allFinite();
-  // straight lines between the velocities, scaled to the path of the positions; what rest hides last
+  // straight lines between the velocities, scaled to the path of the positions; the paths next to rests come last
   for (const SampleRange& piece : pieces) {
     for (Index i = piece.first; i + 1 < piece.first + piece.count; ++i) {
       TakeLine(m.velocity, i, between);
@@ -213,7 +213,7 @@ double ClearSpeed(const Measurements& m) {
 
 namespace {
 
-/// By differences where noise allows them, else by polynomials over as many samples as it takes.
+/// The motion by differences where noise allows them, else by polynomials over as many samples as are needed.
 LocalMotion MotionOf(const Measurements& m, const std::vector<SampleRange>& pieces,
                      MotionSource source) {
   std::optional<LocalMotion> motion;
@@ -221,8 +221,8 @@ LocalMotion MotionOf(const Measurements& m, const std::vector<SampleRange>& piec
   return motion ? *std::move(motion) : FollowLocally(m, pieces, source);
 }
 
-/// What a joint moves from sample i to sample j, where it turns, if it keeps its speeds up to the turn, beyond what straight lines
-/// between the velocities have it move, rad or m.
+/// The path from sample i to sample j, where the joint turns, if it keeps its speeds up to the turn, less the path by straight
+/// lines between the velocities, rad or m.
 double HiddenPath(const Measurements& m, const VectorXd& velocity, Index i, Index j) {
   double lines = 0, moved = 0;
   for (Index k = i; k < j; ++k) {
@@ -236,7 +236,7 @@ double HiddenPath(const Measurements& m, const VectorXd& velocity, Index i, Inde
   return std::max(std::abs(from) * turn + std::abs(to) * (span - turn) - lines, 0.0);
 }
 
-/// Share of a log's path that is hidden so where it turns and no polynomial follows it.
+/// Share of a log's path that is hidden in that way at turns which no polynomial follows.
 double UnresolvedTurns(const Measurements& m, MotionSource source) {
   const std::vector<SampleRange> pieces = PiecesOf(m.time);
   const LocalMotion motion = MotionOf(m, pieces, source);
@@ -271,7 +271,7 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
   m.mean_speed = between.mean_speed;
   m.loss_velocity = between.loss_velocity;
 
-  // samples that move clearly, between neighbours that move alike
+  // samples at which the joint clearly moves, between neighbours that move in the same direction
   auto& keep = view.selection.keep;
   keep = motion.known && m.velocity.array().abs() > clear;
   for (const auto& [first, count] : pieces) {
@@ -301,10 +301,10 @@ FollowedMotion FollowMotion(const Measurements& m, MotionSource source) {
   if (source == MotionSource::positions || m.position_integrated) return followed;
   const auto column = CompareColumn(m);
   if (!column || !(column->IsLate() || column->IsOff())) return followed;
-  // what moves shows without the offset
+  // without the offset the samples in motion can be seen
   Measurements still = m;
   if (column->IsOff()) still.velocity.array() -= column->offset;
-  // coarse positions tell little of the acceleration: of few samples that move by them
+  // coarse positions show little of the acceleration, and leave few of the samples in motion
   LogView by_positions = ViewMotion(still, MotionSource::positions);
   const auto moving = static_cast<double>(
       (by_positions.measurements.velocity.array().abs() > ClearSpeed(still)).count());

@@ -8,8 +8,8 @@
 
 namespace warmjoint {
 
-/// The speed from which on a sample moves clearly: 5 % of the velocity's root mean square, above its
-/// noise five times and above one and a half of its resolution. rad/s or m/s
+/// The speed from which on a joint clearly moves: 5 % of the velocity's root mean square, above its
+/// five times its noise and above one and a half of its resolution. rad/s or m/s
 double ClearSpeed(const Measurements& measurements);
 
 /// Means from each sample to the next of its piece; of the last one |v| and v. rad/s or m/s
@@ -21,10 +21,10 @@ struct BetweenSamples {
 /// Viscous friction loses kv v^2 and Coulomb friction kc |v|, so that both means give the loss of a
 /// force that is a straight line over speed. The velocity is a straight line between samples, which
 /// turns where it passes 0. While the joint moves clearly in one direction, its path is that of the positions,
-/// to which all is scaled: speeds that bend or jump between samples cost nothing. Where the
+/// to which all is scaled, so that speeds which bend or jump between samples make no error. Where the
 /// positions are not known or contradict the velocity by more than a factor of 2 they are not used.
 /// A sample at rest has no friction of its own: the path until the next counts with that one.
-/// pieces: of the log without gaps; clear: speed from which on a joint moves clearly, rad/s or m/s.
+/// pieces: of the log without gaps; clear: speed from which on a joint clearly moves, rad/s or m/s.
 BetweenSamples MeansBetween(const Measurements& measurements,
                             const std::vector<SampleRange>& pieces, double clear);
 
@@ -36,9 +36,9 @@ BetweenSamples MeansBetween(const Measurements& measurements,
 /// jumps by a tenth of its root mean square, and four times as far as in the median. No segments.
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 
-/// Whether constant speeds are what a log shows of friction: half or more of what moves clearly is kept in segments whose
-/// positions, where they are known, move at their speed, to a factor of two. Or a tenth of it, where the joint turns between
-/// samples so suddenly that half a per cent of its path or more cannot be followed: holds that noise hides in part.
+/// Whether a log shows friction mainly at constant speeds: half or more of the samples in clear motion are kept in segments
+/// whose positions, where they are known, change at their speed, to a factor of two. Or a tenth of them, where the joint turns
+/// between samples so suddenly that half a per cent of its path or more cannot be followed: holds that noise hides in part.
 bool HoldsSpeeds(const Measurements& measurements, const Selection& selection,
                  MotionSource source = MotionSource::velocity);
 

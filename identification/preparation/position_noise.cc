@@ -31,11 +31,11 @@ double ThirdDifferenceNoise(const VectorXd& x, bool with_zeros) {
   return MedianInPlace(third) / (kNormalMedian * std::sqrt(20.0));
 }
 
-/// The common divisor of ascending steps, each of which is a multiple to kMisfit, or 0. rounding: of what is no step
+/// The common divisor of ascending steps, each of which is a multiple to kMisfit, or 0. rounding: up to which a change is no step
 double CommonDivisor(const double* begin, const double* end, double rounding) {
   double divisor = begin == end ? 0 : *begin;
   for (double left = divisor; left > 0;) {
-    // by what each step misses a multiple, of a divisor that larger steps show more finely
+    // the deviation of each step from a multiple of the divisor, which larger steps determine more finely
     left = 0;
     for (const double* step = begin; step < end; ++step) {
       // rounded by a conversion, which costs less than a call; a step is at most 2 / kLastBits divisors
@@ -47,7 +47,7 @@ double CommonDivisor(const double* begin, const double* end, double rounding) {
         left = beyond;
       }
     }
-    // the divisor of the least of that is one of all
+    // the least deviation that is not rounding is a new divisor of all steps
     if (left > 0) divisor = left > rounding ? left : 0;
     if (divisor == 0) return 0;
   }
@@ -61,14 +61,14 @@ double StepOfPosition(const VectorXd& position) {
   if (n < 1) return 0;
   VectorXd steps = (position.tail(n) - position.head(n)).cwiseAbs();
   const double range = steps.maxCoeff() - steps.minCoeff();
-  // what is not the rounding of numbers, the smallest first
+  // changes that are not the rounding of numbers, the smallest first
   const double rounding = kLastBits * position.cwiseAbs().maxCoeff();
   double* const end = steps.data() + n;
   double* const begin =
       std::partition(steps.data(), end, [&](double step) { return step <= rounding; });
   double* const few = begin + std::min<Index>(kFew, end - begin);
 
-  // what has no divisor shows it by the smallest alone, without the order of all others
+  // the smallest changes alone show that there is no divisor, so the others need not be sorted
   std::nth_element(begin, few, end);
   std::sort(begin, few);
   if (CommonDivisor(begin, few, rounding) == 0) return 0;

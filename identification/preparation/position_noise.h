@@ -1,4 +1,4 @@
-// How finely a log shows where the joint was.
+// Noise and resolution of the positions of a log.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,15 +13,15 @@ struct PositionNoise {
 };
 
 /// Step of a quantised position: the common divisor of its changes by Euclid's algorithm, of which each is a multiple to
-/// 5 %. In a fine rounding of what moves fast, no change is a single step. 0 where there is none, or all are the same
+/// 5 %. With a fine rounding of a fast motion, no change is a single step. 0 where there is none, or all are the same
 /// multiple. position: [N] rad or m, within one recording.
 double StepOfPosition(const Eigen::VectorXd& position);
 
 /// deviation s: median of |third differences| / (0.6745 sqrt(20)), which motion at a constant speed
-/// and most ramps do not touch; but for those that are 0 where q is: some drives log one position all through a rest. Where s <= 1.7 q / sqrt(12), q the resolution, rounding is all the
-/// noise there is: a line through the middle of all counts passes within q / 2 of each, reach is
-/// 0.51 q and the deviation q / sqrt(12). Else reach is 4.5 s: one sample in 150,000 lies further
-/// off by chance. Both are at least 1e-9 of the range, for numbers that are rounded in a file.
+/// and most ramps do not touch; but for those that are 0 where q is: some drives log one position all through a rest. Where s
+/// <= 1.7 q / sqrt(12), q the resolution, rounding is all the noise there is: a line through the middle of all counts passes
+/// within q / 2 of each, reach is 0.51 q and the deviation q / sqrt(12). Else reach is 4.5 s: one sample in 150,000 lies
+/// further off by chance. Both are at least 1e-9 of the range, for numbers that are rounded in a file.
 /// position: [N] rad or m, within one recording.
 PositionNoise MeasurePositionNoise(const Eigen::VectorXd& position);
 /// The same where the resolution is known.
@@ -34,7 +34,7 @@ struct RelativePosition {
   double resolution = 0;  // the same; 0 where it is not quantised
 };
 
-/// What is computed from the steps does not depend on where the sensor has its zero. position: [N]
+/// Positions relative to the first one, in steps, so that results do not depend on the sensor's zero. position: [N]
 /// rad or m, within one recording.
 RelativePosition FromFirst(const Eigen::VectorXd& position);
 

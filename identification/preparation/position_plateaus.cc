@@ -13,11 +13,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kPasses = 3;            // lines and changes of speed, in turn
-constexpr Index kBeside = 10;         // samples of a segment that must follow a change beside it
-constexpr Index kHiddenShare = 6;     // of a segment at each end, as a divisor
-constexpr double kStraight = 2;       // deviations of the positions
-constexpr double kHarmless = 2e-4;    // of the travel of a segment: the path may be off by as much
+constexpr int kPasses = 3;         // lines and changes of speed, in turn
+constexpr Index kBeside = 10;      // samples of a segment that must follow a change next to it
+constexpr Index kHiddenShare = 6;  // of a segment at each end, as a divisor
+constexpr double kStraight = 2;    // deviations of the positions
+// of the travel of a segment: an error of the path that does not matter
+constexpr double kHarmless = 2e-4;
 constexpr double kCertain = 4;        // standard errors
 constexpr double kShareOfEnd = 0.15;  // of a bent segment, whose end a line follows
 constexpr double kMostOfEnd = 0.45;
@@ -25,7 +26,7 @@ constexpr Index kFewestOfEnd = 6;         // samples
 constexpr size_t kFewestRamps = 5;        // that show the acceleration of others
 constexpr double kOneAcceleration = 0.1;  // median deviation, of the acceleration
 
-/// The median acceleration of the ramps that show; nothing where they are few or differ.
+/// The median acceleration of the ramps that samples show; nothing where they are few or differ.
 std::optional<double> OneAcceleration(const std::vector<std::optional<SpeedChange>>& changes) {
   std::vector<double> shown;
   for (const auto& change : changes) {
@@ -33,7 +34,7 @@ std::optional<double> OneAcceleration(const std::vector<std::optional<SpeedChang
   }
   if (shown.size() < kFewestRamps) return std::nullopt;
 
-  // how far they lie from it
+  // their distances from the median
   const double acceleration = MedianOf(shown);
   for (double& one : shown) one = std::abs(one - acceleration);
   if (MedianOf(shown) > kOneAcceleration * acceleration) return std::nullopt;
@@ -41,8 +42,8 @@ std::optional<double> OneAcceleration(const std::vector<std::optional<SpeedChang
 }
 
 /// Gives the changes of speed whose ramp no sample shows the acceleration of those that samples do
-/// show, where that is one: a drive has one limit. A ramp that would reach past a sample would have
-/// shown. time: [N] s; changes: those that were found, with duration 0 where no ramp shows
+/// show, where all of these have about the same, since a drive has one limit. A ramp that reached past a sample would be
+/// seen. time: [N] s; changes: those that were found, with duration 0 where no ramp shows
 void ShareAcceleration(const Eigen::VectorXd& time,
                        std::vector<std::optional<SpeedChange>>& changes) {
   const auto acceleration = OneAcceleration(changes);
@@ -94,7 +95,7 @@ class PlateauSearch {
     found_.plateaus.push_back({segment.begin, segment.end, moves, {}, 0, true});
   }
 
-  /// Samples of a plateau that no change of speed beside it touches: an end at which the change is
+  /// Samples of a plateau that no change of speed next to it touches: an end at which the change is
   /// not known yet is taken to hide some of it.
   std::pair<Index, Index> Untouched(size_t i) const {
     Index first = found_.plateaus[i].begin, last = found_.plateaus[i].end - 1;
@@ -173,7 +174,7 @@ class PlateauSearch {
     return shows ? 2 * bent : 0;
   }
 
-  /// The line of a plateau where it meets the change of speed behind it (or before it): that of its
+  /// The line of a plateau where it meets the change of speed after it (or before it): that of its
   /// end where its positions bend.
   std::optional<StraightLine> LineAtEnd(size_t i, bool behind) const {
     const Plateau& plateau = found_.plateaus[i];
@@ -208,13 +209,13 @@ class PlateauSearch {
     const Index first = std::max((one.begin + one.end) / 2, one.end - beside);
     const Index last = std::min((next.begin + next.end) / 2, next.begin + beside);
 
-    // what positions may be off, at least as much as does not matter compared with the travel of a segment
+    // the error of positions, which is taken to be at least what does not matter compared with the travel of a segment
     PositionNoise noise = found_.noise;
     noise.reach = std::max(noise.reach, kHarmless * std::min(TravelOf(one), TravelOf(next)));
     return FindSpeedChange(time_, found_.position, *before, *behind, first, last, noise);
   }
 
-  /// Lets the plateaus beside a change of speed reach to its margins, or shrink to them.
+  /// Lets the plateaus next to a change of speed reach to its margins, or shrink to them.
   void Extend(size_t i) {
     Plateau &one = found_.plateaus[i], &next = found_.plateaus[i + 1];
     const double until = found_.changes[i]->begin() - found_.changes[i]->margin;
@@ -233,7 +234,7 @@ class PlateauSearch {
     for (size_t i = 0; i < found_.plateaus.size(); ++i) {
       Plateau& plateau = found_.plateaus[i];
       if (!plateau.line || !plateau.is_straight) continue;
-      // as far as its piece and its neighbours let it
+      // up to the ends of its piece and to its neighbours
       const Index lowest = PieceAt(found_.pieces, plateau.begin).first;
       const Index highest = PieceAt(found_.pieces, plateau.end - 1).end();
       const Index before = i > 0 ? found_.plateaus[i - 1].end : 0;

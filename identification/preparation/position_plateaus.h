@@ -29,7 +29,7 @@ struct PositionPlateaus {
   PositionNoise noise;
   SampleMask keep;  // [N] samples of straight lines
   std::vector<Plateau> plateaus;
-  std::vector<std::optional<SpeedChange>> changes;  // behind each plateau but the last
+  std::vector<std::optional<SpeedChange>> changes;  // after each plateau but the last
 };
 
 /// Lines through the positions of segments and rests, and the changes of speed between them, found in turn; then each

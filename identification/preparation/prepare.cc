@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kLargest = 1e30;  // of a velocity; beyond it squares and products overflow
 
-/// What moves at constant speed by the positions alone. The velocity of the log becomes their smoothed slope.
+/// The samples of constant speed by the positions alone. The velocity of the log becomes their smoothed slope.
 ConstantSpeed FindFromPositions(Measurements& m) {
   // in steps of the encoder, so that the choice does not depend on where its zero is
   const auto [steps, step, resolution] = FromFirst(m.position);
@@ -39,8 +39,8 @@ ConstantSpeed FindFromPositions(Measurements& m) {
   return found;
 }
 
-/// Whether the speeds of a log made from positions are those of its velocity column where both call them constant, over
-/// all of them: time stamps that jitter spoil the former. keep: [N] samples of `column`.
+/// Whether the speeds of a log that was made from positions agree with its velocity column, over all samples at which both find
+/// a constant speed. They do not where time stamps jitter, which disturbs the former. keep: [N] samples of `column`.
 bool AgreesOnSpeeds(const LogView& log, const Measurements& column, const SampleMask& keep) {
   double by_column = 0, by_position = 0;
   for (Eigen::Index i = 0; const Eigen::Index n : log.measurements.Logged()) {
@@ -53,15 +53,15 @@ bool AgreesOnSpeeds(const LogView& log, const Measurements& column, const Sample
   return std::abs(by_column - by_position) <= kSameSpeed * by_position;
 }
 
-/// Leaves out what a velocity column that is not believed did not call constant: it may not have
-/// settled there, and a torque that went through the same filter has not either. keep: [N] of the
+/// Leaves out samples at which a velocity column that is not used does not show a constant speed. The column may not have
+/// settled there, and then a torque that went through the same filter has not either. keep: [N] of the
 /// samples that were logged.
 void KeepAlso(const SampleMask& keep, LogView& log) {
   const std::vector<Eigen::Index> logged = log.measurements.Logged();
   log.selection.keep(logged) = log.selection.keep(logged) && keep;
 }
 
-/// That a velocity column is not used. step: of it, rad/s or m/s
+/// The sentence that a velocity column is not used. step: of the column, rad/s or m/s
 std::string SayCoarse(double step, JointKind joint) {
   return fmt::format(
       "the velocity column comes in steps of {:.3g} {}, and the positions show the speeds more "
@@ -69,7 +69,7 @@ std::string SayCoarse(double step, JointKind joint) {
       step, kVelocityUnit.For(joint));
 }
 
-/// That column and positions contradict each other; what is done about it follows.
+/// The beginning of a sentence: column and positions contradict each other.
 std::string SayContradiction(const PathComparison& paths) {
   return fmt::format(
       "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % "
@@ -80,10 +80,10 @@ std::string SayContradiction(const PathComparison& paths) {
 
 }  // namespace
 
-/// Makes the logs that Prepare promises, each of one recording.
+/// Makes the logs that Prepare returns, each of one recording.
 struct PreparedLog::Maker {
-  /// By the velocity column: one velocity for each segment, where noise would take something off the slopes, and a sample
-  /// at each switch of speed. selection: what moves at constant speed, before `holds` leaves some of it out.
+  /// By the velocity column: one velocity for each segment, where noise would attenuate the slopes, and a sample
+  /// at each switch of speed. selection: the samples of constant speed, before `holds` leaves some of them out.
   static Log ByColumn(Measurements measurements, Selection selection,
                       const PrepareSettings& holds) {
     Log log{.raw = {LogSamples(std::move(measurements)), std::move(selection)}};
@@ -103,7 +103,8 @@ struct PreparedLog::Maker {
     return log;
   }
 
-  /// By the positions: what moves by their smoothed slopes, and how by themselves. A velocity column is not looked at.
+  /// By the positions: their smoothed slopes show where the joint moves, and the positions themselves how. A velocity column is
+  /// not looked at.
   static Log ByPositions(Measurements measurements, const PrepareSettings& holds) {
     measurements.notes.emplace_back(
         "velocity computed from the positions, one value for each segment");
@@ -121,8 +122,9 @@ struct PreparedLog::Maker {
     return log;
   }
 
-  /// By the velocity column, compared with the positions: these replace it where it comes in steps so coarse that they show
-  /// it, or contradicts them over its changes of speed, and its changes of speed where they know more of these.
+  /// By the velocity column, compared with the positions. These replace the column where it is so coarse that the positions
+  /// show its steps, or where it contradicts them over its changes of speed. They replace only the changes of speed where they
+  /// determine these better.
   static Log ByBoth(const Measurements& measurements, const PrepareSettings& holds) {
     const ConstantSpeed found = FindConstantSpeed(measurements);
     if (measurements.position_integrated) return ByColumn(measurements, found.selection, holds);
@@ -156,8 +158,8 @@ struct PreparedLog::Maker {
     return log;
   }
 
-  /// Of a log by its column and the same by the positions, which contradict that over its changes of speed, the one to be
-  /// believed: the former where the positions have other speeds than the column between these. keep: [N] of the column.
+  /// Chooses between a log by its column and the same log by the positions, where these contradict the column over its changes
+  /// of speed. It is the former where the positions have other speeds than the column between these changes. keep: [N] of the column.
   static Log InsteadOf(Log column, Log positions, const PathComparison& paths,
                        const SampleMask& keep) {
     const std::string contradiction = SayContradiction(paths);

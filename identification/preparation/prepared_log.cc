@@ -60,7 +60,7 @@ constexpr std::pair<std::optional<Eigen::VectorXd> LogSamples::*, const char*> k
     {&LogSamples::mean_speed, "mean_speed"},
     {&LogSamples::loss_velocity, "loss_velocity"}};
 
-/// Puts a recording behind others. step: s, between their last sample and its first
+/// Appends a recording to others. step: s, between their last sample and its first
 void Append(const LogView& next, double step, LogView& stack) {
   const LogSamples& more = next.measurements;
   LogSamples& all = stack.measurements;
@@ -84,7 +84,7 @@ void Append(const LogView& next, double step, LogView& stack) {
       (all.*column).reset();
     }
   }
-  // what takes part in fits
+  // the samples that take part in fits
   Append(next.selection.keep, stack.selection.keep);
   for (const Segment& segment : next.selection.segments) {
     stack.selection.segments.push_back({segment.begin + n, segment.end + n, segment.velocity});
@@ -121,8 +121,8 @@ void CheckAlike(const Measurements& a, const Measurements& b) {
          b.torque_unit, a.source, a.torque_unit);
 }
 
-/// Over all kept samples whose velocity was averaged: means, and the spread of their speeds within the recordings and from one
-/// to the next.
+/// The velocity noise over all kept samples whose velocity was averaged: means, and the spread of their speeds within the
+/// recordings and from one to the next.
 std::optional<VelocityNoise> MeanNoise(const std::vector<PreparedLog>& recordings) {
   double count = 0, noise = 0, error = 0, speed = 0, square = 0;
   for (const PreparedLog& one : recordings) {
@@ -144,7 +144,7 @@ std::optional<VelocityNoise> MeanNoise(const std::vector<PreparedLog>& recording
   return mean;
 }
 
-/// Of the whole path, the share that no sample shows.
+/// The share of the whole path that no sample shows.
 double UnresolvedPath(const std::vector<PreparedLog>& recordings) {
   double unresolved = 0, path = 0;
   for (const PreparedLog& one : recordings) {
@@ -173,7 +173,7 @@ std::vector<Index> LogSamples::Logged() const {
 }
 
 PreparedLog::PreparedLog(Log log) {
-  // speeds are held whatever --trim leaves of them
+  // whether speeds are held does not depend on --trim
   log.holds_speeds =
       log.holds_speeds || HoldsSpeeds(log.raw.measurements, log.raw.selection, log.source);
   log.without_absurd = LeaveOutAbsurd(log);

@@ -13,10 +13,10 @@ namespace {
 using Eigen::Index;
 
 constexpr double kOtherUnit =
-    0.5;  // of the speed; why: a wrong unit or sign is off by more, a speed cut down to whole steps by less
+    0.5;  // of the speed; why: the error by a wrong unit or sign is larger, that of a speed cut down to whole steps is smaller
 constexpr double kHarmless = 1e-3;  // attenuation, or error of a speed
 constexpr double kCertain = 4;      // standard errors; why 4: by chance 1 in 16 000
-constexpr double kRounding = 1e-6;  // of the mean speed: less is no noise
+constexpr double kRounding = 1e-6;  // of the mean speed: a smaller value is not noise
 
 /// A segment with three kept samples or more: lines through their velocities and positions.
 struct Steady {
@@ -46,7 +46,7 @@ std::vector<Steady> SteadySegments(const Measurements& m, const Selection& selec
     if (!velocity || velocity->samples < 3) continue;
     all.push_back(
         {&segment, *velocity, *position, m.time[segment.end - 1] - m.time[segment.begin]});
-    // an integral of the velocity knows it no better
+    // positions that are an integral of the velocity have no information of their own
     if (m.position_integrated) all.back().position.deviation = kInfinity;
   }
   return all;
@@ -80,7 +80,7 @@ struct Velocity {
   double value = 0, error = 0;
 };
 
-/// By the velocities, and by the positions.
+/// The velocity by the velocities, and by the positions.
 struct TwoVelocities {
   Velocity mean, slope;
 
@@ -103,7 +103,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
   const std::vector<Steady> all = SteadySegments(measurements, selection);
   if (all.empty()) return std::nullopt;
   const Pooled pooled = Pool(all);
-  // nothing to gain where noise is rounding alone, or takes hardly anything off a slope
+  // there is nothing to gain where noise is only rounding, or hardly attenuates a slope
   const double variance = pooled.velocity_noise * pooled.velocity_noise;
   if (!(pooled.velocity_noise > kRounding * pooled.mean_speed) ||
       pooled.Attenuation(variance) <= kHarmless) {
@@ -114,7 +114,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
       measurements.velocity,
       {.noise = pooled.velocity_noise, .mean_speed = pooled.mean_speed, .spread = pooled.spread}};
   double errors = 0;  // of a velocity, mean square over the samples
-  // each segment moves at its own best velocity, and drifts where its slope is beyond doubt
+  // each segment has its own best velocity, which drifts where its slope is beyond doubt
   for (const Steady& one : all) {
     const Velocity velocity = BestVelocity(one, pooled);
     const bool drifts = std::abs(one.velocity.slope) * std::sqrt(one.velocity.spread) >
@@ -126,7 +126,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
       taken.velocity[i] = velocity.value + slope * (measurements.time[i] - one.velocity.time);
     }
   }
-  // what the errors that remain take off a slope
+  // the attenuation of a slope by the errors that remain
   taken.noise.error = std::sqrt(errors);
   taken.noise.FindShares();
   return taken;

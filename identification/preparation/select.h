@@ -5,16 +5,16 @@
 
 namespace warmjoint {
 
-/// Leaves out what the options ask for.
+/// Leaves out the samples that the options ask to leave out.
 void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Selection& selection);
 
-/// What moves at a constant speed, and what stands.
+/// The samples of constant speed, and the rests.
 struct ConstantSpeed {
   Selection selection;
   std::vector<Segment> rests;
 };
 
-/// Keeps the samples that move at a constant speed; rests and accelerations are left out.
+/// Keeps the samples of constant speed; rests and accelerations are left out.
 /// Works on runs of the velocity, so that a jump between two speeds costs no sample.
 ConstantSpeed FindConstantSpeed(const Measurements& measurements);
 

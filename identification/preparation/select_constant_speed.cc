@@ -23,7 +23,7 @@ constexpr double kRobustSpread = 1.16;
 
 // a jump from one speed to the next
 constexpr double kJumpDeviations = 8;   // of the noise
-constexpr double kJumpOverBeside = 10;  // times the changes before and behind it
+constexpr double kJumpOverBeside = 10;  // times the changes before and after it
 constexpr double kClearJump = 0.5;      // of the step between two speeds
 
 // lengths of runs, in samples or as one over the other
@@ -31,8 +31,8 @@ constexpr Index kShortest = 3;      // samples of a hold
 constexpr Index kHandful = 20;      // samples, of which fewer show no ripple
 constexpr Index kCalm = 50;         // one in as many of a run must follow each other settled
 constexpr Index kMuchShorter = 3;   // times: neighbours that are part of an acceleration
-constexpr Index kTurningPoint = 5;  // times shorter than the ramps beside it
-constexpr Index kReversal = 10;     // times shorter than the holds beside it
+constexpr Index kTurningPoint = 5;  // times shorter than the ramps next to it
+constexpr Index kReversal = 10;     // times shorter than the holds next to it
 constexpr Index kOutliers = 10;     // times shorter than the runs that they divide
 constexpr Index kOfTheRamp = 10;    // one in as many of a ramp's samples is cut at each end
 constexpr Index kMostCut = 4;       // but no more than one in as many of the hold
@@ -106,8 +106,8 @@ std::vector<Segment> CutIntoRuns(const Eigen::VectorXd& v, const SampleRange& pi
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
-/// Cuts the ends of a run inwards, to the first few samples in a row that are inside. What strays
-/// between them is left: there the load ripples. Empty where it never settles.
+/// Cuts the ends of a run inwards, to the first few samples in a row that are inside. Samples outside
+/// between them are kept, since they are a ripple by the load. Empty where the run never settles.
 template <typename IsInside>
 void CutInwards(Segment& run, const IsInside& is_inside) {
   const Index calm = std::max(kShortest, 1 + Length(run) / kCalm);  // samples in a row
@@ -125,7 +125,7 @@ void CutInwards(Segment& run, const IsInside& is_inside) {
   run = {begin, end, run.velocity};
 }
 
-/// What is inside around the middle of a run.
+/// The samples of a run that are inside, around its middle.
 template <typename IsInside>
 void CutOutwards(Segment& run, const IsInside& is_inside) {
   const Index middle = (run.begin + run.end) / 2;
@@ -144,7 +144,7 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
   const double spread = SpreadOfStrays((values.array() - run.velocity).abs());
-  // how far a settled speed may stray: by its ripple, noise, level or resolution
+  // the largest deviation of a settled speed: by its ripple, noise, level or resolution
   const double allowed =
       std::max({VelocityScale::kFar * spread, VelocityScale::kNear * scale.noise,
                 kSettled * std::abs(run.velocity), VelocityScale::kLevels * scale.resolution});
@@ -156,8 +156,8 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
   }
 }
 
-/// How far the samples of a hold may lie from its level: the band, which holds what noise there is, or where they spread by
-/// more than chance lets that noise spread, a ripple of the load. A handful of samples shows no ripple. strays: [n] distances
+/// How far the samples of a hold may lie from its level: the band, which covers the noise, or, where they spread by
+/// more than noise does by chance, a ripple by the load. A handful of samples shows no ripple. strays: [n] distances
 double LimitOfStrays(const Eigen::ArrayXd& strays, double level, const VelocityScale& scale) {
   const double band = scale.Band(level);
   const double rippling = VelocityScale::kFar * SpreadOfStrays(strays);
@@ -183,13 +183,12 @@ double Drift(const Segment& run, const Eigen::VectorXd& v) {
   return highest - lowest;
 }
 
-/// Whether a drift is small beside the steepest acceleration of the log.
+/// Whether a drift is small relative to the steepest acceleration of the log.
 bool IsSlow(double drift, const Segment& run, const VelocityScale& scale) {
   return drift <= kSlowly * scale.steepest * static_cast<double>(Length(run)) * scale.step;
 }
 
-/// Whether the speed drifts by more than the noise of those means and what a start may be off the
-/// level, and not slowly.
+/// Whether the speed drifts, not slowly, by more than the noise of those means and the allowed deviation of a start from the level.
 bool Drifts(const Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   const double drift = Drift(run, v);
   const auto independent = static_cast<double>(Length(run) / Parts(run)) / scale.memory;
@@ -223,7 +222,7 @@ std::pair<Index, Index> Gaps(const std::vector<Segment>& runs, std::size_t i, In
   return {runs[i].begin - before, after - runs[i].end};
 }
 
-/// Drops runs much shorter than the accelerations beside them: turning points of the speed.
+/// Drops runs much shorter than the accelerations next to them: turning points of the speed.
 std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Index samples) {
   std::vector<Segment> lasting;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -234,7 +233,7 @@ std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Inde
 }
 
 /// Whether a run leads from one direction of motion to the other: slower than both
-/// neighbours, which move apart, and much shorter than each. A joint that turns under a slow
+/// neighbours, which move in opposite directions, and much shorter than each. A joint that turns under a slow
 /// drive creeps there at a constant speed while its friction still builds up.
 bool TurnsRound(const Segment& before, const Segment& run, const Segment& after) {
   const double slower = std::min(std::abs(before.velocity), std::abs(after.velocity));
@@ -251,7 +250,7 @@ bool Rings(const Segment& run, const Segment& hold, const VelocityScale& scale) 
          std::abs(run.velocity - hold.velocity) <= touching;
 }
 
-/// Drops what only leads from one hold to the next.
+/// Drops runs that only lead from one hold to the next.
 std::vector<Segment> WithoutTransitions(const std::vector<Segment>& runs,
                                         const VelocityScale& scale) {
   std::vector<Segment> lasting;
@@ -300,7 +299,7 @@ void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Sele
   constexpr double rounding = 1e-9;  // s, of time stamps
   std::vector<Segment> left;
   for (const Segment& segment : selection.segments) {
-    // a segment lasts until the sample behind its last
+    // a segment lasts until the sample after its last
     const Index behind = std::min(segment.end, time.size() - 1);
     const double lasts = time[behind] - time[segment.begin];
     Segment kept = segment;
@@ -317,7 +316,7 @@ void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Sele
         --kept.end;
       }
     }
-    // no fit uses what was cut off
+    // samples that were cut off are not fitted
     selection.keep.segment(segment.begin, kept.begin - segment.begin).setConstant(false);
     selection.keep.segment(kept.end, segment.end - kept.end).setConstant(false);
     if (kept.begin < kept.end) left.push_back(kept);

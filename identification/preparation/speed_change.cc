@@ -16,11 +16,11 @@ constexpr double kAlike = 0.01;    // of the greater speed
 constexpr double kWorthARamp = 4;  // squared deviations
 constexpr double kCertain = 4;     // standard errors of the crossing
 constexpr double kLineErrors = 3;  // standard errors of a line
-constexpr int kGrid = 48;          // why: with 72 an answer moves by 0.05 half widths at most
+constexpr int kGrid = 48;          // why: with 72 an answer changes by 0.05 half widths at most
 constexpr int kGolden = 40;
 
 // why: with the margin alone 1 to 4 samples a log of the wrong sign stay
-constexpr double kOfTheChange = 0.1;  // of its duration, beside the margin
+constexpr double kOfTheChange = 0.1;  // of its duration, in addition to the margin
 
 /// The minimum of squares(D) between two durations, one of which may be 0.
 template <typename Function>
@@ -28,7 +28,7 @@ double GoldenSection(double low, double high, const Function& squares) {
   constexpr double share = 2 - std::numbers::phi;
   double left = low + share * (high - low), right = high - share * (high - low);
   double at_left = squares(left), at_right = squares(right);
-  // the interval loses the end beside the larger of two values within it
+  // the interval loses the end next to the larger of two values within it
   for (int i = 0; i < kGolden; ++i) {
     if (at_left < at_right) {
       high = right, right = left, at_right = at_left;
@@ -60,7 +60,7 @@ class AroundCrossing {
       away_.push_back(std::abs(time[i] - jump.time));
       off_.push_back(position[i] - line.At(time[i]));
     }
-    // squares of what no ramp reaches
+    // squares of the positions that no ramp reaches
     beyond_.assign(off_.size() + 1, 0);
     for (size_t i = off_.size(); i > 0; --i) {
       beyond_[i - 1] = beyond_[i] + off_[i - 1] * off_[i - 1];
@@ -107,7 +107,7 @@ double FindDuration(const VectorXd& time, const VectorXd& position, const SpeedC
   return gained > kWorthARamp * deviation * deviation ? refined : 0;
 }
 
-/// Whether each sample lies where the change has it.
+/// Whether each position is that of the change.
 bool Follows(const VectorXd& time, const VectorXd& position, const SpeedChange& change, Index first,
              Index last, const PositionNoise& noise) {
   for (Index i = first; i <= last; ++i) {
@@ -180,7 +180,7 @@ std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd&
   change.duration = FindDuration(time, position, change, first, last, noise.deviation);
   if (!Follows(time, position, change, first, last, noise)) return std::nullopt;
 
-  // how far from the change a sample may still belong to it
+  // the largest distance from the change at which a sample may belong to it
   const double error =
       std::hypot(before.ErrorAt(change.time), behind.ErrorAt(change.time)) / change_of_speed;
   change.margin = std::max({std::sqrt(2 * noise.reach * change.duration / change_of_speed) / 2,

@@ -1,4 +1,4 @@
-// From one constant speed to the next, as the positions show it.
+// The change from one constant speed to the next, as the positions show it.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,9 +49,9 @@ struct SpeedChange {
 ///     p(t) = before(t) + (v1 - v0) / (2 D) (t - begin)^2  within, before(t) and behind(t) outside.
 ///
 /// D is searched on a grid, then by golden section, and stays 0 unless that lowers the squares by
-/// 4 deviations^2. margin: the largest of sqrt(2 reach D / |v1 - v0|) / 2 (the start of a ramp hides
-/// in what positions may be off), reach / |v1 - v0| and four standard errors of the crossing (where
-/// a jump hides), and a tenth of D besides. Nothing where the speeds differ by less than 1 % of the
+/// 4 deviations^2. margin: the largest of sqrt(2 reach D / |v1 - v0|) / 2 (the start of a ramp is hidden
+/// by the error of the positions), reach / |v1 - v0| and four standard errors of the crossing (within which
+/// a jump is hidden), plus a tenth of D. Nothing where the speeds differ by less than 1 % of the
 /// greater, the lines cross outside of the samples first, ..., last, or one of these samples lies
 /// further from p(t) than noise.reach and three standard errors of its line: then the speed changes
 /// in another way.

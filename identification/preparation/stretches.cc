@@ -20,7 +20,8 @@ constexpr double kDeviations = 20;  // why 20: the noise of both ends is 7 % of 
 constexpr double kOneSided =
     0.25;  // of the change; why: at half that speed a joint has not turned round
 constexpr double kOfTheTypical = 0.01;  // of a change; why: less is a creep at rest
-constexpr double kNearlyAll = 0.8;  // why: longer stretches lose what lies around turning points
+// why: longer stretches leave out the samples around turning points
+constexpr double kNearlyAll = 0.8;
 
 /// The pieces of a log between its gaps, and between steps within which a sensor that starts its turn again may hide turns.
 std::vector<SampleRange> UnbrokenPieces(const Measurements& m) {
@@ -37,7 +38,7 @@ std::vector<SampleRange> UnbrokenPieces(const Measurements& m) {
   return CutAt(starts, m.size());
 }
 
-/// All of `count` samples that show a change of `clear` (rad or m) or more.
+/// All stretches of `count` samples that show a change of `clear` (rad or m) or more.
 std::vector<Stretch> StretchesOf(const Measurements& m, Index count, double clear,
                                  const std::vector<SampleRange>& pieces) {
   std::vector<Stretch> stretches;
@@ -53,13 +54,13 @@ std::vector<Stretch> StretchesOf(const Measurements& m, Index count, double clea
   return stretches;
 }
 
-/// Leaves out what goes much less far than is typical.
+/// Leaves out stretches with a much smaller change than the typical one.
 void LeaveOutCreeping(std::vector<Stretch>& stretches) {
   const auto change = [](const Stretch& one) { return std::abs(one.change); };
   std::ranges::sort(stretches, {}, change);
   double all = 0, until = 0;
   for (const Stretch& one : stretches) all += change(one);
-  // half of all that was moved was moved in stretches up to the typical one
+  // half of the whole path was covered in stretches up to the typical one
   const auto typical = std::ranges::find_if(stretches, [&](const Stretch& one) {
     until += change(one);
     return until >= all / 2;

@@ -17,7 +17,7 @@ struct Stretch {
 /// Stretches of equally many samples that do not overlap, chosen by the positions alone, with holds
 /// or without: a quarter to three quarters of the change lie before the middle, the change is 20
 /// deviations of the position's noise or more, and 1 % or more of the typical one (the median, each weighted by
-/// itself, so that rests say nothing). Of 4, 8, 16, ... samples the longest is taken that shows four fifths of
+/// itself, so that rests do not count). Of 4, 8, 16, ... samples the longest is taken that shows four fifths of
 /// the change that the best shows. None spans a gap, or turns that a sensor may hide between samples.
 std::vector<Stretch> FindStretches(const Measurements& measurements);
 

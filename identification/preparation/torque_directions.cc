@@ -39,7 +39,7 @@ struct Cell {
   double Mean() const { return 0.5 * (ahead + back); }
 };
 
-/// Those with samples of both directions, by place and speed.
+/// The cells with samples of both directions, by place and speed.
 using Cells = std::map<std::pair<Index, Index>, Cell>;
 
 Cells FindCells(const Measurements& m) {
@@ -67,8 +67,8 @@ Cells FindCells(const Measurements& m) {
   return cells;
 }
 
-/// Whether speed moves the mean of both directions by more than their difference, in three places of four: friction is
-/// in the difference, and gravity, which is in the mean, knows no speed.
+/// Whether speed changes the mean of both directions by more than their difference, in three places of four: friction is
+/// in the difference, and gravity, which is in the mean, does not depend on speed.
 bool MeanGrows(const Cells& cells) {
   double pairs = 0, grow = 0;
   for (auto slow = cells.begin(), fast = slow; slow != cells.end(); slow = fast) {
@@ -106,7 +106,8 @@ std::optional<std::string> TorqueDirections(const Measurements& m, const Selecti
   const double against = share((differences.array() < 0).count());
   const double difference = MedianInPlace(differences), mean = MedianInPlace(means);
 
-  // of one sign: friction pushes, or speed changes the weight, or friction is the weight
+  // torque of one sign is a fault where friction would drive the joint, where the mean grows with speed, or where it is about
+  // the difference
   const auto rarer = std::min((m.torque.array() > 0).count(), (m.torque.array() < 0).count());
   const bool one_sign = static_cast<double>(rarer) <= kOtherSign * static_cast<double>(m.size());
   const bool grows = one_sign && MeanGrows(cells);

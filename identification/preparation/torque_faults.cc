@@ -24,13 +24,13 @@ struct ConstantRun {
   Index kept = 0;            // of them, how many are kept
 };
 
-/// What neighbouring samples, both kept, say of the torque. Long runs do not count in the shares.
+/// Figures of the torque from neighbouring samples that are both kept. Long runs do not count in the shares.
 struct TorqueNoiseStatistics {
   double equal = 0;  // share of the neighbours that differ by 1e-6 of the largest |torque| at most
   double turning = 0;  // share of the samples above or below both neighbours; 2/3 in white noise
   std::vector<ConstantRun> long_runs;  // that keep kLongRun samples or more
 
-  /// Whether torque goes up and down as noise does; what is smooth or stays in steps does not.
+  /// Whether torque goes up and down as noise does; a smooth one and one in steps do not.
   bool IsNoisy() const { return turning > 0.2; }
 };
 
@@ -108,7 +108,7 @@ constexpr Index kRun = 3;         // samples in a row; why: noise puts none ther
 constexpr Index kBins = 8;  // of speed; why: a quarter of the log owns fewer than half of them
 constexpr Index kSameStretch = 10;  // samples; why: fewer between two make them no other event
 
-/// Kept samples whose torque, times `sign`, lies farthest on that side.
+/// Kept samples with the largest value of torque times `sign`.
 struct Pile {
   double value = -kInfinity;  // sign * torque
   double next = -kInfinity;   // the value next to it
@@ -246,7 +246,7 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
   }
   if (drops < kDrops) return std::nullopt;
 
-  // what else is near 0, and how many have the smallest size
+  // the number of other samples near 0, and of those with the smallest size
   double sum = 0, smallest = kInfinity;
   for (Index i = 0; i < torque.size(); ++i) {
     if (!selection.keep[i] || torque[i] == 0) continue;
@@ -268,7 +268,7 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
 }
 
 SampleMask AbsurdTorque(const Measurements& m, const Selection& selection) {
-  // what a fit takes; a torque of 0 is one of a motor that is off
+  // the samples that a fit takes; a torque of 0 is that of a motor which is switched off
   const bool holds = HoldsSpeeds(m, selection);
   const double clear = ClearSpeed(m);
   std::vector<Index> taken;
@@ -282,7 +282,7 @@ SampleMask AbsurdTorque(const Measurements& m, const Selection& selection) {
   VectorXd times = VectorXd::Zero(m.size());
   times(taken) = size.cwiseQuotient(TypicalOver(speed, size)) / (holds ? 1 : kTransient);
 
-  // far off for good, or with others
+  // far from typical by itself, or together with others
   SampleMask absurd = SampleMask::Constant(m.size(), false);
   const auto far = (times.array() > kFarOff).count();
   const bool many = static_cast<double>(far) >= kMany * static_cast<double>(taken.size());

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 // SplitAtSwitches
 constexpr double kLeastChange = 0.1;  // of the velocity's rms
 constexpr double kSteady =
-    0.25;  // of the change, before and behind; why: with 0.17 or 0.38 64 logs are covered as well
+    0.25;  // of the change, before and after it; why: with 0.17 or 0.38 64 logs are covered as well
 constexpr double kInside = 1e-6;  // of an interval: a switch nearer to a sample is at it
 
 // ComparePaths
@@ -28,12 +28,12 @@ constexpr int kFewest = 8;          // transitions
 // ReplaceTransitions
 constexpr double kBehind = 1e-6;  // of a step
 
-/// The column with the value behind each sample put in at it. [N + inserted]
+/// The column with a value for each sample put in, a copy of the value after it. [N + inserted]
 template <typename Column>
 Column Filled(const Column& column, const std::vector<InsertedSample>& inserted) {
   Column filled(column.size() + static_cast<Index>(inserted.size()));
   Index from = 0, to = 0;
-  // all up to the sample in front, then a copy of the one behind it
+  // all up to the sample in front, then a copy of the one after it
   for (const InsertedSample& one : inserted) {
     const Index count = one.after + 1 - from;
     filled.segment(to, count) = column.segment(from, count);
@@ -45,7 +45,7 @@ Column Filled(const Column& column, const std::vector<InsertedSample>& inserted)
   return filled;
 }
 
-/// Whether the change of speed behind sample n stands alone: no ramp that the samples show.
+/// Whether the change of speed after sample n is a single step, not part of a ramp that the samples show.
 bool StandsAlone(const VectorXd& v, Index n) {
   const double before = n > 0 ? std::abs(v[n] - v[n - 1]) : 0;
   const double behind = n + 2 < v.size() ? std::abs(v[n + 2] - v[n + 1]) : 0;
@@ -111,7 +111,7 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
   ForEachColumn(log, [&](Eigen::VectorXd& column) { column = Filled(column, inserted); });
   selection.keep = Filled(selection.keep, inserted);
 
-  // what is put in: when, where, and that no fit sees it
+  // the samples that are put in: their times and places, and that they are not fitted
   for (size_t i = 0; i < inserted.size(); ++i) {
     const InsertedSample& one = inserted[i];
     const Index n = one.after + 1 + static_cast<Index>(i);
@@ -125,7 +125,7 @@ void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& view) {
         (*motor)[one.after] + log.gear * (one.position - position[one.after]);
   }
 
-  // where the samples that were taken stand now
+  // the new places of the samples that were taken
   const auto moved = [&](Index n) {
     const auto behind = std::ranges::lower_bound(inserted, n, {}, &InsertedSample::after);
     return n + (behind - inserted.begin());
@@ -157,7 +157,7 @@ std::optional<FilledLog> SplitAtSwitches(const LogView& log) {
     if (std::abs(v1 - v0) <= kLeastChange * rms || h > longest) continue;
     // one step changes the speed, those around it do not
     if (!StandsAlone(m.velocity, n)) continue;
-    // v0 until the switch and v1 behind it must make the distance between the samples
+    // v0 until the switch and v1 after it must make the distance between the samples
     const double s = (m.position[n + 1] - m.position[n] - v1 * h) / (v0 - v1);
     if (!(s > kInside * h && s < (1 - kInside) * h)) continue;
     switches.push_back({n, m.time[n] + s, m.position[n] + s * v0, v1});
@@ -231,7 +231,7 @@ LogView ReplaceTransitions(const LogView& taken, const LogSamples& by_velocity,
                  position = by_position.velocity(by_position.Logged());
   const SampleMask on = OnTransitions(transitions, velocity, m.time);
 
-  // what each version puts in where it is believed, but nothing within a segment
+  // the samples that each version puts in where it is used, but none within a segment
   std::set<Index> begins;
   for (const Segment& segment : selection.segments) begins.insert(segment.begin);
   const auto is_within = [&](Index n) {
@@ -246,12 +246,12 @@ LogView ReplaceTransitions(const LogView& taken, const LogSamples& by_velocity,
   add(by_velocity, false);
   add(by_position, true);
 
-  // the speeds of the samples; right behind the last of a segment the speed changes
+  // the speeds of the samples; right after the last of a segment the speed changes
   LogView log = taken;
   for (Index n = 0; n < m.size(); ++n) {
     const bool changes = on[n] && !selection.keep[n];
     log.measurements.velocity[n] = (changes ? position : velocity)[n];
-    // where the positions are believed, a segment is left right behind its last sample
+    // where the positions are used, a segment ends right after its last sample
     if (!on[n] || changes || n + 1 == m.size() || selection.keep[n + 1]) continue;
     const double behind = m.time[n] + kBehind * (m.time[n + 1] - m.time[n]);
     inserted.push_back({n, behind, m.position[n], position[n]});

@@ -1,4 +1,5 @@
-// From one segment to the next: samples put in, for what a velocity column lacks of a change of speed and the positions know.
+// The path from one segment to the next: samples put in for the part of a change of speed that the positions show and a
+// velocity column lacks.
 #pragma once
 
 #include <warmjoint/prepared_log.h>
@@ -19,19 +20,19 @@ struct InsertedSample {
 /// A log with samples put in.
 struct FilledLog {
   LogView view;
-  /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would
+  /// The largest share of the path that a drive which takes time to reverse would
   /// not have travelled (PreparedLog::unresolved_path).
   double unresolved_path = 0;
   double position_deviation = 0;  // rad or m, of positions that made it
 };
 
 /// Puts samples into a log that has none put in, ascending in time: with the torque and the other
-/// columns of the sample behind, and not kept, so that the thermal filter alone sees them. Segments
+/// columns of the sample after them, and not kept, so that only the thermal filter sees them. Segments
 /// keep their samples.
 void InsertSamples(const std::vector<InsertedSample>& inserted, LogView& log);
 
-/// Most of the path, rad or m, that a reversal from v0 to v1 may lack which is taken for a switch: a
-/// ramp that no sample shows lasts twice the time to the nearer sample at most. nearer: that time, s;
+/// The largest part of the path, rad or m, that a reversal from v0 to v1 may lack where it is taken for a switch: a
+/// ramp that no sample shows lasts at most twice the time to the nearer sample. nearer: that time, s;
 /// v0, v1: rad/s or m/s. 0 where the speed does not turn.
 double UnresolvedAt(double v0, double v1, double nearer);
 
@@ -41,7 +42,7 @@ double HeldPath(const Measurements& measurements);
 /// A thermal filter holds the loss of each sample until the next one. Where the speed changes
 /// between two samples at v0 and v1, that charges the rest of the old speed and none of the new
 /// one. The positions show when it changed: a switch at t0 + s, v0 s + v1 (h - s) = p1 - p0, gets a
-/// sample of its own, with the speed and the torque of the sample behind it. Nothing is put in
+/// sample of its own, with the speed and the torque of the sample after it. Nothing is put in
 /// where the speed changes by less than a tenth of its rms or in a ramp that samples show, where
 /// the positions contradict the speeds (s outside of the interval), or across a gap. A reversal may
 /// hide a ramp of duration D, at most twice the time to the nearer sample, that loses D v0 v1 / (v0 + v1)
@@ -68,7 +69,7 @@ struct PathComparison {
 /// Compares two versions of one log, each with the velocity held until the next sample:
 /// `by_velocity` by its velocity column, `by_position` by its positions (motion_from_positions.h).
 /// Transitions count where both agree on the speeds of their two segments to 2 %, so that a position
-/// that is stuck or wrapped for a while says nothing, and where no gap lies between. segments: of the
+/// that is stuck or wrapped for a while does not count, and where no gap lies between. segments: of the
 /// log as it was taken, whose sample times are `time`. Nothing with fewer than 8 transitions.
 std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
                                            const Measurements& by_position,
@@ -76,20 +77,20 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
                                            const Measurements& taken);
 
 /// Whether the positions contradict the velocity column: the paths differ by more than 0.1 %, which
-/// moves the thermal gain by as much, and by more than four standard errors.
+/// biases the thermal gain by as much, and by more than four standard errors.
 bool Contradicts(const PathComparison& paths);
 
-/// Whether the positions know the transitions better than the velocity column does, which knows nothing of what the speed
-/// does between two samples. Where a speed turns, the path is twice as uncertain as the position s of a sample, so that
+/// Whether the positions determine the transitions better than the velocity column does, which does not show how the speed
+/// changes between two samples. Where a speed turns, the path is twice as uncertain as the position s of a sample, so that
 /// the mean square D of the differences has 4 s^2 from the positions and D - 4 s^2 from the column: D > 8 s^2. Where the
 /// two differ by less than 0.01 % of a transition's length, no interval is narrow enough to show it. deviation: s, rad or m
 bool PositionsTellMore(const PathComparison& paths, double deviation);
 
 /// A log with samples put in, `by_velocity`, where the path of each of the transitions becomes that of another one,
 /// `by_position`: the samples of a transition that are not kept have the velocity of the latter, and the samples put in
-/// are its samples, with one right behind the last sample of a segment; nothing is put in within one. So the losses of a
+/// are its samples, with one right after the last sample of a segment; nothing is put in within one. So the losses of a
 /// change of speed are those of its path, whatever the velocity does between two samples. Transitions whose difference is
-/// larger than samples can hide, one step at the change of speed, stay as they are: there one of the two is spoilt.
+/// larger than samples can hide, one step at the change of speed, stay as they are, since one of the two is faulty there.
 /// taken: the N samples that both have; its selection is that of the result, with the samples put in not kept.
 /// by_velocity, by_position: of SplitAtSwitches and of motion_from_positions.h
 LogView ReplaceTransitions(const LogView& taken, const LogSamples& by_velocity,

@@ -18,14 +18,14 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kTolerance = 0.02;  // of the factor; why: viscous moves by as much, --relevance
+constexpr double kTolerance = 0.02;  // of the factor; why: viscous changes by as much, --relevance
 constexpr double kOneDirection =
-    0.1;  // why: an offset of the column moves them apart, and friction by less than that
+    0.1;  // why: an offset of the column makes the directions differ, and changes the friction by less than that
 constexpr double kCertain = 4;      // standard errors of the median; why: 1 in 16 000 by chance
 constexpr std::size_t kFewest = 8;  // stretches; why: a median of fewer has no known error
 constexpr double kOther = 0.5;  // of a factor; why: stale positions and lags at turns stay within
 constexpr double kMostChange =
-    3;  // why: fast stretches know a factor best, but a few that are wrong must not decide
+    3;  // why: fast stretches determine a factor best, but a few that are wrong must not decide
 constexpr std::size_t kRow = 3;       // stretches; why: a turn spoils one or two
 constexpr double kSameFactor = 0.03;  // between a ratio and the factor of a unit
 constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
@@ -34,7 +34,7 @@ constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
 struct Factor {
   double times = 1;                       // where the velocity does not change
   double error = 0;                       // standard error
-  double allowed = 0;                     // by which a right column may be off
+  double allowed = 0;                     // error that a correct column may have
   double by_column = 0, by_position = 0;  // median velocities, rad/s or m/s
   std::vector<Stretch> others;            // three or more in a row with another factor
 
@@ -67,8 +67,8 @@ double Integral(const Measurements& m, const Stretch& one) {
   return integral;
 }
 
-/// What a jump of speed within a step may make of a ratio, half of the largest change of velocity times the step over
-/// the change, and stamps that jitter, the spread of the steps over the duration.
+/// The error of a ratio by a jump of speed within a step, half of the largest change of velocity times the step over
+/// the change, and by time stamps that jitter, the spread of the steps over the duration.
 double Unsure(const Measurements& m, const Stretch& one) {
   const Index n = one.last - one.first;
   const VectorXd steps = m.time.segment(one.first + 1, n) - m.time.segment(one.first, n);
@@ -102,8 +102,8 @@ double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
 
 /// A column that lags by c has ratio = times + c bend, bend = change of velocity / change of
 /// position: `times` from the half of the stretches with the least bend, c from the others. A filter
-/// with that c passes (c bend)^2 less, a delay half of it, and trapezoids of a step h are
-/// (h bend)^2 / 12 off; a column in coarse steps may err by one, as far as the
+/// with that c passes (c bend)^2 less, a delay half of it, and trapezoids of a step h have an error of
+/// (h bend)^2 / 12. A column in coarse steps may have an error of one step, as far as the
 /// ratios scatter by it.
 Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const auto n = static_cast<Index>(stretches.size());
@@ -132,7 +132,7 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
                 own = std::abs(factor.times) * change.abs();
   factor.others = InARow(stretches, off > kOther * own && off > MedianOf(own));
 
-  // what a lag, long steps and a coarse column take off a right one
+  // the error of a correct column by a lag, long steps and coarse values
   const SampleMask bent = bend.abs() >= typical && bend != 0;
   const double lag = MedianOf(Chosen((ratio - factor.times) / bend, bent));
   const double step = MedianStep(m.time);
@@ -178,7 +178,7 @@ std::string Suspect(const Measurements& m, double times) {
 
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
                                                    const Selection&) {
-  // a column in coarse steps does not know speeds of a step or two
+  // a column in coarse steps does not show speeds of a step or two
   std::vector<Stretch> all = FindStretches(measurements);
   const double least = 2 * Resolution(measurements.velocity);
   std::erase_if(all,
@@ -190,7 +190,7 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
   constexpr const char* remedy =
       "leave the velocity out (--map velocity=), and it is taken from the positions";
 
-  // one direction may be spoilt by itself
+  // one direction may be wrong by itself
   if (std::min(forwards.size(), backwards.size()) >= kFewest) {
     const Factor ahead = FactorOf(measurements, forwards), back = FactorOf(measurements, backwards);
     const bool is_ahead = ahead.IsOff(kOneDirection);

@@ -38,7 +38,7 @@ void MeasureNoise(const Eigen::VectorXd& v, VelocityScale& scale) {
       before = spread;
       continue;
     }
-    // a memory is believed only of noise that is small beside the speed
+    // a memory is accepted only for noise that is small relative to the speed
     if (lag > 2 && before <= largest * scale.rms) {
       scale.noise = before;
       scale.memory = static_cast<double>(lag) / 2;

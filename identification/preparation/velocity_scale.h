@@ -1,4 +1,4 @@
-// What a velocity signal itself says about its noise, its resolution and its accelerations.
+// Noise, resolution and accelerations of a velocity signal, estimated from the signal itself.
 #pragma once
 
 #include <warmjoint/recording.h>
@@ -8,15 +8,15 @@ namespace warmjoint {
 /// Scales that distinguish a constant speed from an acceleration, read from the log, so that no threshold
 /// has a unit.
 struct VelocityScale {
-  // how far a sample may lie from a speed; the largest of noise, share and resolution counts
+  // the largest distance of a sample from a speed; the largest of noise, share and resolution counts
   static constexpr double kFar = 4;       // deviations of the noise: 1 in 16 000 lies further
-  static constexpr double kNear = 3;      // the same for what is at rest, or has settled: 1 in 370
-  static constexpr double kBand = 0.02;   // of the speed: what a hold may stray
+  static constexpr double kNear = 3;      // the same for samples at rest, or settled ones: 1 in 370
+  static constexpr double kBand = 0.02;   // of the speed: the allowed deviation of a hold
   static constexpr double kLevels = 1.5;  // steps of a quantised velocity: to the neighbouring one
 
   double rms = 0;         // root mean square of the velocity, rad/s or m/s
   double noise = 0;       // standard deviation around constant speeds, rad/s or m/s
-  double memory = 1;      // samples after which that noise is a new one
+  double memory = 1;      // samples after which that noise is no longer correlated
   double resolution = 0;  // step of a quantised velocity, rad/s or m/s; 0 where it is not quantised
   double steepest = 0;    // largest acceleration, rad/s^2 or m/s^2
   double step = 0;        // median time between samples, s

@@ -37,8 +37,8 @@ Eigen::Vector2d EndAlong(const LogSamples& m, const Friction& friction, const Th
 /// Errors of figures.
 struct FigureErrors {
   Eigen::MatrixXd covariance;  // [q x q] by noise
-  Eigen::VectorXd widened;  // [q] how much farther their intervals reach by what the verdict found
-  bool has_intervals = true;  // whether every parameter that matters has an interval
+  Eigen::VectorXd widened;     // [q] by how much the verdict widens their intervals
+  bool has_intervals = true;   // whether every parameter that matters has an interval
 };
 
 /// An estimated row of the table: its place there, among the estimated ones, and among those of its role.
@@ -48,7 +48,7 @@ struct EstimatedRow {
   size_t jump = 0;  // of a row that is one
 };
 
-/// Those that friction and start depend on: gravity, inertia and a lag of the torque leave them as they are.
+/// The rows that friction and start depend on. They do not depend on gravity, inertia and a lag of the torque.
 std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
   std::vector<EstimatedRow> rows;
   EstimatedRow at;
@@ -99,7 +99,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
   return slopes;
 }
 
-/// From the covariance of the parameters, to first order. slopes: [q x p], over the coordinates.
+/// The errors of figures from the covariance of the parameters, to first order. slopes: [q x p], over the coordinates.
 FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
                             const Eigen::MatrixXd& slopes) {
   FigureErrors errors{slopes * inference.uncertainty.covariance * slopes.transpose(),
@@ -141,10 +141,10 @@ void Move(double shift, double widened, EstimatedParameter& parameter) {
 
 /// thermal_gain_discrete (ke) and thermal_pole (te) for a sampling interval h (s). Their standard
 /// deviations follow those of (k, ln tau) to first order; the interval of te is that of ln tau, so
-/// that it stays between 0 and 1; both reach as far as those of k and tau were widened. Without
+/// that it stays between 0 and 1. Both intervals are widened as those of k and tau were. There are no
 /// intervals where k and tau have none.
 std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& inference, double h) {
-  // k and tau as they were fitted, and what they are over one sampling interval
+  // k and tau as they were fitted, and the discrete pair of one sampling interval
   const size_t gain_row = *fit.RowOf(Role::heat, 0), tau_row = *fit.RowOf(Role::heat, 1);
   const Thermal fitted{fit.parameters[gain_row].value, fit.parameters[tau_row].value};
   const ParameterInterval& known_gain = inference.parameters[gain_row];
@@ -172,10 +172,10 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
                         std::exp(-h / (fitted.time_constant * factor))}};
   }
 
-  // what the verdict moved
+  // what the verdict changed
   const Thermal now{known_gain.value, known_tau.value};
   const DiscreteThermal moved = Discretise(now, h);
-  // dte/dtau = te h/tau^2 carries what widened tau to te
+  // the widening of tau times dte/dtau = te h/tau^2 is that of te
   const double pole_reach = moved.pole * h / std::pow(now.time_constant, 2) * known_tau.widened;
   Move(moved.pole - discrete.pole, pole_reach, pole);
   Move(moved.gain - discrete.gain,
@@ -183,7 +183,7 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   return {gain, pole};
 }
 
-/// All rows that have a name; the discrete pair stands behind gain and time constant.
+/// All rows that have a name; the discrete pair follows gain and time constant.
 std::vector<EstimatedParameter> ParametersOf(const Fit& fit, const Inference& inference, double h) {
   std::vector<EstimatedParameter> all;
   const std::optional<size_t> tau = fit.RowOf(Role::heat, 1);
@@ -204,10 +204,10 @@ TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
   TraceEntry entry{iterate.iteration, {}, iterate.rmse};
   const std::optional<size_t> gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1);
   for (size_t i = 0; i < iterate.values.size(); ++i) {
-    // what is not known yet has no place in the entry
+    // values that are not known yet are left out of the entry
     if (std::isnan(iterate.values[i])) continue;
     entry.parameters.emplace_back(fit.parameters[i].name, iterate.values[i]);
-    // the discrete pair stands there for fits, not for the samples of a filter
+    // the discrete pair is listed for fits, not for the samples of a filter
     if (tau != i || iterate.energy) continue;
     const DiscreteThermal discrete = Discretise({iterate.values[*gain], iterate.values[i]}, h);
     entry.parameters.emplace_back(kDiscreteGainName, discrete.gain);
@@ -235,7 +235,7 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   return of;
 }
 
-/// What the half widths of intervals are made of, of each that has several parts.
+/// The parts of the half widths of intervals, for each that has several parts.
 std::vector<HalfWidthPart> HalfWidths(const Fit& fit, const Inference& inference) {
   std::vector<HalfWidthPart> all;
   const auto add = [&](const std::string& name, const std::vector<WidthPart>& parts) {
@@ -252,7 +252,7 @@ std::vector<HalfWidthPart> HalfWidths(const Fit& fit, const Inference& inference
   return all;
 }
 
-/// Moves a figure by what the causes did to the law's parameters. by_law: [d] its derivatives by these, which come first in
+/// Changes a figure by the causes' changes of the law's parameters. by_law: [d] its derivatives by these, which come first in
 /// the table
 void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double& value,
            std::array<double, 2>& interval) {
@@ -293,7 +293,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   } else {
     slopes = SlopesByDifferences(fit, inference, friction, m);
   }
-  // a verdict may have moved parameters
+  // a verdict may have changed parameters
   const bool is_as_fitted = std::ranges::equal(inference.parameters, fit.parameters, {},
                                                &ParameterInterval::value, &FitParameter::value);
   if (!fit.end_energy || !is_as_fitted) end = EndAlong(m, friction, fit.Start());
@@ -306,7 +306,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   for (int stage = 0; stage < (friction.second_thermal ? 2 : 1); ++stage) {
     EstimatedParameter one{
         stage == 0 ? "energy" : "second_energy", end[stage], m.torque_unit, {}, {}};
-    // from the fit where its table does not hold all that E depends on, else from the parameters
+    // the error is from the fit where its table lacks something that E depends on, else from the parameters
     const double deviation =
         fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
     const bool has_interval = fit.end_energy_std ? HasIntervals(inference) : errors.has_intervals;
@@ -352,13 +352,13 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const PreparedLog
 
 Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples& measurements,
                    RefusedNumbers numbers) {
-  // who answers, with which status, and why
+  // the identifier, the status and the message
   Estimate estimate;
   estimate.identifier = fit.identifier;
   estimate.choice = fit.choice;
   ReportVerdict(inference, estimate);
 
-  // how the fit came to rest
+  // the iterations of the fit
   const double h = MedianStep(measurements.time);
   for (const Iterate& iterate : fit.trace) {
     estimate.trace.push_back(EntryOf(fit, iterate, h));
@@ -376,7 +376,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples&
   estimate.gravity = fit.gravity;
   if (!shown.gives_friction) return estimate;
 
-  // and what can be used elsewhere
+  // and the friction and gravity, which other programs can use
   estimate.friction = ReportedFriction(fit, shown);
   estimate.bands = BandsOf(fit, shown);
   if (!inference.gives_friction) return estimate;

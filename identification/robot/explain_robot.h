@@ -1,4 +1,4 @@
-// The sentences about the joints of a robot. Their numbers and conditions come from where a row (Cause) is made.
+// The sentences about the joints of a robot. The code that makes a row (Cause) brings their numbers and conditions.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -11,7 +11,7 @@ namespace warmjoint {
 struct JointColumns;
 struct JointFit;
 
-/// What was done: a clause that begins the message.
+/// The summary of a joint's fit: a clause that begins the message.
 std::string SummaryOfJoint(const JointFit& fit, const JointColumns& columns);
 
 // why a joint has no numbers. travel: rad or m; counts of samples
@@ -25,7 +25,7 @@ std::string ExplainUntold(double level, double reach, const std::string& unit);
 std::string ExplainResidual(double left, double friction, const std::string& unit);
 std::string ExplainWorseHeldOut(double with, double without, const std::string& unit);
 
-// what is to be known beside them
+// what a reader has to know in addition to the numbers
 std::string ExplainTurnedTorque(const std::string& joint);
 std::string ExplainTurnedSign(const std::string& joint);
 std::string ExplainUnknownGain(const std::string& joint);

@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kTries = 8;
-constexpr double kShare = 30;  // of the log: what cools faster follows the motion, not its losses
+// of the log: a faster time constant would follow the motion, not its losses
+constexpr double kShare = 30;
 
 /// E at unit gain by given losses, times the direction of friction. loss: [N]
 VectorXd HeatColumn(const JointColumns& c, const VectorXd& loss, double tau) {
@@ -41,7 +42,7 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   const VectorXd& time = c.samples.time;
   const double length = time.tail(1)[0] - time[0];
 
-  // what the fit can do, weighted against its priors by rows of its own
+  // the derivatives of the fit, with rows of their own for its priors
   const ModelRows rows = cold.model.Evaluate(cold.solved.x);
   const MatrixXd j = Kept(rows.derivatives, used);
   const double scale = cold.solved.noise.scale();
@@ -89,7 +90,7 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   }
   const double level_of_one = q.error_level / kTries / std::max(q.joints, 1);
   best.shortest = shortest;
-  // friction that falls, to one side
+  // the test is one-sided, for friction that falls
   best.limit = StudentQuantile(std::max(blocks - 1, 1.0), 1 - 2 * level_of_one);
   best.warms = best.deviations < -best.limit;
   return best;

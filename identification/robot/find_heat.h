@@ -9,7 +9,7 @@ struct JointQuestion;
 
 /// The best of a scan over time constants.
 struct HeatGuess {
-  bool warms = false;        // friction falls, beyond chance over all that was tried
+  bool warms = false;        // friction falls, beyond chance over all time constants and joints
   double deviations = 0;     // of the gain at the best time constant
   double gain = 0;           // N.m/W or N/W
   double time_constant = 1;  // s
@@ -17,8 +17,8 @@ struct HeatGuess {
   double shortest = 0;       // s, of the time constants that were tried
 };
 
-/// The gain of E by the losses of the cold fit, by least squares beside all its columns, for eight time constants from a thirtieth of the
-/// log to its length; its error by blocks of time, its limit by Student's t for eight tries on each joint of the robot.
+/// The gain of E by the losses of the cold fit, by least squares together with all its columns, for eight time constants from a
+/// thirtieth of the log to its length; its error is by blocks of time, its limit by Student's t for eight tries on each joint of the robot.
 HeatGuess FindHeat(const JointColumns& columns, const JointFit& cold,
                    const JointQuestion& question);
 

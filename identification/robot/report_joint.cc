@@ -22,13 +22,13 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
-/// Share of a friction that the residual may be. Why: beyond it the log's torque is not that of the model.
+constexpr int kFewest = 30;  // why 30: fewer do not show colour and structure of the noise
+/// The largest residual as a share of the friction. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
 constexpr double kKnownGain =
-    1.5;  // why: a torque that is off by a half is known no better than from the data sheet
+    1.5;  // why: a torque with an error of a half is known no better than from the data sheet
 
-/// The value that a row of the table stands for.
+/// The value of a row of the table, in the row's unit.
 double ValueOf(const JointFit& fit, Index row) {
   const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
   const double x = fit.solved.x[row];
@@ -43,7 +43,8 @@ double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
   return StudentQuantile(fit.uncertainty.degrees_of_freedom, kIntervalLevel) * deviation;
 }
 
-/// Whether the log tells the gain. Where it does not, its value is that of the other joints, and the curvature of the fit says little of how far off that may be.
+/// Whether the log determines the gain. Where it does not, the value is that of the other joints, and the curvature of the fit
+/// says little of how large its error may be.
 bool KnowsGain(const JointFit& fit) {
   return HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), fit.at.given.log_gain)) <
          std::log(kKnownGain);
@@ -63,7 +64,7 @@ FitParameter ParameterOf(const JointFit& fit, Index row) {
   return parameter;
 }
 
-/// What brakes: law, load and heat. energy: gets E, where there is heat. [N]
+/// The braking torque: law, load and heat. energy: gets E, where there is heat. [N]
 VectorXd FrictionAlong(const JointFit& fit, const VectorXd& x, VectorXd& energy) {
   ModelRows rows{VectorXd::Zero(fit.model.samples),
                  Eigen::MatrixXd::Zero(fit.model.samples, fit.model.size())};
@@ -74,7 +75,7 @@ VectorXd FrictionAlong(const JointFit& fit, const VectorXd& x, VectorXd& energy)
   return rows.force;
 }
 
-/// For pictures.
+/// Series over the log for pictures.
 JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
   JointSeries series{c.samples.time, c.velocity, {}, {}, {}, c.samples.keep};
   series.fitted = FrictionAlong(fit, fit.solved.x, series.energy);
@@ -108,7 +109,7 @@ EndEnergy EndOf(const JointFit& fit) {
   for (const auto& block : fit.model.blocks) {
     if (block->MakesHeat()) block->Fill(fit.solved.x, friction);
   }
-  // as it adds to the force, without the direction
+  // E as it adds to the level, without the direction
   HeatBlock heat = *fit.model.heat;
   heat.direction.setOnes();
   ModelRows energy{VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, size)};
@@ -116,7 +117,7 @@ EndEnergy EndOf(const JointFit& fit) {
   return {energy.force.tail(1)[0], energy.derivatives.bottomRows(1).transpose()};
 }
 
-/// The fit as all that judges and reports one reads it.
+/// The fit in the form that judgements and reports read.
 Fit FitOf(const JointFit& fit, const JointColumns& c) {
   Fit made;
   made.identifier = "robot";
@@ -145,7 +146,7 @@ VectorXd MeanCoulomb(const JointFit& fit) {
   return weights;
 }
 
-/// What makes the numbers of a joint mean nothing, and what is to be said of them.
+/// The causes that make the numbers of a joint mean nothing, and remarks on them.
 std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const JointSeries& series,
                             const std::optional<JointHoldOut>& holdout, bool gain_is_known) {
   std::vector<Cause> causes;
@@ -158,7 +159,7 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const Jo
   };
   if (!fit.beyond.empty()) refuse(Status::inadequate_model, ExplainBeyond(fit.beyond));
 
-  // friction that is known to worse than itself, or less than what is left
+  // friction whose error exceeds itself, or that is smaller than the residual
   const VectorXd mean = MeanCoulomb(fit);
   const double level = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
   const double friction = std::sqrt(Kept(series.fitted, used).array().square().mean());
@@ -173,7 +174,7 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const Jo
            ExplainWorseHeldOut(holdout->metrics.rmse, holdout->without_friction, c.torque_unit));
   }
 
-  // what is to be known beside the numbers
+  // what a reader has to know in addition to the numbers
   const auto say = [&](std::string sentence) {
     causes.push_back(Note(std::move(sentence), SentenceIn::any_answer));
   };
@@ -195,7 +196,7 @@ void ToTorque(double gain, Friction& friction) {
   }
 }
 
-/// The mean of both directions, which a log tells better than their difference.
+/// The mean of both directions, which a log determines better than their difference.
 EstimatedParameter MeanRow(const JointFit& fit, const JointColumns& c, bool has_interval) {
   const VectorXd mean = MeanCoulomb(fit);
   const double value = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
@@ -277,7 +278,7 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   m.position = c.position;
   m.torque = c.samples.torque;
 
-  // judged as any fit is
+  // judged as any other fit
   const Fit made = FitOf(fit, c);
   JointSeries series = SeriesOf(fit, c);
   Inference by_noise = ByNoise(made);

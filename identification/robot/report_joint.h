@@ -1,4 +1,4 @@
-// The estimate of a joint of a robot, with what makes it worthless or says less than it seems.
+// The estimate of a joint of a robot, with the causes that make it worthless or less certain than it seems.
 #pragma once
 
 #include <warmjoint/robot_estimate.h>
@@ -9,10 +9,10 @@
 
 namespace warmjoint {
 
-/// How a second fit does on samples that it has not seen. Torques in the log's unit.
+/// The error of a second fit on samples that it has not seen. Torques in the log's unit.
 struct JointHoldOut {
   Metrics metrics;              // away from reversals
-  double moving = 0;            // rms of all that moves
+  double moving = 0;            // rms of all samples at which the joint moves
   double without_friction = 0;  // rms of gain times rigid torque and an offset
 };
 
@@ -20,7 +20,7 @@ struct JointHoldOut {
 std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& columns,
                                          double share);
 
-/// Why the log tells nothing of a joint; empty where it may.
+/// Why the log does not determine the friction of a joint; empty where it may.
 std::string WhyNothing(const JointColumns& columns, double travel);
 
 /// A joint without an estimate.

@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 /// Log gain about that of the robot's other motors: a factor of e, since motors of one robot are alike and not equal.
 constexpr double kGainSpread = 1;
 constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor of 1.6
-/// Load-dependent friction over load: gears lose some per cent of what they carry, bad ones a fifth. A joint that carries nothing keeps
-/// this.
+/// Load-dependent friction over load: gears lose some per cent of what they carry, bad ones a fifth. Where a joint carries
+/// nothing, the prior determines it.
 constexpr double kLoadSpread = .2;
 /// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
 constexpr double kRippleShare = .2;
@@ -45,7 +45,7 @@ Unknown LawUnknown(const ParameterInfo& info, const JointColumns& c) {
           .part = info.part};
 }
 
-/// What only a prior holds, about 0.
+/// An unknown with a prior about 0, which reports leave out.
 Unknown Nuisance(double deviation) {
   Unknown row;
   row.role = Role::gravity;
@@ -133,20 +133,20 @@ void AddHeat(const JointColumns& c, const HeatGuess& guess, JointFit& fit) {
                              .starts = c.samples.starts};
 }
 
-/// Everything but the directions of the description: what a first fit holds, while the noise is not known.
+/// The directions of the description, which a first fit holds while the noise is not known.
 std::vector<Index> Directions(const JointPlaces& at) {
   std::vector<Index> held;
   for (Index i = at.given.z.begin; i < at.given.z.end(); ++i) held.push_back(i);
   return held;
 }
 
-/// First with the description as it is, then with all free.
+/// Solves first with the description as it is, then with all unknowns free.
 void SolveFresh(const JointColumns& c, JointFit& fit) {
   fit.solved = Solve(fit.model, c.samples, fit.model.Start(), Directions(fit.at));
   fit.solved = Solve(fit.model, c.samples, fit.solved.x);
 }
 
-/// The mean level, which a fit without ripple tells: the ridge of that is a share of it.
+/// The mean level, from a fit without ripple. The spread of the ripple's prior is a share of it.
 double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {
   JointFit first;
   JointColumns plain = c;
@@ -205,7 +205,7 @@ void FindBeyond(const JointColumns& c, JointFit& fit) {
   }
 }
 
-/// Mean square on the last part of the log by a fit of the first, from the given fit on.
+/// Mean square on the last part of the log by a fit to the first part, which starts from the given fit.
 double HeldOutSquare(const JointFit& fit, const JointColumns& c) {
   ModelSamples train = c.samples;
   const Index tail = static_cast<Index>(kUnseen * static_cast<double>(c.velocity.size()));
@@ -215,8 +215,8 @@ double HeldOutSquare(const JointFit& fit, const JointColumns& c) {
   return Kept(FitAgain(fit, c, train).residual, test).squaredNorm();
 }
 
-/// Whether a further mechanism predicts what it has not seen no worse than the fit without it: what a log shows by chance, or in place of
-/// something else that the model lacks, does not go on.
+/// Whether a further mechanism predicts unseen samples no worse than the fit without it. Why: a mechanism that a log shows by
+/// chance, or in place of something else that the model lacks, does not continue in the rest of the log.
 bool Predicts(const JointFit& further, const JointFit& without, const JointColumns& c) {
   return HeldOutSquare(further, c) <= HeldOutSquare(without, c);
 }
@@ -249,7 +249,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
   const double level = c.ripple.cols() > 0 ? LevelOf(c, guess, q) : 1;
   JointFit fit = FitCold(c, guess, q, level);
   if (q.slows) {
-    // friction that rises at low speed, where the log tells it
+    // friction that rises at low speed, where the log shows it
     JointFit slow = FitSlow(c, guess, q, level, fit);
     const Index rise = slow.at.law.end() - 1;
     const double reach =
@@ -266,7 +266,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       AddHeat(c, heat, warm);
       SolveOn(c, warm);
       warm.uncertainty = CovarianceOf(warm.model, c.samples, warm.solved);
-      // the fit has to say the same, within the time constants that were tried
+      // the fit has to agree, with a time constant within those that were tried
       const Index gain = warm.at.heat->begin;
       const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&
                            warm.Value(gain + 1) >= std::log(heat.shortest);

@@ -15,7 +15,8 @@ namespace warmjoint {
 
 inline constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
 
-/// What of a joint's filtered log a fit sees: N samples, even in time within each recording. All columns passed the filter of the torque.
+/// The columns of a joint's filtered log for a fit: N samples, even in time within each recording. All columns passed the
+/// filter of the torque.
 struct JointColumns {
   std::string joint;
   JointKind kind = JointKind::rotary;
@@ -23,9 +24,10 @@ struct JointColumns {
   double step = 0;       // s
   double top_speed = 0;  // rad/s or m/s
   Eigen::VectorXd position, velocity,
-      acceleration;                     // [N] of the motor where joints are coupled; rad or m
-  Eigen::VectorXd sign;                 // [N] of the velocity, unfiltered
-  Eigen::VectorXd forwards, backwards;  // [N] 1 where it moves so, through the filter
+      acceleration;      // [N] of the motor where joints are coupled; rad or m
+  Eigen::VectorXd sign;  // [N] of the velocity, unfiltered
+  /// [N] 1 where the joint moves in that direction, through the filter
+  Eigen::VectorXd forwards, backwards;
   Eigen::VectorXd
       slow;  // [N] exp(-(v / (share of the top speed))^2) in its direction, through the filter
   Eigen::MatrixXd ripple;  // [N x 4h] harmonics of the motor's angle in each direction; or [N x 0]
@@ -37,7 +39,7 @@ struct JointColumns {
   Eigen::VectorXd Direction() const { return forwards - backwards; }
 };
 
-/// What is asked of the fit of a joint.
+/// The settings of the fit of a joint.
 struct JointQuestion {
   double middle_gain = 1;    // of the robot's joints, torque_unit for N.m or N
   bool warms = true;         // whether warming is looked for
@@ -46,13 +48,13 @@ struct JointQuestion {
   int joints = 1;            // of the robot that move
 };
 
-/// The gain as a joint tells it by itself, the description taken as true.
+/// The gain as the log of a joint by itself determines it, the description taken as true.
 struct GainGuess {
   double value = 1;
   double deviations = 0;  // |value| over its standard deviation
   double braking = 0;     // mean friction against the motion over its standard deviation
 
-  /// Why 5: noise alone does not reach it, and what the description has wrong moves it by a tenth.
+  /// Why 5: noise alone does not reach it, and errors of the description change the gain by a tenth.
   bool IsSure() const { return deviations > 5; }
   /// Whether friction drives the joint: the sign of its torque is turned.
   bool IsTurned() const { return braking < -5; }
@@ -60,7 +62,7 @@ struct GainGuess {
 
 GainGuess GuessGain(const JointColumns& columns);
 
-/// Where the unknowns of a joint's model stand.
+/// The places of the unknowns of a joint's model.
 struct JointPlaces {
   Slice law;  // viscous, coulomb_positive, coulomb_negative and, where it slows, static_rise
   Slice load, rotor;
@@ -90,8 +92,8 @@ JointFit FitJoint(const JointColumns& columns, const GainGuess& guess,
 /// The same structure fitted to other samples of the log, from the given fit on.
 SolvedModel FitAgain(const JointFit& fit, const JointColumns& columns, const ModelSamples& samples);
 
-/// Share of the top speed at which the rise of friction has fallen to 1/e. Why .08: joints of seven robots rise at .04 to .15 of their top speed, and
-/// their logs tell its size, not its place.
+/// Share of the top speed at which the rise of friction has fallen to 1/e. Why .08: joints of seven robots rise at .04 to .15
+/// of their top speed, and their logs determine the size of the rise, not the speed at which it falls.
 inline constexpr double kSlowShare = .08;
 
 }  // namespace warmjoint

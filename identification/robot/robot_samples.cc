@@ -14,12 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Samples kept per period of the cut-off: twice what the filter leaves; of long logs those that it needs at least.
+/// Samples kept per period of the cut-off: twice as many as the filter's bandwidth needs; of long logs about the fewest that it needs.
 constexpr double kThin = 4, kThinOfMany = 2.5;
 constexpr double kMany =
-    20'000;  // why: of more samples neighbours say nothing new, and fits take as long
+    20'000;  // why: neighbours among more samples add no information, and fits take longer
 constexpr double kEnds =
-    .3;  // s left out at each end: three periods of 10 Hz, in which the filter knows one side alone
+    .3;  // s left out at each end: three periods of 10 Hz, in which the filter has only one side
 constexpr double kAtRest = .02;  // of the top speed
 
 /// The filter of a log, or none where its rate is too low for one.

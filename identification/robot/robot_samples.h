@@ -1,4 +1,4 @@
-// A robot's log as fits of its joints see it: filtered without delay, differentiated, thinned, and where each joint clearly moves.
+// A robot's log in the form for fits of its joints: filtered without delay, differentiated, thinned, and where each joint clearly moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 
 namespace warmjoint {
 
-/// What a log of n joints is prepared by.
+/// The settings by which a log of n joints is prepared.
 struct RobotFilter {
   double cutoff = 10;  // Hz of the zero-phase low-pass that positions, torques and all columns pass
   int harmonics = 12;  // of the motor's turn, where a gear is given
@@ -21,7 +21,8 @@ struct RobotSamples {
   Eigen::MatrixXd position, velocity, acceleration;  // [N x n] of the motors
   Eigen::MatrixXd torque;                            // [N x n]
   Eigen::MatrixXd sign;                              // [N x n] of the velocity, unfiltered
-  Eigen::MatrixXd forwards, backwards;               // [N x n] 1 where it moves so, filtered
+  /// [N x n] 1 where the joint moves in that direction, filtered
+  Eigen::MatrixXd forwards, backwards;
   Eigen::MatrixXd slow;  // [N x n] exp(-(v / (share of the top speed))^2) sign(v), filtered
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>
       keep;                             // [N x n] away from rests, reversals and gaps
@@ -30,7 +31,7 @@ struct RobotSamples {
   std::vector<Eigen::MatrixXd> ripple;  // [n] of [N x 4 harmonics], or [N x 0]
 };
 
-/// What was recorded, on an even clock.
+/// A recording with even steps of time.
 struct RobotMotionLog {
   double step = 0;                               // s
   Eigen::VectorXd time;                          // [M]
@@ -41,7 +42,7 @@ struct RobotMotionLog {
 
 /// coupling: [n x n] C, the motors turn by C q. gears: [n] motor turns for each turn of what it drives; 0: no ripple is looked for.
 /// Positions are low-passed and differentiated twice by central differences; a sample counts where the joint is faster than a fiftieth of its
-/// top speed within 1 / cutoff on both sides: at a reversal under a servo a joint sticks, with a friction that is any between both levels.
+/// top speed within 1 / cutoff on both sides: at a reversal under a servo a joint sticks, with a friction anywhere between both levels.
 RobotSamples PrepareRobot(const RobotMotionLog& log, const Eigen::MatrixXd& coupling,
                           const Eigen::VectorXd& gears, const RobotFilter& filter);
 

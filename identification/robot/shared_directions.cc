@@ -15,10 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Fall of the squares that the next step promises at which the fit rests: no unknown moves by 1 % of its deviation.
+/// Fall of the squares that the next step promises at which the fit has converged: no unknown changes by 1 % of its deviation.
 constexpr double kRests = 1e-4;
 
-/// What the kept samples of a joint say at a point. Rows over the noise's standard deviation.
+/// The rows of a joint's kept samples at a point, over the noise's standard deviation.
 struct JointSays {
   MatrixXd derivatives;  // [n x m] by the unknowns that the joint has of all
   VectorXd left;         // [n]
@@ -44,7 +44,7 @@ class SharedSquares {
     }
   }
 
-  /// Where z stands.
+  /// The place of z in x.
   Slice z() const { return {own_, directions_}; }
 
   /// Each joint's fit, and a description that is right.
@@ -77,7 +77,7 @@ class SharedSquares {
     return problem;
   }
 
-  /// Scores in each joint's blocks of time, and what the priors leave unknown. [p x p]
+  /// The scatter of the scores in each joint's blocks of time, and of the priors. [p x p]
   MatrixXd Scatter(const VectorXd& x) const {
     MatrixXd sum = OfPriors(x).gram;
     for (std::size_t j = 0; j < fits_.size(); ++j) {
@@ -93,7 +93,7 @@ class SharedSquares {
   }
 
  private:
-  /// Unknowns of a joint's model, and where they stand in x.
+  /// Unknowns of a joint's model, and their places in x.
   struct Places {
     std::vector<Index> of_joint, here;
 
@@ -119,7 +119,7 @@ class SharedSquares {
             Kept(VectorXd(samples.torque - rows.force), used) / scale};
   }
 
-  /// Of each joint's own unknowns and, once, of z. Log gains are known about their mean only.
+  /// The rows of the priors: of each joint's own unknowns and, once, of z. The priors of log gains are about their mean.
   RowSums OfPriors(const VectorXd& x) const {
     const Index p = x.size(), n = std::ssize(fits_);
     MatrixXd rows = MatrixXd::Identity(p, p);

@@ -1,4 +1,4 @@
-// What the joints of a robot say together of where their description is wrong.
+// The errors of a robot's description, estimated from all of its joints together.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,10 +16,10 @@ struct SharedDirections {
   bool converged = false;
 };
 
-/// Gauss-Newton over the joints' own unknowns and one z for all of them, from the joints' fits on. fits, columns: [n] of joints whose columns have the
-/// same r directions. The own unknowns of each joint are eliminated (Schur complement), so that a step solves r equations. Weights, priors and the sandwich
-/// by blocks of time are those of each joint's fit (CovarianceOf); the prior of z counts once. The prior of a gain is about the mean of
-/// the joints' log gains, so that the gains alone do not scale what all masses together may be.
+/// The least squares (minimise.h) over the joints' own unknowns and one z for all of them, from the joints' fits on. fits, columns:
+/// [n] of joints whose columns have the same r directions. Weights, priors and the sandwich by blocks of time are those of each
+/// joint's fit (CovarianceOf); the prior of z counts once. The prior of a gain is about the mean of the joints' log gains, so that
+/// the priors of the gains do not determine a common scale of all masses.
 SharedDirections FitShared(const std::vector<JointFit>& fits,
                            const std::vector<JointColumns>& columns);
 

@@ -23,8 +23,9 @@ Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const LogSamples& meas
   const double sigma = truth.torque_noise, coloured = std::pow(truth.coloured_noise, 2);
   const double white = std::max(sigma * sigma - coloured, 0.0);
   Eigen::MatrixXd rows = jacobian;
-  Eigen::RowVectorXd seen = Eigen::RowVectorXd::Zero(jacobian.cols());  // of each column, as noise
-  double variance = coloured;                                           // of what is not seen
+  // coloured noise as predicted
+  Eigen::RowVectorXd seen = Eigen::RowVectorXd::Zero(jacobian.cols());
+  double variance = coloured;  // of what is not seen
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     // the coloured part decays from sample to sample and is renewed
     if (i > 0) {
@@ -32,11 +33,11 @@ Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const LogSamples& meas
       seen *= kept;
       variance = kept * kept * variance + (1 - kept * kept) * coloured;
     }
-    // what is new in the sample, scaled to white noise of deviation sigma
+    // the innovation of the sample, scaled to white noise of deviation sigma
     const double innovation = variance + white;
     const Eigen::RowVectorXd left = jacobian.row(i) - seen;
     rows.row(i) = sigma / std::sqrt(innovation) * left;
-    // the share of it that is taken for coloured noise
+    // the share of the innovation that is attributed to coloured noise
     seen += variance / innovation * left;
     variance *= white / innovation;
   }
@@ -62,14 +63,14 @@ CramerRao CramerRaoBound(const LogSamples& measurements, const Selection& select
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
   const double sigma = truth.torque_noise;
   const Eigen::Index count = truth.friction.thermal ? d + 2 : d;
-  // columns, and with them a bound, are known of linear laws alone
+  // only linear laws have columns, and with them a bound
   if (!IsLinear(law)) {
     const Eigen::VectorXd none =
         Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
     return {none, none, {}};
   }
 
-  // rows of the kept samples, what else is fitted beside them, in white noise
+  // rows of the kept samples, with the columns of what else is fitted, in white noise
   const auto rows_of = [&](const Eigen::MatrixXd& jacobian) {
     const Eigen::MatrixXd all =
         nuisance.size() > 0 ? ConcatColumns(jacobian, nuisance) : Eigen::MatrixXd(jacobian);

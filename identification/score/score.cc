@@ -22,7 +22,7 @@ ParameterScore ScoreOne(std::string_view name, double truth, const Estimate& est
   score.name = name;
   score.truth = truth;
   score.bound = kNone;
-  // what the estimate lacks counts as 0
+  // parameters that the estimate lacks count as 0
   if (const EstimatedParameter* found = estimate.Find(score.name)) {
     score.estimated = true;
     score.estimate = found->value;
@@ -36,7 +36,7 @@ ParameterScore ScoreOne(std::string_view name, double truth, const Estimate& est
   return score;
 }
 
-/// Parameters that the relative error (26) can be formed of.
+/// Parameters for which the relative error (26) exists.
 std::vector<ParameterScore> Relative(const std::vector<ParameterScore>& all) {
   std::vector<ParameterScore> relative;
   for (const ParameterScore& one : all) {
@@ -51,7 +51,7 @@ double BoundNpe(const std::vector<ParameterScore>& all) {
   return std::sqrt(sum);
 }
 
-/// Columns of what else a fit to motion of any kind estimates: inertia, and gravity where it did.
+/// Columns of the other parameters of a fit to motion of any kind: inertia, and gravity where it was fitted.
 Eigen::MatrixXd Nuisance(const Estimate& estimate, const LogSamples& m) {
   if (!m.acceleration) return {};
   if (!estimate.gravity) return *m.acceleration;
@@ -84,7 +84,7 @@ double ParameterError(const std::vector<ParameterScore>& parameters) {
 }
 
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
-  // a bristle is known by the changes of speed, which no other view shows as they were
+  // a bristle is determined by the changes of speed, which only the raw view has as they were
   if (Find(LawPart::bristle, estimate)) return log.raw();
   return SeenByModel(ValueOf(Role::inertia, estimate), View::raw, log);
 }
@@ -102,7 +102,7 @@ Score ScoreEstimate(const Estimate& estimate, const LogSamples& measurements,
     score.discrete[law + 1] = ScoreOne(kPoleName, discrete.pole, estimate);
   }
 
-  // the best that any unbiased estimate could do; E(0) is unknown where it was estimated
+  // the bound for any unbiased estimate, in which E(0) is unknown where it was estimated
   const auto known = Find(Role::start, estimate) ? KnownInitialEnergy::no : KnownInitialEnergy::yes;
   const CramerRao bound =
       CramerRaoBound(measurements, selection, truth, known, step, Nuisance(estimate, measurements));

@@ -41,7 +41,7 @@ std::vector<Assumption> AssumptionsOf(const std::vector<Cause>& causes, const Fi
                                       const std::string& unit) {
   std::vector<Assumption> assumptions;
   for (const AssumptionWords& words : kAssumptions) {
-    // rows of one source are ways in which it may be wrong: of each parameter the worst
+    // rows of one source are ways in which the assumption may be wrong; for each parameter the worst counts
     const Cause* first = nullptr;
     Eigen::VectorXd moves;
     for (const Cause& cause : causes) {

@@ -1,4 +1,4 @@
-// What the tests for lack of fit are called and ask, and what the residual depends on where they find something.
+// The names and questions of the tests for lack of fit, and the names of what the residual depends on where they find something.
 #pragma once
 
 #include <warmjoint/friction.h>
@@ -9,14 +9,14 @@
 
 namespace warmjoint {
 
-/// What a test says whatever it finds; question and advice are for those who never saw warmjoint.
+/// The texts of a test, whatever it finds; question and advice are for readers who do not know warmjoint.
 struct TestWords {
   std::string_view absent;    // why it is not made where there are no features
   std::string_view question;  // what it asks of the residual
   std::string_view advice;    // what helps where the answer is yes
 };
 
-/// Why a test is not made whose features the fit takes up whole.
+/// Why a test is not made whose features the fit contains already.
 inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
 inline constexpr std::string_view kNoMapOrOneSpeed =
     "the fit has no map over it, or the log one speed";
@@ -142,17 +142,18 @@ inline constexpr const char* kOnFading =
     "position x energy (the map fades or grows as the joint warms)";
 
 // the same of others. or_else: what the log's one speed cannot distinguish it from, as below; else ""
-/// Of what returns in time with a period, s.
+/// The name of structure that is periodic in time. period: s
 std::string NameOfPeriod(double period, std::string_view or_else);
-/// Of a torque that lags by so long, s, and of friction that follows the speed of so long ago, s.
+/// The name of a torque that lags; the next is that of friction that follows the speed late. lag, time: s
 std::string NameOfLag(double lag);
 std::string NameOfMemory(double time);
-/// Of what returns over position with a period, rad or m, and so often in a turn, of a joint that turns.
+/// The name of structure that is periodic over position. period: rad or m; in_a_turn: how often it returns in a turn, of a
+/// joint that turns
 std::string NameOfRipple(double period, std::optional<double> in_a_turn, JointKind joint,
                          std::string_view or_else);
-/// Of what returns over the motor's angle, rad.
+/// The name of structure that is periodic over the motor's angle. period: rad
 std::string NameOfMotorRipple(double period, std::string_view or_else);
-/// Of what changes with speed, too. angle: NameOfRipple or NameOfMotorRipple
+/// The name of ripple that changes with speed, too. angle: NameOfRipple or NameOfMotorRipple
 std::string NameOfRippleBySpeed(std::string_view angle);
 
 /// "; the log's one speed cannot distinguish that from ...": a period over position, rad or m, or a frequency, Hz.

@@ -1,4 +1,4 @@
-// Of how a fit was made, and whether it came to rest.
+// Of how a fit was made, and whether it converged.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace warmjoint {
 
-/// Samples that a fit rests on.
+/// The samples of a fit.
 struct FittedSamples {
   Eigen::Index count = 0;
   bool is_any_motion = false;  // in motion of any kind, with inertia
@@ -21,22 +21,22 @@ struct FittedSamples {
 std::string NameOfSamples(const FittedSamples& samples);
 
 // what was done: a clause
-/// Of a law without heat.
+/// The summary of a law without heat.
 std::string SummaryOfLeastSquares(std::string_view law, const FittedSamples& samples);
-/// Of law and heat. iterations: after the first fit
+/// The summary of law and heat. iterations: after the first fit
 std::string SummaryOfLikelihood(const FittedSamples& samples, std::size_t iterations);
-/// Of a law that forgets. remembered: by the weights, of all samples
+/// The summary of recursive least squares with forgetting. remembered: by the weights, of all samples
 std::string SummaryOfForgetting(std::string_view law, double remembered, Eigen::Index samples);
-/// Of a filter. energy: E at the end of the log, in `unit`
+/// The summary of a filter. energy: E at the end of the log, in `unit`
 std::string SummaryOfFilter(std::size_t passes, Eigen::Index samples, double energy,
                             std::string_view unit);
 
 // what is known of the noise: clauses that join the summary
-/// Of outliers under Huber's loss, more than so many standard deviations off.
+/// The sentence about outliers under Huber's loss. deviations: how many standard deviations they exceed
 std::string ExplainOutliers(Eigen::Index outliers, Eigen::Index samples, double deviations);
-/// Of coloured noise. correlation: between neighbours
+/// The sentence about coloured noise. correlation: between neighbours
 std::string ExplainColour(double correlation);
-/// Of noise that is not even, by so many standard errors.
+/// The sentence about noise whose variance is not constant. errors: by how many standard errors
 std::string ExplainUnevenness(double errors);
 
 inline constexpr const char* kTooLargeToSquare = "torque or velocity is too large to square";
@@ -47,15 +47,15 @@ inline constexpr const char* kPassesStillMove =
     "or try --identifier energy-ml";
 inline constexpr const char* kForced = "forced: all numbers are void";
 
-// of a fit that did not come to rest
+// of a fit that did not converge
 inline constexpr const char* kWeightsStillMove =
     "the weights of Huber's loss still move after 100 rounds; use loss squares";
 inline constexpr const char* kRanAway = "the filters ran away";
-/// Of iterations on law and heat, or on a law that falls.
+/// The sentence about iterations on law and heat, or on a law that falls.
 std::string ExplainUnconverged(std::size_t iterations);
-/// Of an alternation that arrived. remaining: share by which parameters will still change
+/// The sentence about an alternation that converged. remaining: share by which parameters will still change
 std::string ExplainArrived(std::size_t iterations, double rate, double remaining);
-/// Of an alternation that did not arrive. remaining: share by which parameters will still change
+/// The sentence about an alternation that did not converge. remaining: share by which parameters will still change
 std::string ExplainStopped(std::size_t iterations, double rate, double remaining, double tolerance);
 
 inline constexpr const char* kFollowsOneRecording =
@@ -68,15 +68,15 @@ inline constexpr const char* kNothingMoves = "no sample moves clearly";
 inline constexpr const char* kNothingHoldsASpeed = "no sample moves at a constant speed";
 inline constexpr const char* kHeatOfItsOwn = "each recording begins with a heat of its own";
 inline constexpr const char* kPredictsNothing = "the fit gives no friction that could predict them";
-/// Of parts of the log with too few samples, of a first part without friction, and of a last one that is not compared. held_out: share
-/// of the log, at its end; why: a clause
+/// The sentence about parts of the log with too few samples; the next are about a first part whose fit gives no friction, and a
+/// last part that is not compared. held_out: share of the log, at its end; why: a clause
 std::string ExplainShortParts(double held_out);
 std::string ExplainNoFrictionBefore(double held_out, std::string_view why);
 std::string ExplainNotHeldOut(double held_out, std::string_view why);
-/// Of another recording. why: a clause
+/// The sentence about another recording that is not predicted. why: a clause
 std::string ExplainNotPredicted(std::string_view source, std::string_view why);
 
-/// Of structure in the residual that intervals were widened for, or that leaves none (drop_intervals). name: of the
+/// The sentence about structure in the residual that intervals were widened for, or that leaves none (drop_intervals). name: of the
 /// parameter that changes by most standard errors, `deviations`, where it counts as noise
 std::string ExplainStructure(std::string_view name, double deviations, Action action);
 

@@ -11,7 +11,7 @@
 namespace warmjoint {
 namespace {
 
-/// What else may act than the friction that a fit holds: a question.
+/// A question about what may act on the joint in addition to the friction of a fit.
 std::string_view BesideFriction(const Fit& fit) {
   return fit.gravity ? "do other joints move, or is a sign or a unit wrong?"
                      : "is there gravity (--gravity sincos), or a wrong sign or unit?";
@@ -37,7 +37,7 @@ std::string RemedyForNonDissipative(std::string_view law, FittedGravity gravity)
         .Text();
   }
 
-  // both are fitted already: what is left is the sign
+  // both are fitted already: the remaining cause is the sign
   return "is the sign of the torque reversed (--scale torque=-1)?";
 }
 

@@ -1,4 +1,4 @@
-// Of what the tests for lack of fit found in the residual, and what that does to the answer.
+// Of what the tests for lack of fit found in the residual, and of its effect on the answer.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ inline constexpr const char* kFitIsExact =
     "the fit is exact: the residual is the rounding of its numbers";
 /// rows: samples or segments
 std::string ExplainFewRows(Eigen::Index rows);
-/// Of a fit that is not ok. status: its name
+/// The sentence about a fit that is not ok. status: its name
 std::string ExplainNotExamined(std::string_view status);
 
 // why one test is not made
@@ -25,25 +25,26 @@ inline constexpr const char* kBristleFollowsDistance =
     "the law has a bristle, whose force follows the distance by itself";
 std::string ExplainFewRowsOfTest(Eigen::Index rows);
 
-/// What a test for lack of fit found.
+/// The finding of a test for lack of fit.
 struct FoundPart {
   std::string quantity;                     // that the residual depends on
   double rms = 0;                           // in the torque's unit
   double of_friction = 0, of_residual = 0;  // rms and variance, %
 };
 
-/// "the residual depends on ...": each finding with its size, the largest first; what that does, as below; a remedy.
+/// "the residual depends on ...": each finding with its size, the largest first; its effect on the answer, by one of the next
+/// two functions; a remedy.
 std::string ExplainFindings(const std::vector<FoundPart>& found, const std::string& unit,
                             std::string_view effect, std::string_view remedy);
-/// What findings do that change the friction too much: the worst by --relevance, or all together. harm: share
+/// The effect of findings that change the friction too much: the worst by --relevance, or all together. harm: share
 std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance);
 std::string ExplainTooMuchTogether(double share, double most);
-/// What those do that intervals were widened for. largest: share by which one changes the friction.
+/// The effect of findings for which intervals were widened. largest: share by which one changes the friction.
 std::string ExplainWidened(double largest);
 inline constexpr const char* kAbsorbedByWarming =
     ", and the parameters of warming have none, since they may have absorbed part of it";
 
-/// Of findings by tests that reject before adjustment alone, and the parameter that they change most. remedy: a clause
+/// The sentence about findings by tests that reject only before adjustment, and the parameter that they change most. remedy: a clause
 std::string ExplainUnadjusted(const std::vector<std::string>& quantities,
                               const MovedParameter& moved, std::string_view remedy);
 inline constexpr const char* kLongerTells = "; a longer recording tells";

@@ -16,17 +16,17 @@ inline constexpr const char* kLagBesideMaps =
     "torque_lag is estimated with a law without maps; use position none, or torque_lag none";
 inline constexpr const char* kNoLagSeen = "the torque shows no lag, so that none is fitted";
 
-/// Of a torque that is late, s; below 0: early. step: of the log, s
+/// The sentence about a torque that is late, s; below 0: early. step: of the log, s
 std::string ExplainDelay(double delay, double step);
-/// Of one that the log may hold and does not show clearly, which intervals cover.
+/// The sentence about a delay that the log does not show clearly, which intervals cover.
 std::string ExplainUntoldDelay(double delay, double step);
-/// Of one that a fit leaves out, with the share by which that changes the friction.
+/// The sentence about a delay that a fit leaves out. harm: the share by which that changes the friction
 std::string ExplainDelayLeftOut(double delay, double step, double harm,
                                 std::string_view identifier);
 
-/// Of samples left out because the torque lags, s.
+/// The sentence about samples left out because the torque lags, s.
 std::string ExplainLeftOutByLag(double lag);
-/// Of samples left out since the torque takes so long, s, to settle after a change of speed.
+/// The sentence about samples left out since the torque takes time to settle after a change of speed. settling: that time, s
 std::string ExplainSettling(double settling);
 
 }  // namespace warmjoint

@@ -27,7 +27,7 @@ std::string Describe(const Excess& excess) {
 
 bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
 
-/// The identifier of the linear laws that knows as much of warming as a fit does.
+/// The identifier of the linear laws with warming or without, as a fit has it.
 std::string_view LinearLike(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nominal-ls"; }
 
 /// What to try against friction that falls with speed: what the fit has of curve and warming is not

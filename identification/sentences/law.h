@@ -21,9 +21,9 @@ struct Excess {
   bool beyond = false;  // with its whole 95 % interval
 };
 
-/// Of parameters that were set to their bounds.
+/// The sentence about parameters that were set to their bounds.
 std::string ExplainHeld(const std::vector<Excess>& held);
-/// Of a law that does not describe the data: by one of its parameters, or since friction rises from rest.
+/// The sentence about a law that does not describe the data: by one of its parameters, or since friction rises from rest.
 std::string ExplainExcess(const Excess& excess, const Fit& fit);
 std::string ExplainRiseFromRest(const Fit& fit);
 
@@ -33,7 +33,7 @@ struct MixedColumns {
   std::optional<GravityKind> gravity;  // where it is one of them
   bool has_inertia = false;
 };
-/// Of those with gravity or inertia; what the law alone mixes says Indistinct.
+/// The sentence about such columns, gravity or inertia among them. For columns of the law only there is Indistinct (fit_data.h).
 std::string ExplainMixedColumns(const MixedColumns& mixed);
 
 /// Samples at places that were passed in both directions.
@@ -41,7 +41,7 @@ struct PairedSamples {
   double share = 0;  // of all
   double range = 0;  // rad
 };
-/// Of paired gravity that has too few of them.
+/// The sentence about paired gravity that has too few such samples.
 std::string ExplainFewPairs(const PairedSamples& found, const PairedSamples& needed);
 inline constexpr const char* kSineOfLinearJoint =
     "gravity sincos needs an angle and the joint is linear; use gravity paired";

@@ -29,7 +29,7 @@ struct LinePlace {
 };
 /// "position 0.015 to 0.027 m backwards". line: along the second axis and those after it
 std::string NameOfHole(const HoleRange& hole, const std::vector<LinePlace>& line, JointKind joint);
-/// Of holes that are not named.
+/// The words for holes that are not named one by one.
 std::string NameOfSmallerHoles(std::size_t count);
 
 /// Maps that were fitted with a law.
@@ -52,9 +52,9 @@ inline constexpr const char* kMapBesideGravity =
 inline constexpr const char* kUnsolvableMaps =
     "the normal equations cannot be solved: torque or velocity are too large or too small to "
     "square; check their units";
-/// Of a map over a quantity that only positions show.
+/// The sentence about a map over a quantity that only positions show.
 std::string ExplainMapWithoutPositions(MapQuantity quantity);
-/// Of two options that exclude each other, by their words.
+/// The sentence about two options that exclude each other, by their words.
 std::string ExplainMapBesideLoss(std::string_view position, std::string_view loss);
 
 inline constexpr const char* kMapHoldsGravity =
@@ -63,16 +63,16 @@ inline constexpr const char* kMapHoldsGravity =
 inline constexpr const char* kMotorTurnsWithJoint =
     "the motor is taken to turn with the joint: give --gear, or log motor_position";
 
-/// Of a parameter of the law that was set to its lower bound.
+/// The sentence about a parameter of the law that was set to its lower bound.
 std::string ExplainHeldBesideMaps(const FitParameter& parameter);
-/// Of parameters, by their names, that maps can imitate.
+/// The sentence about parameters, by their names, that maps can imitate.
 std::string ExplainImitated(const std::vector<std::string>& names);
-/// Of friction below 0 at a speed. fit: with gravity or without
+/// The sentence about friction below 0 at a speed. fit: with gravity or without
 std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& measurements,
                                    const Fit& fit);
-/// Of places without data (NameHoles).
+/// The sentence about places without data (NameHoles).
 std::string ExplainHoles(const std::vector<std::string>& holes);
-/// Of a motor's ripple. harmonics: how often a turn, and amplitude in `unit`
+/// The sentence about a motor's ripple. harmonics: how often a turn, and amplitude in `unit`
 std::string ExplainMotorRipple(bool forwards, const std::vector<std::pair<int, double>>& harmonics,
                                const std::string& unit);
 
@@ -80,9 +80,9 @@ inline constexpr const char* kFewerKernels = "use fewer kernels, or another law"
 inline constexpr const char* kWithTheMaps = " with the maps";                      // of a warming
 inline constexpr const char* kMapsDoNotRest =
     "maps and warming together do not come to rest; does the torque column hold friction?";
-/// Of maps without warming. why: a clause
+/// The sentence about maps without warming. why: a clause
 std::string ExplainWithoutWarming(std::string_view why);
-/// Of warming that was fitted with maps, and of maps over the energy that it gives.
+/// The sentence about warming that was fitted together with maps; the next is about maps over the energy that it gives.
 std::string ExplainWarmingBesideMaps(int iterations);
 std::string ExplainMapsOverEnergy(int rounds);
 

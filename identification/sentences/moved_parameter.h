@@ -1,4 +1,4 @@
-// What sentences of several topics speak of.
+// What sentences of several topics are about.
 #pragma once
 
 #include "identification/fit.h"

@@ -29,9 +29,9 @@ inline constexpr const char* kOneStageTooFew =
     "one time constant is too few, or the surroundings change their temperature; record it at a "
     "steady ambient temperature";
 inline constexpr const char* kSteadyTemperature = "record it at a steady temperature";
-/// Of a log that lasts too short, s, for a warming.
+/// The remedy for a log that is too short for a warming. duration, shortest: s
 std::string RemedyForShortLog(double duration, double shortest);
-/// Of a start that was taken to be cold. remedy: kEstimateStart or kRecordFromCold
+/// The question about a start that was taken to be cold. remedy: kEstimateStart or kRecordFromCold
 std::string AskForWarmStart(std::string_view remedy);
 
 // of the speed
@@ -66,23 +66,24 @@ inline constexpr const char* kOwnRhythm =
     "something acts on the joint in a rhythm of its own: log it as load, or record without it";
 /// The same where other joints of a robot may do it, by their names.
 std::string RemedyForOtherJoints(std::string_view joints);
-/// Of friction that follows the speed late, s: how long to hold each speed, and what to leave out of it.
+/// The remedy for friction that follows the speed late, s: how long to hold each speed, and what to leave out of it.
 std::string RemedyByLongHolds(double hold, double trim);
 
 // of a torque that is filtered or late
 inline constexpr const char* kShiftTorque = "shift it against the velocity, or log both alike";
 /// What to leave out at the ends of each speed, s.
 std::string RemedyByTrim(double trim);
-/// Whether it is, and one of these two remedies; and the same before a command that may be tried instead.
+/// The question whether the torque is late, with one of these two remedies; the next is the same before a command that may be
+/// tried instead.
 std::string AskForLateTorque(std::string_view remedy);
 std::string AskForLateTorqueOr(std::string_view remedy);
 
 /// Whether a ripple over position acts alike in both directions.
 enum class RippleActs { alike, otherwise };
-/// Before a command: that gravity acts so, or a load.
+/// A text before a command: gravity or a load acts in that way.
 std::string ExplainByGravity(RippleActs acts);
 std::string ExplainByLoad(RippleActs acts);
-/// Before a command: that it is the motor's.
+/// A text before a command: the ripple is that of the motor.
 std::string ExplainByMotor(RippleActs acts, int gear);
 /// A ripple that returns more often over the travel than a map can follow.
 struct FineRipple {
@@ -90,7 +91,7 @@ struct FineRipple {
   std::size_t most = 0;  // that a map follows
   double longest = 0;    // travel that it follows, rad or m
 };
-/// Of one: the travel to record.
+/// The remedy for such a ripple: the travel to record.
 std::string RemedyForFineRipple(RippleActs acts, const FineRipple& ripple, JointKind joint);
 
 }  // namespace warmjoint

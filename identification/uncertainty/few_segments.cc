@@ -20,13 +20,13 @@ using Eigen::VectorXd;
 
 constexpr Index kFewestFree =
     8;  // segments beyond the parameters; why: tests/studies/identification.md, Few segments
-constexpr double kNone = 1e-9;  // of a residual that the fit leaves free: as good as 0
+constexpr double kNone = 1e-9;  // of a residual that the fit leaves free: counts as 0
 constexpr double kMostFreedom = 1e4;
 constexpr int kHalvings = 30;      // of the range of its logarithm
 constexpr double kPrecise = 1e-7;  // of the integral for the coverage
 constexpr unsigned kDepth = 12;
 
-/// Of each segment its rows among those of all kept samples.
+/// The rows of each segment among those of all kept samples.
 std::vector<SampleRange> RowsOfSegments(const Selection& selection) {
   std::vector<SampleRange> all;
   Index sample = 0, row = 0;
@@ -41,7 +41,7 @@ std::vector<SampleRange> RowsOfSegments(const Selection& selection) {
   return all;
 }
 
-/// What a segment gives to the variance of the parameters.
+/// The share of a segment in the variance of the parameters.
 struct Share {
   VectorXd score;  // [p] s_g
   MatrixXd own;    // [p x p] B^T B
@@ -50,7 +50,7 @@ struct Share {
 
 /// X: [m x p] of the segment; r: [m].
 Share ShareOf(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& r) {
-  // X = Q R, so that I - X C X^T is I beside Q and I - R C R^T on it
+  // X = Q R, so that I - X C X^T is I orthogonal to the columns of Q and I - R C R^T within their span
   const Index q = std::min(X.rows(), X.cols());
   const Eigen::HouseholderQR<MatrixXd> qr(X);
   const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(X.rows(), q);
@@ -61,13 +61,13 @@ Share ShareOf(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& r) {
       (left.eigenvalues().array() > kNone).select(left.eigenvalues().array().max(kNone).rsqrt(), 0);
   const MatrixXd adjust = left.eigenvectors() * root.asDiagonal() * left.eigenvectors().transpose();
 
-  // all that counts lies in Q
+  // the product needs only the part within the span of Q
   const MatrixXd B = adjust * R * cofactor;
   return {R.transpose() * adjust * (Q.transpose() * r), B.transpose() * B, R.transpose() * B};
 }
 
-/// P(N^2 <= q^2 e^T P e) for normal N and e, of independent entries of variance 1: of the weighted sum
-/// of chi^2 behind it by its characteristic function (Imhof 1961). weights: eigenvalues of P.
+/// P(N^2 <= q^2 e^T P e) for normal N and e, of independent entries of variance 1. It is computed from
+/// the characteristic function of the weighted sum of chi^2 that e^T P e is (Imhof 1961). weights: eigenvalues of P.
 double Coverage(double q, const VectorXd& weights) {
   const auto integrand = [&](double u) {
     double angle = 0.5 * std::atan(u), log_size = 0.25 * std::log1p(u * u);
@@ -84,8 +84,8 @@ double Coverage(double q, const VectorXd& weights) {
   return 0.5 - integral / std::numbers::pi;
 }
 
-/// The degrees of freedom with which Student's quantile times sqrt(e^T P e) reaches as far as 95 % of
-/// the errors, whose variance is `variance` where that of e is 1; 1 at least.
+/// The degrees of freedom with which Student's quantile times sqrt(e^T P e) covers 95 % of
+/// the errors, whose variance is `variance` where that of e is 1. They are 1 at least.
 double FreedomOf(const MatrixXd& P, double variance) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(P, Eigen::EigenvaluesOnly);
   const VectorXd weights = solver.eigenvalues().cwiseMax(0) / variance;
@@ -116,7 +116,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
                    const Selection& selection, Uncertainty& uncertainty) {
   uncertainty.by_samples = uncertainty.covariance;
   uncertainty.samples_degrees_of_freedom = uncertainty.degrees_of_freedom;
-  // the scatter of what each segment says takes the place of an assumed noise
+  // the scatter of the segments' scores takes the place of an assumed noise
   const Index p = cofactor.rows();
   MatrixXd scatter = MatrixXd::Zero(p, p);
   std::vector<Share> shares;
@@ -130,7 +130,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
   // P_gh = [g = h] b_g^T b_g - u_g^T C u_h, b_g column j of B and u_g that of X_g^T B.
   uncertainty.each_degrees_of_freedom.setOnes(p);
   uncertainty.degrees_of_freedom = 1;
-  // as few segments as parameters tell no scatter
+  // no more segments than parameters do not show a scatter
   if (static_cast<Index>(shares.size()) <= p) return;
   const VectorXd before = uncertainty.covariance.diagonal();
   MatrixXd covariance = cofactor * scatter * cofactor;
@@ -149,7 +149,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
       uncertainty.each_degrees_of_freedom[j] = FreedomOf(P, cofactor(j, j));
       continue;
     }
-    // the segments say nothing of this one: its error stays
+    // where the segments show nothing of this parameter, its error stays
     const double scale = covariance(j, j) > 0 ? std::sqrt(before[j] / covariance(j, j)) : 0;
     covariance.row(j) *= scale;
     covariance.col(j) *= scale;

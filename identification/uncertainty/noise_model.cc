@@ -16,7 +16,7 @@ constexpr Eigen::Index kHighestOrder = 60;
 constexpr Eigen::Index kPatience = 6;  // orders without a better BIC
 
 constexpr Eigen::Index kBlock = 256;  // samples that are filtered at once
-constexpr double kDead = 1e-6;        // of the variance: covariances that are as good as 0
+constexpr double kDead = 1e-6;        // of the variance: covariances that count as 0
 constexpr double kBeyondDoubt = 5;    // deviations of a normal variable
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -175,7 +175,7 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
     a.swap(next);
     innovation *= 1 - reflection * reflection;
 
-    // the order that the Bayesian criterion prefers
+    // the order with the smallest Bayesian information criterion
     const double bic = n * std::log(innovation) + static_cast<double>(p) * std::log(n);
     if (bic >= best_bic) continue;
     best_bic = bic;
@@ -183,7 +183,7 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
     best.covariances = covariances.head(p + 1);
     best.innovation = innovation;
   }
-  // what users of the model need
+  // the figures that users of the model need
   best.correlation = covariances[1] / best.variance;
   best.variance_inflation = best.order() > 0 ? VarianceInflation(best, covariances) : 1;
   return best;

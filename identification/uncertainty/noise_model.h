@@ -15,8 +15,8 @@ struct NoiseModel {
   double variance = 0;           // of e, (N.m)^2 or N^2
   double innovation = 0;         // variance of w
   double correlation = 0;        // of neighbouring samples, -1 to 1
-  /// Samples of white noise that tell a variance as well as one sample of e does: at least 1.
-  /// sum over all lags of the squared autocorrelation.
+  /// By how much autocorrelation inflates the variance of an estimate of the noise's variance: at least 1.
+  /// It is the sum over all lags of the squared autocorrelation.
   double variance_inflation = 1;
 
   Eigen::Index order() const { return coefficients.size(); }
@@ -25,7 +25,7 @@ struct NoiseModel {
 /// Fits the order and the coefficients by Levinson's recursion (Durbin 1960) on the residual's
 /// autocovariance, averaged over the pairs of samples that are both kept. The order is the one of
 /// the smallest BIC; the search ends when 6 orders in a row do not better it, or at order 60.
-/// residual: [n] over the kept samples; selection says where they stand. Neighbouring samples count
+/// residual: [n] over the kept samples; selection: their places. Neighbouring samples count
 /// as one sampling interval apart.
 NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection);
 
@@ -38,7 +38,7 @@ Eigen::VectorXd CovariancesOf(const NoiseModel& noise, Eigen::Index last);
 /// deviations of a normal variable do. n: samples that the model was fitted to.
 bool IsSurelyColoured(const NoiseModel& noise, Eigen::Index n);
 
-/// A^T R A, where R is the covariance of the noise at the kept samples: what A^T e scatters by.
+/// A^T R A, where R is the covariance of the noise at the kept samples: the covariance of A^T e.
 /// A: [n x d]. Exact for a stationary e: each column is filtered backwards through the inverse of
 /// the model, beyond the first sample until it has died away.
 Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A,

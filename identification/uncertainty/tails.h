@@ -1,10 +1,10 @@
-// How unlikely a statistic is by chance, and the quantiles behind intervals. Exact, by Boost.Math.
+// How unlikely a statistic is by chance, and the quantiles of which intervals are made. Exact, by Boost.Math.
 //
-// p-values are probabilities, under chance alone, of a statistic at least as far out as the one
-// given: of F upwards, of normal and Student's t to both sides. A z-score is always the number of
+// p-values are probabilities, under chance alone, of a statistic at least as extreme as the one
+// given: one-sided for F, two-sided for the normal and Student's t. A z-score is always the number of
 // standard deviations that a normal variable exceeds to either side with that probability:
-// p = 4.6e-4, one in 2150, is z = 3.5. A statistic that is no number, 0/0 where two things are equal to the
-// last digit, shows nothing: its p is 1.
+// p = 4.6e-4, one in 2150, is z = 3.5. A statistic that is not a number, 0/0 where two things are equal to the
+// last digit, shows nothing, so its p is 1.
 #pragma once
 
 namespace warmjoint {
@@ -33,12 +33,12 @@ double StudentQuantile(double degrees_of_freedom, double level);
 /// numerator and denominator.
 double PValueOfF(double f, double m, double n);
 
-/// How many deviations an interval reaches beyond both ends of a range, so that it holds the end that is true, or what
-/// lies between, with 95 %: C of
+/// How many deviations an interval reaches beyond both ends of a range, so that it holds the true value, at either end or
+/// between them, with a probability of 95 %: the C of
 ///
 ///     Phi(C + range) - Phi(-C) = 0.95,
 ///
-/// 1.96 where both ends are one, down to 1.64 where they lie far apart, since the truth is then left on one side alone.
+/// 1.96 where both ends are one, down to 1.64 where they are far from each other, since the truth can then be missed on one side only.
 /// range: of the ends from each other, in deviations, >= 0. Source: Imbens, Manski, Confidence Intervals for Partially
 /// Identified Parameters, Econometrica 72 (2004), 1845.
 double ReachBeyondEnds(double range);

@@ -17,7 +17,7 @@ using Eigen::Index;
 constexpr double kUneven = 4;        // deviations
 constexpr double kLeastLevel = 0.2;  // of the line through |r|, of its mean
 
-/// Of a column whose mean is 0 and another one.
+/// The correlation of a column whose mean is 0 with another one.
 double Correlation(const Eigen::VectorXd& centred, const Eigen::Ref<const Eigen::VectorXd>& other) {
   const double spread = (other.array() - other.mean()).square().sum();
   const double norm = centred.norm() * std::sqrt(spread);
@@ -32,7 +32,7 @@ Eigen::MatrixXd Circumstances(Eigen::Index n, const Eigen::VectorXd& fitted) {
   return columns;
 }
 
-/// By how many deviations r^2 goes with a column. Of coloured noise, fewer samples count.
+/// By how many deviations r^2 correlates with a column. Of coloured noise, fewer samples count.
 double Unevenness(const Eigen::VectorXd& residual, const Eigen::MatrixXd& circumstances,
                   const NoiseModel& noise) {
   Eigen::VectorXd squares = residual.cwiseAbs2();
@@ -56,13 +56,13 @@ Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& c
 
 constexpr Index kBlock = 4096;  // rows at a time
 
-/// J^T R J, [d x d], and what the fit took up of the residual, in samples.
+/// J^T R J, [d x d], and the part of the residual that the fit took up, in samples.
 struct Scatter {
   Eigen::MatrixXd of_rows;
   double taken = 0;
 };
 
-/// White noise that is even or not.
+/// The scatter of white noise, whose variance is constant or not.
 Eigen::MatrixXd WhiteScatter(const FittedRows& fit, const Uncertainty& uncertainty) {
   if (uncertainty.uneven == 0) return uncertainty.noise.variance * fit.pull->gram;
   // each row by its own residual
@@ -77,7 +77,8 @@ Eigen::MatrixXd WhiteScatter(const FittedRows& fit, const Uncertainty& uncertain
   return scatter;
 }
 
-/// Coloured noise; of uneven one the rows are weighted by its level, and the colour is that of the rest.
+/// The scatter of coloured noise. Where its variance is not constant, the rows are weighted by its level, and the colour is
+/// that of the residual divided by the level.
 Eigen::MatrixXd ColouredScatter(const FittedRows& fit, const Eigen::MatrixXd& circumstances,
                                 Uncertainty& uncertainty) {
   const Index d = fit.cofactor.rows();
@@ -90,7 +91,7 @@ Eigen::MatrixXd ColouredScatter(const FittedRows& fit, const Eigen::MatrixXd& ci
   return ScatterThrough(uncertainty.noise, weighted, d, fit.selection);
 }
 
-/// Of rows that count by weights.
+/// The uncertainty of a fit to weighted rows.
 Uncertainty OfWeighted(const FittedRows& fit) {
   Uncertainty uncertainty;
   uncertainty.noise = FitNoise(fit.residual, fit.selection);
@@ -106,7 +107,7 @@ Uncertainty OfWeighted(const FittedRows& fit) {
   return uncertainty;
 }
 
-/// Of an exact log: its numbers are as sure as the rounding of doubles lets them be.
+/// The uncertainty of a fit to an exact log, which is that by the rounding of doubles.
 Uncertainty OfRounding(const FittedRows& fit) {
   Uncertainty exact;
   exact.noise.variance = exact.noise.innovation = RoundingVariance(fit.fitted + fit.residual);
@@ -116,14 +117,14 @@ Uncertainty OfRounding(const FittedRows& fit) {
   return exact;
 }
 
-/// What a fit with a pull takes up of the residual: E|r|^2 = tr R - 2 tr(C S) + tr(C G C S), at most half of the samples.
+/// The part of the residual that a fit with a prior's pull takes up: E|r|^2 = tr R - 2 tr(C S) + tr(C G C S), at most half of the samples.
 double TakenBesidePull(const Eigen::MatrixXd& hat, const Eigen::MatrixXd& spread, double variance,
                        double samples) {
   const double product = hat.cwiseProduct(spread.transpose()).sum();
   return std::clamp((2 * spread.trace() - product) / variance, 0.0, 0.5 * samples);
 }
 
-/// By the noise, by the pull and by what was known.
+/// Sets the covariance from the noise, from the pull and from what was known.
 void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertainty& uncertainty) {
   const Eigen::MatrixXd& C = fit.cofactor;
   const auto n = static_cast<double>(fit.residual.size());
@@ -133,7 +134,7 @@ void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertain
   by_noise.triangularView<Eigen::Lower>() = n / (n - taken) * spread * C;
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
   uncertainty.covariance = by_noise + CovarianceByPull(*fit.pull, C, hat, by_noise);
-  // what was known beforehand errs as a measurement of that weight does
+  // what was known beforehand has the error of a measurement of that weight
   if (fit.prior.size() > 0) {
     uncertainty.covariance += uncertainty.noise.variance * (C * fit.prior.asDiagonal() * C);
   }
@@ -142,12 +143,12 @@ void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertain
       std::max(n / uncertainty.noise.variance_inflation - hat.trace(), 1.0);
 }
 
-/// By the noise and by what was known.
+/// Sets the covariance from the noise and from what was known.
 void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& uncertainty) {
   const Eigen::MatrixXd& C = fit.cofactor;
   const auto n = static_cast<double>(fit.residual.size());
   const auto d = static_cast<double>(C.rows());
-  // what the fit took up counts in samples, of coloured noise at most half of them
+  // the part that the fit took up, as a number of samples, of coloured noise at most half of them
   double taken = d;
   uncertainty.degrees_of_freedom = n - d;
   if (uncertainty.noise.order() > 0) {

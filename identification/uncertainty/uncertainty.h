@@ -22,24 +22,26 @@ struct Uncertainty {
   double uneven = 0;  // deviations by which the noise's variance changes; 0 where it may be even
 
   // what it is made of
-  Eigen::MatrixXd white;       // [d x d] were the noise white and even; or empty: not known
-  Eigen::MatrixXd by_samples;  // [d x d] before few segments counted; or empty: they do not
-  double samples_degrees_of_freedom = 1;  // of that
+  Eigen::MatrixXd white;  // [d x d] were the noise white and even; or empty: not known
+  /// [d x d] covariance by all samples, where segments are few; or empty
+  Eigen::MatrixXd by_samples;
+  double samples_degrees_of_freedom = 1;  // of `by_samples`
 
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
-  /// Degrees of freedom of that.
+  /// Degrees of freedom of the variance of parameter i.
   double DegreesOfFreedom(Eigen::Index i) const {
     return each_degrees_of_freedom.size() > 0 ? each_degrees_of_freedom[i] : degrees_of_freedom;
   }
 };
 
-/// That of some parameters. places: [q] of them, in the order of the result
+/// The uncertainty of some of the parameters. places: [q] of them, in the order of the result
 Uncertainty Picked(Uncertainty uncertainty, const std::vector<Eigen::Index>& places);
 
 /// A fit x = argmin (y - f(x))^T W (y - f(x)) + x^T P x about its solution, as the errors of x follow from it.
 struct FittedRows {
-  RowsBetween rows;          // of J = df/dx [n x d], asked for where noise is not white and even
+  /// of J = df/dx [n x d], needed only where noise is not white or not of constant variance
+  RowsBetween rows;
   Eigen::MatrixXd cofactor;  // [d x d] C = (J^T W J + P)^-1
   Eigen::VectorXd residual;  // [n] y - f
   const Selection& selection;
@@ -58,27 +60,27 @@ RowsBetween RowsFrom(std::function<Eigen::MatrixXd()> all);
 /// R the covariance of the noise of variance v by an autoregressive model of the residual (noise_model.h). For white noise
 /// without weights and pull it is v C. The residual is smaller than the noise by what the fit took up, 2 tr(C J^T R J) -
 /// tr(C G C J^T R J), G = J^T J: the variance is scaled up by that, as n/(n - d) does for white noise without a pull.
-/// Where r^2 goes with |f| or with time, by more than 4 deviations of n^(1/2) times their correlation (Koenker 1981), the noise's
-/// variance is not even. White noise then has the sum of r^2 j^T j over the rows j of J in place of J^T R J (HC1, White 1980).
+/// Where r^2 varies with |f| or with time, by more than 4 deviations of n^(1/2) times their correlation (Koenker 1981), the
+/// noise's variance is not constant. White noise then has the sum of r^2 j^T j over the rows j of J in place of J^T R J (HC1, White 1980).
 /// Coloured noise is taken for s(|f|, t) u with a stationary u: s is the line through |r|, R that of u, and J is weighted by s.
-/// A residual that rounding makes (IsRounding) has its variance. Where segments are few, and nothing else is known, what each
-/// segment says counts (few_segments.h).
+/// A residual that rounding makes (IsRounding) has its variance. Where segments are few, and nothing is known beforehand, the
+/// scatter of the segments' scores counts (few_segments.h).
 Uncertainty CovarianceOf(const FittedRows& fit);
 
 /// Variance that the rounding of doubles leaves in the residual of an exact torque: sums over n samples carry errors of
-/// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). What is below is no
-/// noise and no structure. torque: [n] N.m or N
+/// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). A smaller residual is
+/// neither noise nor structure. torque: [n] N.m or N
 double RoundingVariance(const Eigen::VectorXd& torque);
 
-/// Whether squares over the samples of a torque are no more than that.
+/// Whether squares over the samples of a torque are no more than what rounding leaves.
 bool IsRounding(double squares, const Eigen::VectorXd& torque);
 
 /// Drop of the squares by something that a fit has and another has not, in variances of the noise that is left with it;
-/// 0 where rounding was all that there was to explain. degrees_of_freedom: samples less parameters
+/// 0 where there was only rounding to explain. degrees_of_freedom: samples less parameters
 double ExplainedVariances(double without, double with, double degrees_of_freedom,
                           const Eigen::VectorXd& torque);
 
-/// Degrees of freedom of the noise's variance that n weighted samples leave beside d parameters: at
+/// Degrees of freedom of the noise's variance that n weighted samples leave after d parameters were fitted: at
 /// least 1. (sum w)^2 / sum w^2 of them count. weights: [n].
 double DegreesOfFreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise,
                                  Eigen::Index d);

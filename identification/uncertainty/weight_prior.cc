@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Index;
 
-// why: from kernels that hardly go together to a wave over the whole of a coarse map, doubled
+// why: from hardly correlated kernels to a wave over the whole of a coarse map, doubled each time
 constexpr std::array<double, 4> kLengths{0.5, 1, 2, 4};  // kernels
-// why 1e-9: of the largest variance; conditions on the weights leave a direction without any
+// why 1e-9: of the largest variance; conditions on the weights leave a direction without variance
 constexpr double kFloor = 1e-9;
 
 /// Weights that a prior pulls towards 0, w_found = L w + noise.
@@ -36,7 +36,7 @@ struct Candidate {
   double pull = 0;  // tr (B s_w^2 R), what the prior's pull takes from the fitted values
 };
 
-/// w_found^T B w_found without what noise makes of it, but no less than its scatter by noise.
+/// w_found^T B w_found without the part that noise makes, but no less than its scatter by noise.
 double TakenByPull(const PulledWeights& weights) {
   const Eigen::MatrixXd noise = weights.bias * weights.noise;
   const double seen = weights.found.dot(weights.bias * weights.found) - noise.trace();
@@ -58,7 +58,7 @@ double Deviance(const PulledWeights& weights, double variance, const Eigen::Matr
   return factors.matrixL().solve(weights.found).squaredNorm() + 2 * root.array().log().sum();
 }
 
-/// Weights that go together. by_left: [q x q] B L
+/// The candidate of correlated weights. by_left: [q x q] B L
 Candidate Together(const PulledWeights& weights, double taken, const Eigen::MatrixXd& by_left,
                    Eigen::MatrixXd correlation) {
   const Eigen::MatrixXd half = weights.left * correlation;
@@ -71,18 +71,18 @@ Candidate Together(const PulledWeights& weights, double taken, const Eigen::Matr
 
 /// Covariance s_w^2 R of the weights before any data. [q x q]
 ///
-/// s_w^2 counts each direction of the weights as much as its pull moves the fitted values, since the directions that
-/// the data know well say nothing of how large those are that the prior holds back:
+/// s_w^2 counts each direction of the weights as much as the prior's pull on it changes the fitted values, since the directions
+/// that the data determine well show nothing of the size of those that the prior holds back:
 ///     E w_found^T B w_found = s_w^2 tr (L^T B L R) + tr (B V).
-/// Its scatter by noise, the square root of 2 tr (B V B V), joins in squares, so that a map that cannot be seen is not
-/// reported as surely 0.
+/// Its scatter by noise, the square root of 2 tr (B V B V), is added in squares, so that a map that cannot be seen is not
+/// reported as exactly 0.
 ///
 /// R is the identity, or the longest of those over 1/2, 1, 2 and 4 kernels up to which the weights become more likely,
 ///     w_found ~ N(0, s_w^2 L R L^T + V),
 /// and the pull takes less from the fitted values, tr (B S); where it is more likely than independent weights at 1 %.
 /// A map that is smooth from kernel to kernel loses less to the prior than one that is not. Empty or null `correlation`: the identity.
 Eigen::MatrixXd PriorOfWeights(const PulledWeights& weights, const CorrelationOver& correlation) {
-  // weights that go together with none
+  // independent weights
   const double taken = TakenByPull(weights);
   const Eigen::MatrixXd by_left = weights.bias * weights.left;
   const Index q = weights.found.size();

@@ -1,4 +1,4 @@
-// What a prior on the weights of maps pulls away from a fit.
+// The error of a fit by the pull of a prior on the weights of maps.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +7,11 @@
 
 namespace warmjoint {
 
-/// [q x q] correlation R of weights that go together over `length` kernels; the identity for 0.
+/// [q x q] correlation R of weights that are correlated over `length` kernels; the identity for 0.
 using CorrelationOver = std::function<Eigen::MatrixXd(double length)>;
 
-/// The prior s |w|^2 of a fit x = argmin |y - f(x)|^2 + s |w|^2 + ..., w those of a run of entries of x that data tell of.
+/// The prior s |w|^2 of a fit x = argmin |y - f(x)|^2 + s |w|^2 + ..., w those of a run of entries of x that the data say
+/// something about.
 struct WeightPrior {
   Eigen::MatrixXd gram;     // [d x d] G = J^T J, without any prior
   Eigen::Index first = 0;   // place of w in x

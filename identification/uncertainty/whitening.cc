@@ -13,11 +13,13 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kSure = 3;                       // deviations; why 3: by chance once in 740
-constexpr double kFewestChanges = kSure * kSure;  // of which all turning is as sure
-constexpr Index kLongestGap = 1000;               // sampling intervals
+constexpr double kSure = 3;  // deviations; why 3: by chance once in 740
+// why: if the sign turns with all of so few changes, that is as certain
+constexpr double kFewestChanges = kSure * kSure;
+constexpr Index kLongestGap = 1000;  // sampling intervals
 
-/// Whether all samples of one recording are kept, less than half a step off an even clock: one place each.
+/// Whether all samples of one recording are kept, at times that differ by less than half a step from an even clock, so that
+/// each has one place.
 bool AreNeighbours(const Selection& selection, const LogSamples& m) {
   const Index n = m.time.size();
   if (n < 2 || !m.further_starts.empty() || selection.count() != n) return false;
@@ -25,7 +27,7 @@ bool AreNeighbours(const Selection& selection, const LogSamples& m) {
   return steps.maxCoeff() < 1.5 * steps.minCoeff();
 }
 
-/// The kept samples on an even grid of time: keep[i] where one has the place i.
+/// The kept samples on an even grid of time: keep[i] is set where a sample has the place i.
 Selection OnEvenGrid(const std::vector<Index>& places) {
   Selection grid;
   grid.keep.setConstant(places.empty() ? 0 : places.back() + 1, false);
@@ -49,7 +51,7 @@ std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
     before = mean;
   }
   if (changes < kFewestChanges) return std::nullopt;
-  // by chance half of the changes turn it, give or take sqrt(changes) / 2
+  // by chance the sign turns at half of the changes, with a standard deviation of sqrt(changes) / 2
   return turns - changes / 2 > kSure * std::sqrt(changes) / 2;
 }
 
@@ -72,7 +74,7 @@ std::vector<Index> PlacesInTime(const LogSamples& m, const Selection& selection)
       further = std::llround(apart);
     }
 
-    // nothing reaches from one recording into the next
+    // no correlation reaches from one recording into the next
     while (next < m.further_starts.size() && m.further_starts[next] <= kept[i - 1]) ++next;
     if (next < m.further_starts.size() && m.further_starts[next] <= kept[i]) further = kLongestGap;
     places[i] = places[i - 1] + further;
@@ -84,7 +86,7 @@ Whitening::Whitening(NoiseModel noise, const std::vector<Index>& places)
     : noise_(std::move(noise)) {
   const auto p = static_cast<size_t>(noise_.order());
 
-  // the places before each row, by which rows are predicted alike
+  // the distances of the places before each row: rows with the same ones have the same predictor
   std::map<std::vector<Index>, int> known;
   std::vector<std::vector<Index>> patterns;
   Index farthest = 0;
@@ -99,7 +101,7 @@ Whitening::Whitening(NoiseModel noise, const std::vector<Index>& places)
     which_.push_back(at->second);
   }
 
-  // and how
+  // the predictor of each pattern
   const Eigen::VectorXd covariances = CovariancesOf(noise_, farthest);
   for (const auto& pattern : patterns) predictors_.push_back(Solve(pattern, covariances));
 }
@@ -126,7 +128,7 @@ Whitening::Predictor Whitening::Solve(const std::vector<Index>& lags,
 }
 
 void Whitening::Apply(Rows& rows) const {
-  // from the last on, so that those before are still what they were
+  // from the last row on, so that the rows before it are not yet changed
   for (Index i = rows.rows() - 1; i >= 0; --i) {
     const Predictor& predictor = predictors_[static_cast<size_t>(which_[static_cast<size_t>(i)])];
     const Index m = predictor.weights.size();
@@ -138,7 +140,7 @@ void Whitening::Apply(Rows& rows) const {
 std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
                                               const LogSamples& measurements,
                                               const Selection& selection) {
-  // white noise of neighbours is the common case: their places are asked for beyond it alone
+  // neighbours with white noise are the common case, for which no places are needed
   const bool neighbours = AreNeighbours(selection, measurements);
   if (neighbours && !IsSurelyColoured(FitNoise(residual, selection), residual.size()))
     return nullptr;

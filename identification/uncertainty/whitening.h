@@ -13,14 +13,14 @@
 
 namespace warmjoint {
 
-/// Whether a residual turns with the direction of motion, as what a model of friction lacks does and
-/// noise of the torque does not: the means of runs of one direction differ in sign from run to run
-/// more often than half of the times, by more than three deviations (a sign test). Nothing where
-/// fewer than nine changes of direction cannot tell. residual, velocity: [n]
+/// Whether the sign of a residual turns with the direction of motion, as that of friction which a model lacks does and
+/// that of noise does not: the means of runs of one direction differ in sign from run to run
+/// more often than half of the times, by more than three deviations (a sign test). Returns nothing where there are
+/// fewer than nine changes of direction, which are too few to decide. residual, velocity: [n]
 std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
                                        const Eigen::VectorXd& velocity);
 
-/// Where the kept samples stand in time, in sampling intervals (the median step between neighbours
+/// The places of the kept samples in time, in sampling intervals (the median step between neighbours
 /// that are kept): ascending from 0. Samples that preparation put in between take no place. A gap,
 /// or the start of another recording, counts a thousand intervals at most, or exactly. [n]
 std::vector<Eigen::Index> PlacesInTime(const LogSamples& measurements, const Selection& selection);
@@ -28,7 +28,7 @@ std::vector<Eigen::Index> PlacesInTime(const LogSamples& measurements, const Sel
 /// W with W R W^T = s^2 I, R the covariance of the noise at the rows and s^2 its innovation: row i
 /// less its best prediction from the rows before, times s over the error of that. Of p rows before,
 /// p the order of the noise (Vecchia 1988): exact where all of them are neighbours, and for AR(1)
-/// across any gap; beyond it the covariances of the rows that are left predict.
+/// across any gap; otherwise the prediction is by the covariances of the rows that are left.
 class Whitening final : public RowTransform {
  public:
   /// noise: of order 1 or more, over places; places: [n] ascending.

@@ -33,7 +33,7 @@
 namespace warmjoint {
 namespace {
 
-/// A fit on its path from plain squares to its last pass.
+/// The state of a fit from its first pass, by plain squares, to its last.
 struct LawFit {
   std::string name;
   LawProblem problem;
@@ -41,14 +41,14 @@ struct LawFit {
   ThermalFit fit;
   double nominal_squares = 0;    // that the law leaves without heat, on the same rows
   InitialGuess scanned{};        // where a fit with heat began
-  double threshold = kInfinity;  // N.m or N, where Huber's loss bends
+  double threshold = kInfinity;  // N.m or N, from which on Huber's loss is linear
   std::shared_ptr<const LaggedRows> lag{};
   std::shared_ptr<const Whitening> whitening{};
   std::optional<Disagreement> unwhitened{};  // why coloured rows were not whitened
 
   const IdentifierInput& input() const { return problem.input(); }
   const LogSamples& measurements() const { return problem.input().measurements; }
-  /// Takes a pass, and what the law leaves on its rows without heat.
+  /// Takes over a pass, and the squares that the law leaves on its rows without heat.
   void Take(RowTreatment treatment, ThermalFit next) {
     rows = std::move(treatment);
     fit = std::move(next);
@@ -59,7 +59,7 @@ struct LawFit {
 /// Adds the heat by plain squares, with what is known of E(0) and a jump of E at each gap. Returns the clause that the
 /// log contradicts the start that was expected; or an empty text.
 std::string AddHeat(LawFit& law) {
-  // first without gaps, with E(0) as the options have it: where it is open, so is that of each further recording
+  // first without gaps, with E(0) as the options have it: where it is estimated, so is that of each further recording
   LawProblem& problem = law.problem;
   const InitialEnergy initial = InitialEnergyOf(law.input().options);
   const std::vector<LogGap> starts = FreeStarts(initial, law.measurements(), law.input().selection);
@@ -79,7 +79,7 @@ std::string AddHeat(LawFit& law) {
       },
       law.fit);
 
-  // nobody knows the losses within gaps: E may jump there
+  // the losses within gaps are not known: E may jump there
   const std::vector<LogGap> gaps = FindGaps(law.measurements());
   if (!gaps.empty()) {
     const std::vector<LogGap> all = Merged(gaps, starts);
@@ -100,15 +100,15 @@ bool HasConverged(const ThermalFit& before, const ThermalFit& after, double scal
   return ((after.x - before.x).array().abs() <= kHuberConverged * deviations).all();
 }
 
-/// Fits again and again, each sample weighted by what Huber's loss makes of its residual in the fit before (least_squares.h),
-/// until the parameters rest; converged says whether they do.
+/// Fits repeatedly, each sample weighted by Huber's loss of its residual in the fit before (least_squares.h),
+/// until the parameters no longer change; `converged` says whether that was reached.
 void RefineByHuber(LawFit& law) {
   law.threshold = 0;
   ThermalFit fit = law.fit;
   RowTreatment rows = law.rows;
   bool rests = false;
   for (int round = 0; round < kMostHuberRounds && fit.converged && !rests; ++round) {
-    // weights by how far the residual stands out of its robust spread
+    // weights by how far the residual exceeds its robust spread
     const Eigen::VectorXd residual =
         rows.torque - Kept(law.problem.Respond(fit).torque, law.input().selection);
     if (!residual.allFinite()) break;
@@ -122,13 +122,13 @@ void RefineByHuber(LawFit& law) {
     rests = next.converged && HasConverged(fit, next, rows.scale);
     fit = std::move(next);
   }
-  // the fit of exact data has no residual that could bend the loss
+  // exact data leave no residual to which Huber's loss could apply
   fit.converged = fit.converged && (rests || !(law.threshold > 0));
   law.Take(std::move(rows), std::move(fit));
 }
 
-/// Fits once more on whitened rows, where the noise is coloured beyond doubt; the fit stays as it was
-/// where that changes more than noise may.
+/// Fits once more on whitened rows, where the noise is coloured beyond doubt. The fit stays as it was
+/// where whitening changes it by more than noise may.
 void Whiten(LawFit& law) {
   const ThermalFit& plain = law.fit;
   const ThermalResponse response = law.problem.Respond(plain);
@@ -167,7 +167,7 @@ struct FitAtOneLag {
 };
 
 /// The best lag (SearchLag), and the fit at it; nothing where the log shows no lag. start: of the first trial with heat,
-/// none without heat; without: [n] torque of the fit without a lag, empty where it went astray
+/// none without heat; without: [n] torque of the fit without a lag, empty where that did not converge to a friction
 std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<InitialGuess> start,
                                         const Eigen::VectorXd& without) {
   const Selection& selection = law.input().selection;
@@ -195,12 +195,12 @@ std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<Initial
   return latest;
 }
 
-/// Where a search for the lag may begin if the fit without one went astray: from the torque less what the lag of a law
-/// without heat adds; nothing where that shows no lag.
+/// The start of a search for the lag where the fit without one failed: it is found from the torque less what the lag of a law
+/// without heat adds. Nothing where the law without heat shows no lag.
 std::optional<InitialGuess> StartWithLag(const LawFit& law) {
   const auto found = FitAtBestLag(law, std::nullopt, {});
   if (!found) return std::nullopt;
-  // without what the lag adds to the model the scan sees friction alone
+  // without what the lag adds to the model, the scan is over friction only
   const Selection& selection = law.input().selection;
   Eigen::VectorXd torque = law.measurements().torque;
   const Eigen::VectorXd model = Kept(law.problem.Respond(found->fit).torque, selection);
@@ -209,7 +209,7 @@ std::optional<InitialGuess> StartWithLag(const LawFit& law) {
   return law.problem.Scan(torque, law.problem.FitCold(law.problem.AsMeasured()));
 }
 
-/// Fits once more behind the lag of the torque that leaves the least squares, where the log shows one. Losses follow
+/// Fits once more with the lag of the torque that leaves the least squares, where the log shows a lag. Losses follow
 /// from the friction itself, which no lag touches.
 void AddTorqueLag(LawFit& law) {
   // what the search compares with: no lag at all
@@ -230,7 +230,7 @@ void AddTorqueLag(LawFit& law) {
   law.Take(std::move(found->rows), std::move(found->fit));
 }
 
-/// Why the warm-up cannot be told; nothing where it can.
+/// Why the warm-up is not identifiable; nothing where it is.
 std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
   const ThermalFit& fit = law.fit;
   // variance of the noise, and how much wider few segments make an interval
@@ -253,7 +253,7 @@ std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
                                 MedianStep(law.measurements().time)});
 }
 
-/// Why there is no fit to trust; nothing where there is.
+/// Why the fit is refused; nothing where it is not.
 std::optional<Refusal> WhyRefused(const LawFit& law, const ThermalResponse& response) {
   if (!law.fit.has_heat()) {
     if (law.fit.converged) return std::nullopt;
@@ -278,7 +278,7 @@ std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
     Iterate& entry = trace.emplace_back();
     entry.iteration = static_cast<int>(trace.size()) - 1;
     entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
-    // law, gain and time constant, which the fit knew by its logarithm
+    // law, gain and time constant, which the fit has as its logarithm
     const Eigen::Index count = warm.layout.heat.end();
     entry.values.assign(iterate.x.begin(), iterate.x.begin() + count);
     entry.values.back() = std::exp(entry.values.back());
@@ -286,14 +286,14 @@ std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
   return trace;
 }
 
-/// What the errors of a fit follow from, whatever its loss. residual: [n]
+/// The rows and residuals from which the errors of a fit follow, for any loss. residual: [n]
 ErrorModel ErrorsOf(const LawFit& law, const Eigen::VectorXd& residual) {
   ErrorModel errors;
   errors.prior = law.fit.prior;
   errors.cofactor = law.fit.cofactor;
   errors.whitening = law.whitening;
   if (std::isinf(law.threshold)) return errors;
-  // of a loss that bends: plain columns and the scores of the loss
+  // with Huber's loss: plain columns and the scores of the loss
   const Eigen::MatrixXd rows = Kept(law.problem.JacobianOf(law.fit), law.input().selection);
   Eigen::MatrixXd normal = rows.transpose() * rows;
   if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
@@ -320,7 +320,7 @@ void FillTable(const LawFit& law, Fit& fit) {
   AddRigid(law.problem.task().gravity, law.fit.rigid(), m, fit);
 }
 
-/// The fit as a value, or why there is none to trust.
+/// The result of the fit, or why it is refused.
 Fit Conclude(LawFit law) {
   const LogSamples& m = law.measurements();
   const ThermalFit& found = law.fit;
@@ -363,12 +363,12 @@ Fit Conclude(LawFit law) {
     const Eigen::VectorXd friction = Kept(response.force, fit.used);
     fit.causes.push_back(StructureCause(*law.unwhitened, friction, fit));
   }
-  // the lag, which the model of law and heat does not know
+  // the lag, which is not part of the model of law and heat
   if (law.lag) AddLag(law.lag, response.torque, m, fit);
   return fit;
 }
 
-/// The fit to a torque that follows its motion at once, or behind a first-order lag.
+/// The fit to a torque that follows its motion at once, or with a first-order lag.
 Fit FitLawInTime(const std::string& name, const IdentifierInput& given, PartFit heat) {
   const bool warms = heat == PartFit::estimated;
   const LinearTask task = BeginLinear(given, warms ? 3 : 0);
@@ -377,7 +377,7 @@ Fit FitLawInTime(const std::string& name, const IdentifierInput& given, PartFit 
   const Selection moving = WithoutRest(chosen.selection, chosen.measurements);
   const IdentifierInput input = chosen.With(moving);
 
-  // the columns of law and gravity must be distinct before any warming is thought of
+  // the columns of law and gravity must be distinct before a warming is fitted
   LawProblem problem(input, task);
   const RowTreatment measured = problem.AsMeasured();
   ThermalFit cold = problem.FitCold(measured);
@@ -388,7 +388,7 @@ Fit FitLawInTime(const std::string& name, const IdentifierInput& given, PartFit 
   law.nominal_squares = law.fit.squares;
   const std::string contradiction = warms ? AddHeat(law) : "";
 
-  // behind a lag; else by the passes that outliers and the colour of the noise ask for
+  // with a lag; else by the passes that outliers and the colour of the noise ask for
   if (AsksForLag(input.options)) AddTorqueLag(law);
   if (!law.lag) {
     if (input.options.OrDefault<LossOption>().loss == LossKind::huber) {

@@ -1,4 +1,4 @@
-// Law, gravity and inertia by least squares, with heat or without: the fit behind nominal-ls and energy-ml.
+// Law, gravity and inertia by least squares, with heat or without: the fit that nominal-ls and energy-ml make.
 #pragma once
 
 #include <string>
@@ -13,19 +13,20 @@ namespace warmjoint {
 
 /// (p, k, tau, ...) = argmin sum over the kept samples of (tau - F - G - M a)^2, maximum likelihood for white noise on
 /// the torque: without heat by linear least squares, Eqs. (7)-(9); with heat over the closed loop (19)-(22), from a
-/// scan over tau. The options say what more there is: gravity, inertia beside motion of any kind, E(0) of each recording,
-/// jumps of E at gaps, Huber's loss, a lag of the torque, and its delay beside motion of any kind (torque_delay.h); of what they do not name, none. Where the noise is coloured beyond doubt, law and heat are fitted once
+/// scan over tau. The options say what more there is: gravity, inertia with motion of any kind, E(0) of each recording,
+/// jumps of E at gaps, Huber's loss, a lag of the torque, and its delay with motion of any kind (torque_delay.h). What they do
+/// not name is left out. Where the noise is coloured beyond doubt, law and heat are fitted once
 /// more to whitened rows, unless that changes more than noise may (hausman_test.h).
-/// not_identifiable where the motion cannot tell the columns apart, or where the warm-up cannot be seen: its share of
+/// not_identifiable where the motion does not distinguish the columns, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier
 Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat);
 
-/// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
+/// Rows of the table for the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
 /// further starts among them
 std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                                     const LogSamples& measurements);
 
-/// Notes with a fit what its heat leaves open: losses within gaps of the log, and how warm the joint was as further
+/// Notes with a fit what is uncertain about its heat: losses within gaps of the log, and how warm the joint was as further
 /// recordings began where that of the first alone was expected.
 void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                   const LogSamples& measurements, Fit& fit);

@@ -21,7 +21,7 @@ bool RestsOver(const LogSamples& m, Eigen::Index behind) {
          m.position[behind - 1] == m.position[behind];
 }
 
-/// Once more from where a fit ended, with what is known of E(0) and the noise that the fit left.
+/// Fits once more from where a fit ended, with what is known of E(0) and the noise that the fit left.
 ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFit& fit) {
   rows.initial = initial;
   rows.scale = std::sqrt(fit.squares / rows.weight.sum());
@@ -30,7 +30,7 @@ ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFi
   return next;
 }
 
-/// FitJumps with the E(0) that the fit has or knows. before: the loop of that fit; rows: with the jumps
+/// FitJumps with the E(0) that the fit estimates or holds. before: the loop of that fit; rows: with the jumps
 Eigen::VectorXd AddJumps(const ClosedLoop& before, ThermalRows rows,
                          const std::vector<LogGap>& gaps, ThermalFit& fit) {
   const Thermal thermal = fit.thermal();
@@ -140,7 +140,7 @@ std::string RefitStart(const ThermalRows& rows,
   const InitialEnergy initial = fit.initial;
   if (!initial.is_expected()) return "";
 
-  // the log alone, which says what its noise is, too
+  // the fit to the log alone, which also determines its noise
   const ThermalFit alone = Again(rows, InitialEnergy::estimated, fit);
   if (alone.converged) {
     const std::string unlike =

@@ -1,4 +1,5 @@
-// Where a log does not say what becomes of the heat, gaps while the joint moves and recordings that may begin warm, and the fits that find it.
+// Places where a log does not say how the heat changes, gaps while the joint moves and recordings that may begin warm, and the
+// fits that estimate the jump of E there.
 #pragma once
 
 #include <warmjoint/prepared_log.h>
@@ -21,8 +22,8 @@ std::vector<LogGap> FindGaps(const LogSamples& measurements);
 /// depends on what was before.
 std::vector<LogGap> FurtherStarts(const LogSamples& measurements);
 
-/// Those that a fit has to find: none where E(0) is not open; else of the recordings that keep samples, since the others
-/// tell nothing of theirs.
+/// The starts whose E(0) a fit has to estimate. There are none where E(0) is given or expected; else they are those of the
+/// recordings that keep samples, since the others show nothing of their E(0).
 std::vector<LogGap> FreeStarts(const InitialEnergy& initial, const LogSamples& measurements,
                                const Selection& kept);
 inline bool IsStart(const LogGap& gap) { return std::isinf(gap.length); }
@@ -30,7 +31,7 @@ inline bool IsStart(const LogGap& gap) { return std::isinf(gap.length); }
 /// Both in order of time.
 std::vector<LogGap> Merged(const std::vector<LogGap>& one, const std::vector<LogGap>& other);
 
-/// How far the energy behind each gap may lie from what a filter takes it for, which holds the last
+/// How far the energy after each gap may lie from what a filter takes it for, which holds the last
 /// loss: by |E| of the warmest moment, (1 - exp(-gap/tau)) of it; at a start without bound. [J] N.m or N; warmest: N.m or
 /// N.
 Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, double time_constant);
@@ -41,18 +42,18 @@ std::vector<std::string> JumpNames(const std::vector<LogGap>& gaps, const LogSam
 /// LogGap::behind of each. [J]
 std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps);
 
-/// Fits once more, the jumps of E at gaps too; from a fit without them, whose place it takes. A gap that a fit does
-/// not know may pass for a warm start that cools: where E(0) is free, the jumps are found beside a cold start as well,
-/// E(0) after them, and of both fits the one is taken that leaves less.
+/// Fits once more, the jumps of E at gaps too; from a fit without them, which it replaces. A fit that does not model a
+/// gap may take it for a warm start that cools. So where E(0) is free, the jumps are found with a cold start as well, and
+/// E(0) after them; of both fits the one is taken that leaves less.
 /// rows: without gaps; gaps: with the further starts that are free in `rows`; scanned: where the fit began. Returns how
-/// far the jumps may be. [J]
+/// large the jumps may be. [J]
 Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gaps,
                          const InitialGuess& scanned, ThermalFit& fit);
 
-/// Fits once more where E(0) was expected, by the noise that the fit leaves: the fit before it knew no
-/// noise to weigh the expectation by. Where the log contradicts what was expected (ContradictsExpected), E(0) is
-/// estimated from the log alone. fit: takes the place of the one given. deviation: of E(0) in a fit that knows
-/// nothing of it, N.m or N. Returns the clause that tells of a contradiction, else an empty text.
+/// Fits once more where E(0) was expected, by the noise that the fit leaves: in the fit before it there was no
+/// estimate of the noise by which to weigh the expectation. Where the log contradicts what was expected (ContradictsExpected),
+/// E(0) is estimated from the log alone. fit: takes the place of the one given. deviation: of E(0) in a fit that knows
+/// nothing of it, N.m or N. Returns the clause that reports a contradiction, else an empty text.
 std::string RefitStart(const ThermalRows& rows,
                        const std::function<double(const ThermalFit&)>& deviation, ThermalFit& fit);
 

@@ -1,4 +1,4 @@
-// The heat that a recording begins with: what is known of it before a fit, and what an estimate says.
+// The heat with which a recording begins: what is known of it before a fit, and its estimate.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -46,11 +46,11 @@ struct InitialEnergyOptions {
 /// Whether options have these, and take the joint for cold as the log begins.
 bool TakesColdStart(const Options& options);
 
-/// What they say; that the joint is cold, where options have none of these.
+/// E(0) by these options; 0, a cold joint, where the options have none of them.
 InitialEnergy InitialEnergyOf(const Options& options);
 
 /// The sentence that the log itself contradicts what was expected, by more than four deviations of both;
-/// empty where it does not. found: E(0) in a fit that knows nothing of it, deviation: of that, N.m or N.
+/// empty where it does not. found: E(0) in a fit without the expectation; deviation: of `found`, N.m or N.
 std::string ContradictsExpected(const InitialEnergy& expected, double found, double deviation);
 
 /// E(0) of each recording and the jumps of E at gaps (gaps.h), as far as the estimate has them. What is

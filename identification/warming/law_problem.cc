@@ -33,7 +33,7 @@ LawProblem::LawProblem(const IdentifierInput& input, const LinearTask& task)
       offsets_(loop_.direction().asDiagonal() * task.gravity.columns) {}
 
 ThermalFit LawProblem::FitCold(const RowTreatment& rows) const {
-  // the rows as they count
+  // the rows with their weights and transform
   Eigen::MatrixXd A = columns_;
   Eigen::VectorXd y = rows.torque;
   if (rows.transform) {
@@ -88,7 +88,7 @@ InitialGuess LawProblem::Scan(const Eigen::VectorXd& torque, const ThermalFit& c
   const Eigen::VectorXd level = loop_.direction().cwiseProduct(torque);
   if (gravity.count() == 0) return ScanTimeConstant(loop_, level, kept_);
 
-  // gravity of the fit without warming is taken off, and what that lacks scanned with the law
+  // gravity of the fit without warming is subtracted, and its remaining error is scanned together with the law
   const ClosedLoop together = ClosedLoop::Along(input_.measurements, task_.columns);
   InitialGuess start = ScanTimeConstant(together, level - offsets_ * cold.rigid(), kept_);
   start.parameters.tail(gravity.count()) += cold.rigid();

@@ -1,4 +1,4 @@
-// A log, law, gravity and heat as every pass of a fit by squares sees them.
+// A log, law, gravity and heat in the form that every pass of a least-squares fit uses.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,15 @@
 
 namespace warmjoint {
 
-/// What a fit by squares makes of the kept samples.
+/// The treatment of the kept samples by a least-squares fit.
 struct RowTreatment {
-  Eigen::VectorXd torque;     // [n] N.m or N, that is fitted; behind a lag LaggedRows::BeforeLag
+  Eigen::VectorXd torque;     // [n] N.m or N, that is fitted; with a lag LaggedRows::BeforeLag
   Eigen::VectorXd weights{};  // [n] of the squares; or empty: 1
   std::shared_ptr<const RowTransform> transform{};  // of columns and torque; or none
   double scale = 1;  // about the standard deviation of what is left, N.m or N
 };
 
-/// What a fit says along its log.
+/// The response of a fit along its log.
 struct ThermalResponse {
   Eigen::VectorXd force;                      // [N] F, N.m or N
   Eigen::VectorXd torque;                     // [N] F + G + M a, N.m or N
@@ -36,7 +36,7 @@ class LawProblem {
 
   /// The rows as they were measured.
   RowTreatment AsMeasured() const { return {.torque = torque_}; }
-  /// Without heat, by linear least squares. A fit has not converged where the columns cannot be told apart.
+  /// Without heat, by linear least squares. A fit has not converged where the columns cannot be distinguished.
   ThermalFit FitCold(const RowTreatment& rows) const;
   /// With heat.
   ThermalFit FitWarm(const RowTreatment& rows, const InitialEnergy& initial,
@@ -51,13 +51,13 @@ class LawProblem {
   ThermalResponse Respond(const ThermalFit& fit) const;
   /// d(F + G + M a)/dx over all samples, without lag. [N x p]
   Eigen::MatrixXd JacobianOf(const ThermalFit& fit) const;
-  /// How sure a fit to plain squares is of its x, whatever the colour of the noise. residual: [n] that it leaves
+  /// The uncertainty of x of a fit to plain squares, for noise of any colour. residual: [n] that it leaves
   Uncertainty CovarianceOf(const ThermalFit& plain, const Eigen::VectorXd& residual) const;
 
   const IdentifierInput& input() const { return input_; }
   const LinearTask& task() const { return task_; }
   const ClosedLoop& loop() const { return loop_; }
-  /// The rows of fits with heat, before anything was made of them.
+  /// The rows of fits with heat, without any treatment.
   ThermalRows WarmRows(const InitialEnergy& initial, double scale) const {
     return {.loop = loop_,
             .level = level_,
@@ -68,7 +68,7 @@ class LawProblem {
             .jump_spread = jump_spread_};
   }
 
-  /// At what gaps and further starts E jumps, and how far it may. spread: [J] N.m or N
+  /// Sets the gaps and further starts at which E jumps, and how large the jumps may be. spread: [J] N.m or N
   void TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& spread);
   const std::vector<LogGap>& gaps() const { return gaps_; }
 

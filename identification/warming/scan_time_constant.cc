@@ -72,7 +72,7 @@ struct Products {
   Eigen::Array<double, kTaus, Eigen::Dynamic> columns;  // [kTaus x d]
 };
 
-/// Filters the loss with every tau at once; x in the middle of a block stands for the block.
+/// Filters the loss with every tau at once; x in the middle of a block represents the block.
 Products Filter(const Blocks& blocks, const Taus& tau) {
   const Eigen::Index d = blocks.levels.cols();
   Products products;
@@ -100,7 +100,7 @@ Products Filter(const Blocks& blocks, const Taus& tau) {
   return products;
 }
 
-/// A parabola through three even points, a step apart.
+/// A parabola through three points with even steps between them.
 struct Parabola {
   double before, at, after;
 
@@ -130,7 +130,7 @@ InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& lev
   const Taus tau = start.shortest * (step * Taus::LinSpaced(0, kTaus - 1)).exp();
   const Products products = Filter(blocks, tau);
 
-  // projections beside the law's columns: what is left of x and of its product with the level
+  // projections orthogonal to the law's columns: what is left of x and of its product with the level
   const Eigen::MatrixXd weighted = blocks.weight.asDiagonal() * blocks.levels;
   const Eigen::LDLT<Eigen::MatrixXd> normal(weighted.transpose() * blocks.levels);
   const Eigen::VectorXd nominal = normal.solve(weighted.transpose() * blocks.level);

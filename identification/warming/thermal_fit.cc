@@ -16,7 +16,7 @@
 namespace warmjoint {
 namespace {
 
-/// The residuals' variance over that of each unknown beside the log, or 0: of jumps, and of an E(0) that is expected. [p]
+/// The residuals' variance over the prior variance of each unknown, or 0 without a prior. Jumps have one, and an E(0) that is expected. [p]
 Eigen::VectorXd Prior(const ThermalRows& rows) {
   const Layout layout = rows.layout();
   const auto weight = [&](double spread) {
@@ -52,7 +52,7 @@ class LogProducts {
     if (layout_.rigid.size > 0) measured_ -= rows_.offsets * layout_.rigid.Of(x);
     const Eigen::MatrixXd products = SumProductsOfSize(x);
 
-    // what is known beside the samples counts as rows of its own
+    // prior knowledge counts as rows of its own
     Eigen::VectorXd off = x;
     if (layout_.start.size > 0) off[layout_.energy()] -= rows_.initial.mean;
     const Eigen::Index p = layout_.size();
@@ -117,7 +117,7 @@ class LogProducts {
       sign[count] = rows_.loop.direction()[n];
       return rows.row(count++);
     });
-    // levels back to torques, whose noise the transform knows
+    // levels back to torques, for whose noise the transform is
     rows.array().colwise() *= sign.array();
     rows_.transform->Apply(rows);
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());

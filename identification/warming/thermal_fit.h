@@ -14,7 +14,7 @@
 namespace warmjoint {
 
 /// What is known of E(0) before the fit: it is normal about a mean. A spread of 0 holds it there, an
-/// infinite one says nothing.
+/// infinite one is no prior.
 struct InitialEnergy {
   double mean = 0;    // N.m or N
   double spread = 0;  // standard deviation, N.m or N
@@ -24,9 +24,9 @@ struct InitialEnergy {
   /// N.m or N; a spread so small that it says: exactly.
   static constexpr double kExact = 1e-12;
 
-  /// Whether the log alone tells it.
+  /// Whether it is estimated from the log alone.
   bool is_open() const { return std::isinf(spread); }
-  /// Whether there is something to fit it to beside the log.
+  /// Whether it is fitted to a prior expectation in addition to the log.
   bool is_expected() const { return spread > 0 && std::isfinite(spread); }
 };
 
@@ -61,7 +61,7 @@ struct ThermalRows {
 };
 
 /// What a fit of law, heat, gravity and inertia to one log came to, its rows as they were fitted and not over their scale.
-/// Without heat it has no trace, and infinite squares where the columns cannot be told apart.
+/// Without heat it has no trace, and infinite squares where the columns cannot be distinguished.
 struct ThermalFit {
   Eigen::VectorXd x;            // [p]
   double squares = 0;           // (N.m)^2 or N^2
@@ -69,9 +69,9 @@ struct ThermalFit {
   std::vector<FitPoint> trace;  // the solution last
   bool converged = false;
   Layout layout;
-  Eigen::VectorXd prior;            // [p] the diagonal P: what is known of x beside the log
+  Eigen::VectorXd prior;            // [p] the diagonal P: what is known of x before the log
   InitialEnergy initial;            // what was known of E(0)
-  std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be told apart
+  std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be distinguished
 
   bool has_heat() const { return layout.heat.size > 0; }
   bool estimates_initial_energy() const { return layout.start.size > 0; }

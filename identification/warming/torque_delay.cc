@@ -25,18 +25,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kCertain = 4;       // standard errors; why: by chance 1 in 16,000
-constexpr double kToldSteps = 0.5;   // why: what is known less well moves an inertia by as much
-constexpr double kLongest = 0.15;    // s; why: buses and filters take less, and moves last longer
+constexpr double kCertain = 4;  // standard errors; why: by chance 1 in 16,000
+// why: a delay that is less certain changes an inertia by as much
+constexpr double kToldSteps = 0.5;
+constexpr double kLongest = 0.15;    // s; why: buses and filters take less, and motions last longer
 constexpr double kLongestSteps = 6;  // of the log, where that is more
 constexpr double kOfTheLog = 0.1;    // at most
-constexpr int kTried = 24;     // to each side; why: 6 ms apart, moves bend over ten times that
+// to each side; why: 6 ms from one to the next, while motions change over ten times that
+constexpr int kTried = 24;
 constexpr Index kRows = 5000;  // of a search; why: it only has to find the valley
 constexpr int kBits = 12;      // of its refinement, since steps over all samples follow
 constexpr int kMostRounds = 8;
 constexpr double kArrived = 0.02;  // of the standard error
 // s, over which the model is differentiated; why: noise of an acceleration, over one step of the log, would count as motion
-// and the delay as better known than it is; the derivative of a move as short as half a second loses 2 %
+// and the delay as better known than it is; the derivative of a motion as short as half a second loses 2 %
 constexpr double kDifference = 0.06;
 
 LogView ViewOf(const IdentifierInput& given) { return {given.measurements, given.selection}; }
@@ -46,7 +48,7 @@ double LongestDelay(const LogSamples& m, double step) {
   return std::min(std::max(kLongest, kLongestSteps * step), kOfTheLog * duration);
 }
 
-/// One of several samples that take part.
+/// A selection with only some of the samples that take part.
 Selection Thinned(Selection selection) {
   const Index each = 1 + selection.count() / kRows;
   for (Index i = 0, seen = 0; i < selection.keep.size(); ++i) {
@@ -55,7 +57,7 @@ Selection Thinned(Selection selection) {
   return selection;
 }
 
-/// The mean square that law, gravity and inertia leave at a delay; infinite where they cannot be told.
+/// The mean square that law, gravity and inertia leave at a delay; infinite where they cannot be determined.
 double MeanSquareAt(double delay, const IdentifierInput& given) {
   LogView late = Delayed(ViewOf(given), delay);
   late.selection = Thinned(std::move(late.selection));
@@ -86,7 +88,7 @@ std::optional<double> SearchDelay(const IdentifierInput& given, double longest) 
 }
 
 /// Whether all samples of a span of time around each sample take part: none of them is a turn, a rest or a corner of the velocity,
-/// where the torque jumps. from, to: samples before and behind it
+/// where the torque jumps. from, to: samples before and after it
 SampleMask WithoutJumps(const SampleMask& keep, Index from, Index to) {
   const Index n = keep.size();
   std::vector<Index> left_out(static_cast<size_t>(n) + 1, 0);
@@ -96,8 +98,8 @@ SampleMask WithoutJumps(const SampleMask& keep, Index from, Index to) {
   return without;
 }
 
-/// d tau / d delay of a fit, over kDifference around each sample where no jump lies within, else to one of its sides, else over a
-/// step of the log. given: as it was logged. [N] N.m/s or N/s
+/// d tau / d delay of a fit, over kDifference around each sample where there is no jump within, else to one of its sides, else
+/// over a step of the log. given: as it was logged. [N] N.m/s or N/s
 VectorXd ByDelay(const Fit& fit, const IdentifierInput& given, double delay, double step) {
   const auto at = [&](double more) -> VectorXd {
     return TorqueAlong(fit, Delayed(given.measurements, delay + more));
@@ -121,7 +123,7 @@ VectorXd ByDelay(const Fit& fit, const IdentifierInput& given, double delay, dou
   return by_delay;
 }
 
-/// The rows of a fit and of the delay behind them, as the fit solved them. [n x p + 1]
+/// The rows of a fit, followed by the column of the delay, as the fit solved them. [n x p + 1]
 MatrixXd RowsOf(const Fit& fit, const VectorXd& by_delay) {
   MatrixXd rows = ConcatColumns(Kept(fit.jacobian(), fit.used), Kept(by_delay, fit.used));
   return fit.errors.whitening ? fit.errors.whitening->Of(rows) : rows;
@@ -134,7 +136,7 @@ void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& 
   fit.jacobian = [of_model = std::move(fit.jacobian), by_delay] {
     return ConcatColumns(of_model(), by_delay);
   };
-  // it is known by the log alone
+  // the delay has no prior
   if (VectorXd& prior = fit.errors.prior; prior.size() > 0) {
     prior.conservativeResize(prior.size() + 1);
     prior[prior.size() - 1] = 0;
@@ -166,7 +168,7 @@ bool Improves(const Fit& late, const Fit& other, double variances) {
   return without - with > variances * variance * inflation;
 }
 
-/// What a delay that may be there, and is not told, would change of a fit in time.
+/// What a delay would change of a fit without one, where the log does not determine whether there is a delay.
 Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
   Cause cause{.source = Source::late_torque,
               .action = Action::widen,
@@ -204,13 +206,14 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
     Fit fit = fit_in_time(given.On(late));
     if (fit.refusal) break;
 
-    // what all unknowns and the delay would still have to change
+    // the Gauss-Newton step of all unknowns and of the delay
     const VectorXd by_delay = ByDelay(fit, given, *delay, step);
     const MatrixXd rows = RowsOf(fit, by_delay);
     VectorXd left = fit.residual();
     if (fit.errors.whitening) left = fit.errors.whitening->Of(left);
     const LeastSquares change = SolveLeastSquares(rows, left);
-    if (change.solution.size() == 0) break;  // the motion cannot tell it apart
+    // the motion does not distinguish it from the other unknowns
+    if (change.solution.size() == 0) break;
     const double further = change.solution[rows.cols() - 1];
     AddDelay(*delay, by_delay, m, fit);
     const double deviation = CovarianceOf(fit).Deviation(rows.cols() - 1);
@@ -221,8 +224,9 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
     }
     if (!delay || !(deviation < std::max(kToldSteps * step, std::abs(*delay) / kCertain))) break;
     if (IsLate(fit)) {
-      // no delay must be worse. So must as much to the other side, whose motion between samples is as smooth: of squares
-      // (d - c)^2/deviation^2 their difference is 4 d c/deviation^2, of which c must be beyond chance
+      // a fit without a delay must be worse. So must one with a delay of the same size and opposite sign, whose motion between
+      // samples is as smooth: with squares (d - c)^2/deviation^2 the difference of the two is 4 d c/deviation^2, in which c
+      // must be beyond chance
       Fit in_time = fit_in_time(given);
       const LogView early = Delayed(ViewOf(given), -*delay);
       const double other_side = 4 * kCertain * std::abs(*delay) / deviation;

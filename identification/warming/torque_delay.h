@@ -1,4 +1,4 @@
-// A torque that comes late beside the motion of any kind: one more unknown of a fit of law, heat, gravity and inertia.
+// A torque that is late relative to the motion, for motion of any kind: one more unknown of a fit of law, heat, gravity and inertia.
 #pragma once
 
 #include <functional>
@@ -32,14 +32,14 @@ using FitInTime = std::function<Fit(const IdentifierInput& given)>;
 /// tau(t) = F + G + M a at t - d: the fit of the model to the motion at t - d (Delayed), d from a search for the least squares of
 /// law, gravity and inertia, then by Gauss-Newton steps over all unknowns and d, whose column is the model's derivative by the
 /// shift of time. d joins the table, the Jacobian and the errors as one more unknown, torque_delay; a sentence names it where
-/// IsLate. Where the log tells d to no better than half a sample, and no such d, the fit is the one in time: then as much is
-/// taken for granted. given: samples of PreparedLog::moving
+/// IsLate. Where the log determines d to no better than half a sample, and IsLate does not hold, the fit is the one without
+/// a delay, which assumes that there is none. given: samples of PreparedLog::moving
 Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time);
 
 /// Whether a fit has a delay that exceeds four of its standard errors.
 bool IsLate(const Fit& fit);
 
-/// The delay of a fit that was made beside a given one, with the sentence that names it, and nothing of its error.
+/// Copies into `fit` the delay of another fit of the same log, with the sentence that names it, but not its error.
 void TakeDelay(double delay, const LogSamples& measurements, Fit& fit);
 
 }  // namespace warmjoint

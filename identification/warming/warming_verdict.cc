@@ -8,9 +8,10 @@ namespace warmjoint {
 
 namespace {
 
-constexpr double kNotAtAll = 100;  // a factor within which nothing is known
+// factor of the time constant's interval from which on it counts as unknown
+constexpr double kNotAtAll = 100;
 
-/// Why what a fit knows of tau is too little.
+/// Why a fit determines tau too poorly.
 std::string WhyUntold(const WarmingEvidence& evidence) {
   const double tau = evidence.time_constant;
   const double factor = std::exp(1.96 * evidence.log_deviation);

@@ -1,4 +1,4 @@
-// Whether a recording shows the warm-up, and whether its two parameters can be told apart.
+// Whether a recording shows the warm-up, and whether its two parameters can be distinguished.
 #pragma once
 
 #include <algorithm>
@@ -18,16 +18,16 @@ inline constexpr double kVisibleWarming = 20;
 inline constexpr double kImpreciseLogTau = 0.5;
 
 /// The same where the interval of tau reaches beyond the recording. Then 1/tau = 0, a joint that
-/// never settles, has to be excluded, by 4 deviations: whatever passes a weaker test there is what
-/// chance made to look short, and its gain with it, which is known by k/tau alone.
+/// never settles, has to be excluded, by 4 deviations. Time constants that passed only a weaker test
+/// would be those that chance made look short, and with them the gain, which is known by k/tau alone.
 inline constexpr double kImpreciseLongLogTau = 0.25;
 
-/// A time constant below which nothing is heat: a second, or five samples of a step (s). What follows the losses faster is a
-/// lag of the torque or the velocity, or what friction does at turns.
+/// A time constant below which nothing is heat: a second, or five samples of a step (s). A force that follows the losses faster
+/// is a lag of the torque or the velocity, or friction that changes at turns.
 /// why: gears warm within minutes; over five samples a delay of one is a fifth of the time constant
 inline double FastestWarming(double step) { return std::max(1.0, 5 * step); }
 
-/// What a fit says of its warm-up.
+/// The figures of a fit that show how well its warm-up is determined.
 struct WarmingEvidence {
   double explained = 0;      // drop of |e|^2 by warming, over the noise's variance
   double log_deviation = 0;  // standard deviation of ln(tau)
@@ -38,7 +38,7 @@ struct WarmingEvidence {
   double step = 0;                                            // s, of the recording
 };
 
-/// What stands beside the warming in a fit, and what to use where no warming can be seen.
+/// What a fit has besides the warming, and what to use where no warming can be seen.
 struct WarmingContext {
   std::string_view beside;  // "", or words that begin with a blank
   std::string_view instead = "nominal-ls";
@@ -48,11 +48,11 @@ struct WarmingContext {
 std::optional<std::string> InsignificantWarming(double explained,
                                                 const WarmingContext& context = {});
 
-/// Why a fit whose tau ran away cannot be told: nothing of tau beyond the recording is known, and
-/// of the gain by k/tau alone; nothing where it did not.
+/// Why a fit whose tau ran away is not identifiable: nothing is known of a tau beyond the recording, and the
+/// gain is known by k/tau alone. Returns nothing where tau did not run away.
 std::optional<std::string> RunawayWarming(double time_constant, double duration);
 
-/// Why thermal gain and time constant cannot be told; nothing where they can.
+/// Why thermal gain and time constant are not identifiable; nothing where they are.
 std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,
                                                  const WarmingContext& context = {});
 

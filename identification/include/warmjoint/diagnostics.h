@@ -1,4 +1,4 @@
-// What is said of an estimate beside its numbers: tests for lack of fit, assumptions, what half widths are made of.
+// What is said of an estimate in addition to its numbers: tests for lack of fit, assumptions, the parts of half widths.
 #pragma once
 
 #include <warmjoint/field.h>
@@ -82,7 +82,7 @@ struct Diagnostic {
   }
 };
 
-/// Something that no test can see, and what it would do.
+/// Something that no test can see, and its effect.
 struct Assumption {
   std::string name;  // "cold_start", "open_drift", ...
   std::string meaning;

@@ -45,7 +45,7 @@ struct EstimatedParameter {
   std::optional<double> std;
   std::optional<std::array<double, 2>> interval95;
 
-  /// Without its name, by which a file has it.
+  /// Its fields without the name, which is the key in a file.
   template <class A>
   void Serialize(A* a) {
     a->Field("value", &value, {.needed = kGiveNumber});
@@ -131,7 +131,7 @@ inline std::span<const Word<MotionKind>> WordsOf(MotionKind) {
 /// What is known of the heat at the start of a log.
 enum class StartBelief {
   cold,     // the joint was cold: intervals hold under that condition
-  unknown,  // it may have been a tenth as warm as it gets: intervals reach as far as that moves them
+  unknown,  // it may have been a tenth as warm as it gets: intervals are widened by the bias from that
   estimated,  // E(0) is fitted
 };
 inline std::span<const Word<StartBelief>> WordsOf(StartBelief) {
@@ -147,7 +147,7 @@ struct GravityModel {
   std::vector<int> knots;  // paired: [m] those that are known, ascending; knot i: 2 pi i/64 rad
   Eigen::VectorXd values;  // sincos: [2]; paired: [m] torque at the knots; constant: [1]. N.m or N
 
-  /// Whether G is known at a position (rad or m): paired knows it between neighbouring knots.
+  /// Whether G is known at a position (rad or m): for `paired` it is, between neighbouring knots.
   bool Covers(double position) const;
 
   /// G at positions that are covered. position: [N] rad or m; returns [N] N.m or N.
@@ -174,14 +174,14 @@ struct MapBand {
   }
 };
 
-/// What law and maps brake with at one speed: with maps the mean over the places where kept samples moved so, and of a friction that
-/// grows with the load under the mean load of these.
+/// The friction of law and maps at one speed: with maps the mean over the places of kept samples at that speed, and of a
+/// friction that grows with the load under the mean load of these.
 struct FrictionAtSpeed {
   double speed = 0;
   double value = 0;
   double std = 0;
   std::array<double, 2> interval95{};
-  std::string speed_unit{}, unit{};  // of a report; empty in a file that does not tell them
+  std::string speed_unit{}, unit{};  // of a report; empty in a file that lacks them
   /// E with which the joint slides, N.m or N: 0 of a cold one, else that of the log's warmest moment; none where nothing warms.
   std::optional<double> energy{};
 
@@ -254,8 +254,8 @@ struct CarriedStage {
   }
 };
 
-/// What is left of an earlier recording's heat at the first sample of the next, E(0) = E exp(-pause/tau) for each stage,
-/// Eq. (22) without losses.
+/// The part that is left of an earlier recording's heat at the first sample of the next, E(0) = E exp(-pause/tau) for each
+/// stage, Eq. (22) without losses.
 struct CarriedHeat {
   std::string file;
   double pause = 0;
@@ -284,8 +284,8 @@ struct CarriedHeat {
   }
 };
 
-/// How far from the ends of its constant-speed segments a torque had not settled after a change of speed, or was about to change:
-/// samples there that the fit leaves out.
+/// The time at the ends of constant-speed segments in which a torque had not settled after a change of speed, or had begun to
+/// change before one. The fit leaves the samples there out.
 struct Settling {
   double after = 0;   // a change of speed, s
   double before = 0;  // the next one, s
@@ -300,7 +300,7 @@ struct Settling {
 };
 
 /// Change of the friction (law and heat, rms) by what a model leaves out from which it is refused, as a share,
-/// where nobody says otherwise (`--relevance`).
+/// by default (`--relevance`).
 inline constexpr double kDefaultRelevance = 0.1;
 
 /// What an identifier answers.
@@ -322,24 +322,24 @@ struct Estimate {
   std::optional<ParameterCovariance> covariance;
   std::vector<Diagnostic> diagnostics;
   std::vector<Assumption> assumptions;
-  /// Of the intervals that reach farther than noise alone has them; the parts of one add up.
+  /// The parts of the half widths of intervals that are wider than by noise alone; the parts of one add up.
   std::vector<HalfWidthPart> half_widths;
   std::vector<EstimatedParameter> state_end;  // empty where nothing warms or nothing is trusted
   std::optional<StructureChoice> choice;
   std::optional<CarriedHeat> follows;
-  /// The files that it tells of, as seen from here; none of a log that was made of vectors.
+  /// The files of its log, as seen from here; none of a log that was made of vectors.
   std::optional<RecordingSource> recording;
   std::optional<Settling> settling;
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
 
-  /// The message and the warnings behind it, with semicolons between them.
+  /// The message, followed by the warnings, with semicolons between them.
   std::string FullMessage() const;
 
   template <class A>
   void Serialize(A* a) {
-    // who answers, and how sure; the message ends in the warnings
+    // the identifier and the status; the message ends in the warnings
     a->Field("identifier", &identifier,
              {.meaning = "one of `warmjoint list identifiers`", .needed = "name it"});
     a->Field("options", &options,
@@ -375,7 +375,7 @@ struct Estimate {
     a->Field("bands", &bands, LeftOut("law and maps together at the centres of each map"));
     a->Field("covariance", &covariance, OrNull("of the values with intervals, by noise alone"));
 
-    // what the verdict said, and what only some have
+    // the verdict, and members that only some estimates have
     a->Field("diagnostics", &diagnostics,
              LeftOut("every test for lack of fit; figures of one that was not made are null"));
     a->Field("assumptions", &assumptions,
@@ -393,7 +393,7 @@ struct Estimate {
              {.meaning = "samples at the ends of constant-speed segments that the fit leaves out, "
                          "since the torque had not settled there"});
 
-    // what it tells of: the project file has a member of its own
+    // the log that it was made of; the project file has a member of its own
     a->Field("follows", &follows,
              {.meaning = "what an earlier recording left of its heat (--follows)"});
     std::optional<TakenProject> project;
@@ -414,12 +414,12 @@ struct Estimate {
 /// are named; empty: as they are.
 std::string EstimateToJson(const Estimate& estimate, const std::filesystem::path& target = {});
 
-/// The inverse; null numbers become NaN, the warnings at the end of `message` are taken off, and keys that nobody knows are
-/// left alone. name: of the text in messages. Throws BadInput for a missing member, a wrong type, an unknown status.
+/// The inverse; null numbers become NaN, the warnings at the end of `message` are separated from it, and unknown keys are
+/// ignored. name: of the text in messages. Throws BadInput for a missing member, a wrong type, an unknown status.
 Estimate EstimateFromJson(const std::string& text, const std::string& name = "estimate");
 
-/// Reads estimate.json. Its recordings are looked for as seen from its folder, as they are named, and beside it. Throws
-/// BadInput.
+/// Reads estimate.json. Its recordings are looked for relative to its folder, by the path as it is written, and next to it.
+/// Throws BadInput.
 Estimate ReadEstimate(const std::filesystem::path& file);
 
 /// Writes it as a whole; its recordings are named as seen from the file's folder, so that both can be found from anywhere and

@@ -14,8 +14,8 @@
 
 namespace warmjoint {
 
-/// A log as fits see it: the samples of one recording, or of several of one joint one behind the other, with what preparation
-/// found beside that which was logged.
+/// A log in the form that fits use: the samples of one recording, or of several of one joint one after the other, with what
+/// preparation found in addition to what was logged.
 struct LogSamples : Measurements {
   LogSamples() = default;
   /// Those of one recording, as it was logged.
@@ -31,14 +31,14 @@ struct LogSamples : Measurements {
   /// estimate has it.
   std::vector<Eigen::Index> further_starts;
 
-  /// Of rows that are means of several samples, whose times no longer tell: the gaps between the
-  /// samples, where a row begins behind each. Otherwise nothing, and gaps are found by the time.
+  /// Where rows are means of several samples, their times no longer show the gaps: then these are the gaps between the
+  /// samples, each with the row that begins after it. Otherwise nothing, and gaps are found by the time.
   std::optional<std::vector<LogGap>> gaps;
 
   /// Samples that were not logged but put in, ascending (InsertSamples).
   std::vector<Eigen::Index> inserted;
 
-  /// The list of recordings: where the samples of each stand. [R >= 1]
+  /// The list of recordings: the places of the samples of each. [R >= 1]
   std::vector<SampleRange> Recordings() const;
 
   /// The samples that were logged, ascending.
@@ -54,7 +54,7 @@ struct LogView {
 /// From what a velocity comes: a column that was logged, or its positions alone.
 enum class MotionSource { velocity, positions };
 
-/// What noise of the velocity does to a slope over |v|.
+/// The effect of noise of the velocity on a slope over |v|.
 struct VelocityNoise {
   double noise = 0;        // of the velocity within segments, rad/s or m/s
   double attenuation = 0;  // share of a slope over |v| that this noise would hide
@@ -70,18 +70,18 @@ struct VelocityNoise {
   }
 };
 
-/// What in a log contradicts itself (log_faults.h).
+/// A contradiction within a log (log_faults.h).
 struct LogFault {
   std::string sentence;
   bool is_absurd_torque = false;  // of samples that WithoutAbsurd leaves out
 };
 
-/// Recordings of one joint, prepared for a fit: what moves at constant speed, one velocity for each
+/// Recordings of one joint, prepared for a fit: the samples of constant speed, one velocity for each
 /// segment where the noise of the samples' would bias a fit (segment_velocity.h), the speed between
 /// segments, with samples put in where it changes between two (transitions.h), and the faults of the
 /// log. Where a recording has no velocity, it follows from its positions (motion_from_positions.h).
-/// Only Prepare and Join make one, and identifiers take nothing else, so that nobody can forget a
-/// step. Several recordings stand one after the other, a step apart in time. Cheap to copy: copies
+/// Only Prepare and Join make one, and identifiers take nothing else, so that no step can be
+/// forgotten. Several recordings follow one after the other, with one step of time between them. Cheap to copy: copies
 /// share the samples.
 class PreparedLog {
  public:
@@ -89,7 +89,7 @@ class PreparedLog {
   /// velocity that it lacks is the smoothed slope of its positions (DeriveVelocity).
   const LogView& raw() const { return log_->raw; }
 
-  /// The log as fits at constant speed see it.
+  /// The log for fits at constant speed.
   const LogView& constant_speed() const {
     return log_->constant_speed ? *log_->constant_speed : log_->raw;
   }
@@ -97,26 +97,26 @@ class PreparedLog {
   /// What the velocity of `raw` was taken from; of several recordings, positions where one has no other.
   MotionSource source() const { return log_->source; }
 
-  /// The log as fits to motion of any kind see it (moving_view.h). Made when it is first asked for, by
+  /// The log for fits to motion of any kind (moving_view.h). Made when it is first asked for, by
   /// whichever thread is first.
   const LogView& moving() const;
-  /// What a reader of a fit to that must know of what was done to its velocity, each one sentence.
+  /// What a reader of a fit to `moving` must know of the changes to its velocity, each one sentence.
   const std::vector<std::string>& moving_warnings() const;
 
-  /// Whether constant speeds are what the log shows of friction (moving_view.h).
+  /// Whether the log shows friction mainly at constant speeds (moving_view.h).
   bool holds_speeds() const { return log_->holds_speeds; }
 
-  /// What was done to the velocity, if anything.
+  /// The noise of a velocity that was averaged over segments, if it was.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
 
-  /// Most of the path, as a share of all of it, that a drive which takes its time to reverse would not
+  /// The largest share of the path that a drive which takes time to reverse would not
   /// have travelled: ramps through 0 that no sample shows.
   double unresolved_path() const { return log_->unresolved_path; }
 
-  /// What in the log contradicts itself, each one sentence (log_faults.h).
+  /// The contradictions within the log, each one sentence (log_faults.h).
   std::vector<std::string> faults() const;
 
-  /// What a reader of the numbers must know of what was done, each one sentence.
+  /// What a reader of the numbers must know of the preparation, each one sentence.
   const std::vector<std::string>& warnings() const { return log_->warnings; }
 
   /// What WithoutAbsurd left out, one sentence.
@@ -167,18 +167,18 @@ class PreparedLog {
   std::shared_ptr<Moving> moving_ = std::make_shared<Moving>();
 };
 
-/// Prepares a recording: the samples at constant speed are found in it (select.h). The one path of
-/// command line, suites, tests of verdicts and benchmarks. Throws BadInput where there is no velocity
+/// Prepares a recording: the samples at constant speed are found in it (select.h). Command line, suites,
+/// tests of verdicts and benchmarks all use it. Throws BadInput where there is no velocity
 /// and the slope of the positions is no number.
 PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds = {});
 
 /// Several recordings of one joint, each prepared by itself. Throws BadInput as Join does.
 PreparedLog Prepare(std::vector<Measurements> recordings, const PrepareSettings& holds = {});
 
-/// The same where a plant says which samples move at constant speed.
+/// The same where a plant says which samples are at constant speed.
 PreparedLog Prepare(Measurements measurements, Selection known);
 
-/// Recordings of one joint as one log, one behind the other (LogSamples::Recordings). A column that
+/// Recordings of one joint as one log, one after the other (LogSamples::Recordings). A column that
 /// one of them lacks is left out, and noted. One recording comes back as it is. Throws BadInput where
 /// none is given, or where units, kinds of joint or gears differ.
 PreparedLog Join(std::vector<PreparedLog> recordings);

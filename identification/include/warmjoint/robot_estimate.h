@@ -1,4 +1,4 @@
-// The friction of all joints of a robot: the contract's robot.json as a value.
+// The friction of all joints of a robot: robot.json as a value.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -11,7 +11,7 @@
 
 namespace warmjoint {
 
-/// What of a joint stands beside its estimate. Torques in the log's unit.
+/// What is reported of a joint in addition to its estimate. Torques in the log's unit.
 struct RobotJointSummary {
   std::string joint;
   std::string torque_unit;
@@ -22,10 +22,10 @@ struct RobotJointSummary {
   bool gain_is_known = false;  // to a factor of less than 1.5
   std::optional<double>
       rms_held_out;  // on samples away from reversals that a second fit has not seen
-  std::optional<double> rms_moving;            // the same on all that moves
+  std::optional<double> rms_moving;            // the same on all samples in motion
   std::optional<double> rms_without_friction;  // held out: gain times rigid torque and an offset
 
-  /// Without its name, by which a file has it.
+  /// Its fields without the name, which is the key in a file.
   template <class A>
   void Serialize(A* a) {
     a->Field("torque_unit", &torque_unit, {.needed = "give it as text"});
@@ -46,7 +46,7 @@ struct RobotJointSummary {
 struct JointSeries {
   Eigen::VectorXd time;                        // s
   Eigen::VectorXd velocity;                    // rad/s or m/s
-  Eigen::VectorXd measured;                    // torque less all that is no friction
+  Eigen::VectorXd measured;                    // torque less all that is not friction
   Eigen::VectorXd fitted;                      // friction
   Eigen::VectorXd energy;                      // E; empty where nothing warms
   Eigen::Array<bool, Eigen::Dynamic, 1> kept;  // away from rests and reversals
@@ -62,7 +62,7 @@ struct RobotJointEstimate {
   bool HasFriction() const { return estimate.friction && estimate.friction->torque_unit.empty(); }
 };
 
-/// What identify-robot answers.
+/// The result of identify-robot.
 struct RobotEstimate {
   std::string robot;                       // file of the description
   std::vector<std::string> log;            // files

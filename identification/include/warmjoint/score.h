@@ -63,17 +63,17 @@ struct Score {
 };
 
 /// The samples that an estimate is scored on: those of the log as it was taken at constant speed, or
-/// all that move where it took motion of any kind.
+/// all samples at which the joint moves where it took motion of any kind.
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log);
 
-/// An estimate beside a true friction, in the continuous parametrisation and without bounds: all that is known without
-/// the log.
+/// An estimate compared with a true friction, in the continuous parametrisation and without bounds: all that can be
+/// computed without the log.
 std::vector<ParameterScore> ScoreParameters(const Estimate& estimate, const Friction& truth);
 
 /// NPE, Eq. (26), of those whose truth is not 0.
 double ParameterError(const std::vector<ParameterScore>& parameters);
 
-/// Scores an estimate of the measurements behind which `truth` stands. Parameters are matched by
+/// Scores an estimate of measurements that were made with `truth`. Parameters are matched by
 /// name: one of the truth that the estimate lacks (another law's, or the thermal ones of an
 /// identifier without warming) counts as estimated 0 in the NPE. Parameters whose truth is 0 are
 /// listed but left out of the NPE, which is relative. The discrete pair is that of the recording's
