@@ -8,7 +8,6 @@ Data: robot_wrong_inertials.py's, ten minutes of sines each, with a point of MAS
 
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -51,23 +50,8 @@ def simulate(robot, mass, seed):
     across = np.cross(axis, [1, 0, 0] if abs(axis[0]) < .9 else [0, 1, 0])
     if mass > 0:
         add_point(true, mass, .1 * across / np.linalg.norm(across))
-    rigid, carried = wrong_inertials.torques(true, q, v, acc)
-    truth, random = wrong_inertials.draw(seed, n)
-    wrong = wrong_inertials.described(robot, random)
-    noise = np.where(np.arange(n) < n // 2, .5, .15)
-    return t, q, rigid + truth["rotor_inertia"] * acc + wrong_inertials.friction(truth, v, carried) + noise * random.standard_normal(v.shape), wrong
-
-
-def identify(program, t, q, torque, wrong):
-    """The answer of one log."""
-    n = q.shape[1]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        mujoco.mj_saveModel(wrong, str(folder / "robot.mjb"))
-        header = ",".join(["time", *(f"q{j}" for j in range(n)), *(f"torque{j}" for j in range(n))])
-        np.savetxt(folder / "log.csv", np.column_stack([t, q, torque]), delimiter=",", header=header, comments="", fmt="%.9g")
-        subprocess.run([program, "identify-robot", folder / "robot.mjb", folder / "log.csv", "-o", folder / "robot.json", "--tool", "unknown"], capture_output=True, check=False)
-        return json.loads((folder / "robot.json").read_text())
+    torque, wrong, _ = wrong_inertials.measured(robot, seed, v, acc, *wrong_inertials.torques(true, q, v, acc))
+    return t, q, torque, wrong
 
 
 def main():
@@ -75,7 +59,11 @@ def main():
     rows = []
     for mass in [float(one) for one in masses] or [0.0, 3.0, 5.0]:
         for seed in range(1, int(logs) + 1):
-            answer = identify(program, *simulate(robot, mass, seed))
+            t, q, torque, wrong = simulate(robot, mass, seed)
+            with tempfile.TemporaryDirectory() as name:
+                folder = pathlib.Path(name)
+                mujoco.mj_saveModel(wrong, str(folder / "robot.mjb"))
+                answer = wrong_inertials.identify(program, folder / "robot.mjb", t, q, torque, folder, "--tool", "unknown")
             payload, notices = answer["payload"], answer["notices"]
             rows.append({"mass": mass, "seed": seed, "shown": any("shows a load" in one for one in notices), "value": payload["value"], "std": payload["std"],
                          "interval95": payload["interval95"]})

@@ -157,11 +157,25 @@ def simulate(robot, kind, seed, motions):
         t, q, v, acc = motion(kind, seed % 3, n)
         motions[seed % 3] = (t, q, v, acc, *torques(passive(robot), q, v, acc))
     t, q, v, acc, rigid, carried = motions[seed % 3]
+    return t, q, *measured(robot, seed, v, acc, rigid, carried)
+
+
+def measured(robot, seed, v, acc, rigid, carried):
+    """Torques with friction, rotor and noise, the wrong description and the truth of one realization."""
+    n = v.shape[1]
     truth, random = draw(seed, n)
     wrong = described(robot, random)
     noise = np.where(np.arange(n) < n // 2, .5, .15)
-    torque = rigid + truth["rotor_inertia"] * acc + friction(truth, v, carried) + noise * random.standard_normal(v.shape)
-    return t, q, torque, wrong, truth
+    return rigid + truth["rotor_inertia"] * acc + friction(truth, v, carried) + noise * random.standard_normal(v.shape), wrong, truth
+
+
+def identify(program, robot, t, q, torque, folder, *options):
+    """What identify-robot answers for a log, which it writes into a folder."""
+    n = q.shape[1]
+    header = ",".join(["time", *(f"q{j}" for j in range(n)), *(f"torque{j}" for j in range(n))])
+    np.savetxt(folder / "log.csv", np.column_stack([t, q, torque]), delimiter=",", header=header, comments="", fmt="%.9g")
+    subprocess.run([program, "identify-robot", robot, folder / "log.csv", "-o", folder / "robot.json", *options], capture_output=True, check=False)
+    return json.loads((folder / "robot.json").read_text())
 
 
 def main():
@@ -169,16 +183,11 @@ def main():
     motions, rows, claims = {}, [], []
     for seed in range(1, int(count) + 1):
         t, q, torque, wrong, truth = simulate(robot, kind, seed, motions)
-        n = q.shape[1]
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             mujoco.mj_saveModel(wrong, str(folder / "robot.mjb"))
-            header = ",".join(["time", *(f"q{j}" for j in range(n)), *(f"torque{j}" for j in range(n))])
-            np.savetxt(folder / "log.csv", np.column_stack([t, q, torque]), delimiter=",", header=header, comments="", fmt="%.9g")
             for method, own in METHODS.items():
-                subprocess.run([program, "identify-robot", folder / "robot.mjb", folder / "log.csv", "-o", folder / "robot.json", *own, *options],
-                               capture_output=True, check=False)
-                answer = json.loads((folder / "robot.json").read_text())
+                answer = identify(program, folder / "robot.mjb", t, q, torque, folder, *own, *options)
                 found, said = rows_of(answer, truth, seed, method)
                 rows += found
                 claims += said
