@@ -75,24 +75,6 @@ class ModelSquares {
   VectorXd product_;           // [P] J^T r
 };
 
-/// The limits of a table.
-SquaresProblem WithinLimits(const Model& model, const std::vector<Index>& held) {
-  SquaresProblem problem;
-  problem.held = held;
-  problem.rests = kRests;
-  const Index p = model.size();
-  problem.lower.resize(p);
-  problem.upper.resize(p);
-  problem.largest_step.resize(p);
-  for (Index i = 0; i < p; ++i) {
-    const Unknown& row = model.table[static_cast<std::size_t>(i)];
-    problem.lower[i] = row.lower;
-    problem.upper[i] = row.upper;
-    problem.largest_step[i] = row.largest_step;
-  }
-  return problem;
-}
-
 }  // namespace
 
 NoiseScale NoiseScaleOf(const VectorXd& e) {
@@ -118,6 +100,23 @@ NoiseScale NoiseScaleOf(const VectorXd& e) {
     noise.correlation += 2 * r;
   }
   return noise;
+}
+
+SquaresProblem WithinLimits(const Model& model, const std::vector<Index>& held) {
+  SquaresProblem problem;
+  problem.held = held;
+  problem.rests = kRests;
+  const Index p = model.size();
+  problem.lower.resize(p);
+  problem.upper.resize(p);
+  problem.largest_step.resize(p);
+  for (Index i = 0; i < p; ++i) {
+    const Unknown& row = model.table[static_cast<std::size_t>(i)];
+    problem.lower[i] = row.lower;
+    problem.upper[i] = row.upper;
+    problem.largest_step[i] = row.largest_step;
+  }
+  return problem;
 }
 
 SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,

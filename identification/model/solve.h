@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "identification/model/minimise.h"
 #include "identification/model/model.h"
 
 namespace warmjoint {
@@ -32,6 +33,10 @@ struct SolvedModel {
   bool converged = false;
   int iterations = 0;
 };
+
+/// The limits of a table's unknowns, and when a fit of them rests: no unknown is farther from the minimum than 1 % of its
+/// standard deviation. held: unknowns that stay as they are.
+SquaresProblem WithinLimits(const Model& model, const std::vector<Eigen::Index>& held = {});
 
 /// Least squares weighted by the noise, whose scale follows from the residual, plus the priors, from x on, within the bounds. held: unknowns
 /// that stay as they are.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "identification/fit_data.h"
 #include "identification/model/minimise.h"
@@ -15,9 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Fall of the squares that the next step promises at which the fit has converged: no unknown changes by 1 % of its deviation.
-constexpr double kRests = 1e-4;
-
 /// The rows of a joint's kept samples at a point, over the noise's standard deviation.
 struct JointSays {
   MatrixXd derivatives;  // [n x m] by the unknowns that the joint has of all
@@ -28,28 +24,35 @@ struct JointSays {
 class SharedSquares {
  public:
   SharedSquares(const std::vector<JointFit>& fits, const std::vector<JointColumns>& columns)
-      : fits_(fits), columns_(columns), directions_(fits.front().at.given.z.size) {
+      : fits_(fits), columns_(columns) {
     for (const JointFit& fit : fits) {
-      Places own;
       const Slice& z = fit.at.given.z;
+      Places& own = places_.emplace_back();
       for (Index i = 0; i < fit.model.size(); ++i) {
         const bool held = std::ranges::find(fit.solved.at_bound, i) != fit.solved.at_bound.end();
-        if (!held && (i < z.begin || i >= z.end())) own.Add(i, own_++);
+        if (held || (i >= z.begin && i < z.end())) continue;
+        if (i == fit.at.given.log_gain) gains_.push_back(all_.size());
+        own.Add(i, all_.Append({RowOf(fit, i)}).begin);
       }
-      places_.push_back(std::move(own));
     }
+    // the directions are those of every joint
+    z_.begin = all_.size();
     for (std::size_t j = 0; j < fits.size(); ++j) {
-      for (Index k = 0; k < directions_; ++k)
-        places_[j].Add(fits[j].at.given.z.begin + k, own_ + k);
+      const Slice& z = fits[j].at.given.z;
+      for (Index k = 0; k < z.size; ++k) {
+        if (j == 0) all_.Append({RowOf(fits[j], z.begin + k)});
+        places_[j].Add(z.begin + k, z_.begin + k);
+      }
     }
+    z_.size = all_.size() - z_.begin;
   }
 
   /// The place of z in x.
-  Slice z() const { return {own_, directions_}; }
+  const Slice& z() const { return z_; }
 
   /// Each joint's fit, and a description that is right.
   VectorXd Start() const {
-    VectorXd x = VectorXd::Zero(own_ + directions_);
+    VectorXd x = VectorXd::Zero(all_.size());
     for (std::size_t j = 0; j < fits_.size(); ++j) {
       x(places_[j].here) = fits_[j].solved.x(places_[j].of_joint);
     }
@@ -58,22 +61,8 @@ class SharedSquares {
   }
 
   SquaresProblem Problem() const {
-    constexpr double any = std::numeric_limits<double>::infinity();
-    SquaresProblem problem;
+    SquaresProblem problem = WithinLimits(all_);
     problem.sums = [this](const VectorXd& x) { return At(x); };
-    problem.rests = kRests;
-    problem.lower = VectorXd::Constant(own_ + directions_, -any);
-    problem.upper = problem.largest_step = -problem.lower;
-    for (std::size_t j = 0; j < fits_.size(); ++j) {
-      for (std::size_t k = 0; k < places_[j].here.size(); ++k) {
-        const Index here = places_[j].here[k];
-        if (here >= own_) continue;
-        const Unknown& row = fits_[j].model.table[static_cast<std::size_t>(places_[j].of_joint[k])];
-        problem.lower[here] = row.lower;
-        problem.upper[here] = row.upper;
-        problem.largest_step[here] = row.largest_step;
-      }
-    }
     return problem;
   }
 
@@ -103,6 +92,10 @@ class SharedSquares {
     }
   };
 
+  static const Unknown& RowOf(const JointFit& fit, Index i) {
+    return fit.model.table[static_cast<std::size_t>(i)];
+  }
+
   /// The unknowns of joint j's model.
   VectorXd Of(std::size_t j, const VectorXd& x) const {
     VectorXd of_joint = fits_[j].solved.x;
@@ -121,28 +114,12 @@ class SharedSquares {
 
   /// The rows of the priors: of each joint's own unknowns and, once, of z. The priors of log gains are about their mean.
   RowSums OfPriors(const VectorXd& x) const {
-    const Index p = x.size(), n = std::ssize(fits_);
-    MatrixXd rows = MatrixXd::Identity(p, p);
-    VectorXd precision = VectorXd::Zero(p), mean = precision;
-    z().In(precision).setOnes();
-    std::vector<Index> gains;
-    double sum = 0;
-    for (std::size_t j = 0; j < fits_.size(); ++j) {
-      const VectorXd own = fits_[j].model.PriorPrecision(), about = fits_[j].model.PriorMean();
-      sum += Of(j, x)[fits_[j].at.given.log_gain];
-      for (std::size_t k = 0; k < places_[j].here.size(); ++k) {
-        const Index here = places_[j].here[k], row = places_[j].of_joint[k];
-        if (here >= own_) continue;
-        precision[here] = own[row];
-        mean[here] = about[row];
-        if (row == fits_[j].at.given.log_gain) gains.push_back(here);
-      }
-    }
-    VectorXd off = x - mean;
-    for (const Index one : gains) {
-      off[one] = x[one] - sum / static_cast<double>(n);
-      for (const Index other : gains) rows(one, other) -= 1 / static_cast<double>(n);
-    }
+    const auto n = static_cast<double>(gains_.size());
+    MatrixXd rows = MatrixXd::Identity(x.size(), x.size());
+    rows(gains_, gains_).array() -= 1 / n;
+    VectorXd off = x - all_.PriorMean();
+    off(gains_) = x(gains_).array() - x(gains_).mean();
+    const VectorXd precision = all_.PriorPrecision();
     const MatrixXd weighed = precision.asDiagonal() * rows;
     return {rows.transpose() * weighed, -weighed.transpose() * off, off.cwiseAbs2().dot(precision)};
   }
@@ -161,7 +138,9 @@ class SharedSquares {
 
   const std::vector<JointFit>& fits_;
   const std::vector<JointColumns>& columns_;
-  Index directions_, own_ = 0;
+  Model all_;  // the table of x alone
+  Slice z_;
+  std::vector<Index> gains_;    // places of the log gains in x
   std::vector<Places> places_;  // of each joint
 };
 
