@@ -175,8 +175,9 @@ Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, con
   circumstances.heating = HeatingForcesOf(model, m, bins);
 
   // the start where it is taken to be known, load and temperature where they are logged
-  if (model.by_initial_energy.cols() > 0)
+  if (model.by_initial_energy.cols() > 0) {
     circumstances.initial = bins.Means(model.by_initial_energy);
+  }
   if (m.load) circumstances.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
   if (m.temperature) {
     // about the mean of the log: the bias of a parameter is then that at temperatures of the log, not that at 0 degC

@@ -103,8 +103,9 @@ void TestStage(Stage stage, const Bins& bins, const WeighedFit& begin,
       Record(std::move(made), *candidates.findings[i]);
       if (!rejects) continue;
       if (best == candidates.size() ||
-          candidates.findings[i]->gain > candidates.findings[best]->gain)
+          candidates.findings[i]->gain > candidates.findings[best]->gain) {
         best = i;
+      }
     }
     if (best == candidates.size()) break;
 

@@ -110,8 +110,9 @@ Basis Orthonormal(MatrixXd columns, double distinct) {
   if (rank > 0) {
     MatrixXd inverse = MatrixXd::Identity(rank, rank);
     R.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(inverse);
-    for (Index j = 0; j < rank; ++j)
+    for (Index j = 0; j < rank; ++j) {
       r_inverse.row(order[static_cast<std::size_t>(j)]) = inverse.row(j);
+    }
   }
   columns.conservativeResize(Eigen::NoChange, rank);
   return {std::move(columns), std::move(r_inverse)};

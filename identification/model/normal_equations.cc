@@ -68,7 +68,7 @@ NormalEquations::NormalEquations(Eigen::Index d)
     : gram(Eigen::MatrixXd::Zero(d, d)), product(Eigen::VectorXd::Zero(d)) {}
 
 void NormalEquations::Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
-  gram += A.transpose() * A;
+  gram += GramOf(A);
   product += A.transpose() * y;
   squares += y.squaredNorm();
   rows += A.rows();
