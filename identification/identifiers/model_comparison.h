@@ -10,6 +10,7 @@
 #include "identification/identifiers/condense.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/inference.h"
+#include "identification/model/normal_equations.h"
 
 namespace warmjoint {
 

@@ -49,16 +49,16 @@ double SquaresWithout(const StribeckProblem& problem) {
   if (problem.warming == PartFit::none) return squares;
 
   // with warming, from the best time constant of a scan
-  const ClosedLoop loop = ClosedLoop::Along(m, columns);
-  const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-  const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
-  const Eigen::Index q = problem.rigid.cols();
-  const InitialGuess start = ScanBesideRigid(columns, cold.solution.tail(q), problem);
-  const double scale = std::sqrt(squares / static_cast<double>(torque.size()));
-  Eigen::MatrixXd offsets(m.size(), 0);
-  if (q > 0) offsets = loop.direction().asDiagonal() * problem.rigid;
-  const ThermalFit fit = FitThermalFriction(
-      {.loop = loop, .level = level, .offsets = offsets, .weight = weight, .scale = scale}, start);
+  Eigen::MatrixXd rigid = problem.rigid;
+  if (rigid.cols() == 0) rigid.resize(m.size(), 0);
+  const LawBlocks blocks(m, columns, {}, rigid);
+  const InitialGuess start =
+      ScanBesideRigid(columns, cold.solution.tail(problem.rigid.cols()), problem);
+  const ThermalFit fit =
+      FitThermalFriction({.blocks = blocks,
+                          .samples = {.torque = m.torque, .keep = problem.selection.keep},
+                          .scale = std::sqrt(squares / static_cast<double>(torque.size()))},
+                         start);
   return std::min(squares, fit.squares);
 }
 

@@ -11,15 +11,16 @@
 namespace warmjoint {
 namespace {
 
-/// The loop of law columns and, with maps that are not 0, the maps' values as one column more.
-ClosedLoop LoopOf(const LogSamples& m, const Law& law, const MapBlock& maps) {
+/// Law columns and, with maps that are not 0, the maps' values as one column more; gravity and inertia.
+LawBlocks BlocksOf(const LogSamples& m, const MapTask& task, const MapBlock& maps) {
+  const Law& law = *task.law;
   const Eigen::MatrixXd columns = LawColumns(law, m.velocity), of_loss = LossColumns(law, m);
   const Eigen::VectorXd values = maps.Everywhere();
   if (!(values.norm() > 1e-9 * (columns * maps.fit().law()).norm())) {
-    return ClosedLoop::Along(m, columns, of_loss);
+    return {m, columns, of_loss, task.rigid.columns};
   }
-  return ClosedLoop::Along(m, ConcatColumns(columns, values),
-                           of_loss.size() > 0 ? ConcatColumns(of_loss, values) : of_loss);
+  return {m, ConcatColumns(columns, values),
+          of_loss.size() > 0 ? ConcatColumns(of_loss, values) : of_loss, task.rigid.columns};
 }
 
 }  // namespace
@@ -83,43 +84,41 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
       initial_(initial),
       starts_(FreeStarts(initial, input.measurements, input.selection)),
       gaps_(Merged(FindGaps(input.measurements), starts_)),
-      kept_(WithoutRest(input.selection, input.measurements).keep.cast<double>()) {}
+      kept_(WithoutRest(input.selection, input.measurements).keep) {}
 
 bool WarmingBlock::FitGiven(const MapBlock& maps) {
   const LogSamples& m = input_.measurements;
-  const ClosedLoop loop = LoopOf(m, *task_.law, maps);
-  const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
+  const LawBlocks blocks = BlocksOf(m, task_, maps);
 
   // gravity and inertia make no heat: they are left out of the scan, and are added to the loop in the fit
-  const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task_.rigid.columns;
   const Eigen::VectorXd rigid = maps.fit().rigid();
-  InitialGuess from = ScanTimeConstant(loop, level - offsets * rigid, kept_);
+  InitialGuess from =
+      ScanTimeConstant(*blocks.loop, m.torque - task_.rigid.columns * rigid, kept_.cast<double>());
   if (fit_) from.thermal = fit_->thermal();
   const Eigen::Index d = from.parameters.size();
   from.parameters.conservativeResize(d + rigid.size());
   from.parameters.tail(rigid.size()) = rigid;
 
   // the residual of the maps is about as large as the noise
-  const double scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count()));
-  const ClosedLoop with_starts = loop.WithJumps(Behind(starts_));
-  ThermalRows rows{.loop = with_starts,
-                   .level = level,
-                   .offsets = offsets,
-                   .weight = kept_,
-                   .initial = initial_,
-                   .scale = scale,
-                   .jump_spread = JumpSpread(starts_, 0, 1)};
+  ThermalRows rows{
+      .blocks = blocks,
+      .samples = {.torque = m.torque, .keep = kept_},
+      .initial = initial_,
+      .scale = std::sqrt(maps.Squares() / static_cast<double>(input_.selection.count())),
+      .jump_samples = Behind(starts_),
+      .jump_spread = JumpSpread(starts_, 0, 1)};
   // jumps are first added to a fit without them, which shows how warm the joint was, then estimated with all else
   const bool is_first = !fit_;
-  const ClosedLoop with_jumps = loop.WithJumps(Behind(gaps_));
   if (!is_first) {
+    rows.jump_samples = Behind(gaps_);
     rows.jump_spread =
         JumpSpread(gaps_, energy_.cwiseAbs().maxCoeff(), fit_->thermal().time_constant);
   }
-  fit_ = FitThermalFriction(is_first ? rows : rows.Along(with_jumps), from);
+  fit_ = FitThermalFriction(rows, from);
   if (is_first && gaps_.size() > starts_.size()) FitJumps(rows, gaps_, from, *fit_);
   // the energy by this warming, which is given when the maps are fitted next
-  energy_ = with_jumps.Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
+  energy_ = blocks.loop->WithJumps(Behind(gaps_))
+                .Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
                 .energy;
   return fit_->converged && energy_.allFinite();
 }

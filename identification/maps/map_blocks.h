@@ -73,7 +73,7 @@ class WarmingBlock {
   const InitialEnergy initial_;
   const std::vector<LogGap> starts_;  // of further recordings, where E(0) is estimated
   const std::vector<LogGap> gaps_;
-  const Eigen::VectorXd kept_;  // [N] 1 where a sample counts
+  const Eigen::Array<bool, Eigen::Dynamic, 1> kept_;  // [N] whether a sample counts
   std::optional<ThermalFit> fit_;
   Eigen::VectorXd energy_;
 };

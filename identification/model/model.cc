@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "models/friction/intervals.h"
 
 namespace warmjoint {
 
@@ -9,70 +12,40 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 void LinearBlock::Fill(const VectorXd& x, ModelRows& rows) const {
-  rows.force += columns_ * at_.Of(x);
-  rows.derivatives.middleCols(at_.begin, at_.size) += columns_;
+  const auto columns = columns_->middleRows(rows.at.first, rows.at.count);
+  rows.force += columns * x.segment(at_.begin, at_.size);
+  rows.derivatives.middleCols(at_.begin, at_.size) += columns;
 }
 
 void GivenBlock::Fill(const VectorXd& x, ModelRows& rows) const {
   const double gain = at_.Gain(x);
-  const VectorXd force = gain * given_.At(at_.z.Of(x));
+  const VectorXd force = gain * given_.At(rows.at, at_.z.Of(x));
   rows.force += force;
   rows.derivatives.col(at_.log_gain) += force;
-  rows.derivatives.middleCols(at_.z.begin, at_.z.size) += gain * given_.directions;
+  rows.derivatives.middleCols(at_.z.begin, at_.z.size) +=
+      gain * given_.directions.middleRows(rows.at.first, rows.at.count);
 }
 
-void LoadBlock::Fill(const VectorXd& x, ModelRows& rows) const {
+void LoadBlock::FillAlong(const VectorXd& direction, const VectorXd& x, ModelRows& rows) const {
+  const Index first = rows.at.first, count = rows.at.count;
   const double gain = std::abs(at_.Gain(x)), c = x[gain_];
-  const VectorXd carried = carried_.At(at_.z.Of(x));
-  const VectorXd column = gain * carried.cwiseAbs().cwiseProduct(direction_);
+  const VectorXd carried = carried_.At(rows.at, at_.z.Of(x));
+  const auto along = direction.segment(first, count);
+  const VectorXd column = gain * carried.cwiseAbs().cwiseProduct(along);
   rows.force += c * column;
   rows.derivatives.col(gain_) += column;
   rows.derivatives.col(at_.log_gain) += c * column;
-  const VectorXd slope = c * gain * carried.cwiseSign().cwiseProduct(direction_);
-  rows.derivatives.middleCols(at_.z.begin, at_.z.size) += slope.asDiagonal() * carried_.directions;
+  const VectorXd slope = c * gain * carried.cwiseSign().cwiseProduct(along);
+  rows.derivatives.middleCols(at_.z.begin, at_.z.size) +=
+      slope.asDiagonal() * carried_.directions.middleRows(first, count);
 }
 
-VectorXd HeatBlock::Fill(const VectorXd& x, const ModelRows& friction, ModelRows& rows) const {
-  const double k = x[gain], tau = std::exp(x[log_time_constant]);
-  const double pole = std::exp(-step / tau), cooling = 1 - pole;
-  const Index n = speed.size();
-  // the level of friction, which brakes or is 0
-  VectorXd level = sign.cwiseProduct(friction.force);
-  const VectorXd counts = (level.array() > 0).select(sign, 0.0);
-  level = level.cwiseMax(0.0);
+void LoadBlock::Fill(const VectorXd& x, ModelRows& rows) const {
+  FillAlong(direction_.of_force, x, rows);
+}
 
-  // E[n+1] = decay[n] E[n] + fed[n]
-  const VectorXd fed = cooling * k * speed;
-  VectorXd energy(n);
-  std::vector<bool> starts_at(static_cast<std::size_t>(n), false);
-  for (const Index start : starts) starts_at[static_cast<std::size_t>(start)] = true;
-  const auto scan = [&](const auto& input, auto&& state) {
-    double s = 0;
-    for (Index i = 0; i < n; ++i) {
-      if (starts_at[static_cast<std::size_t>(i)]) s = 0;
-      state[i] = s;
-      s = (pole + fed[i]) * s + input(i);
-    }
-  };
-  scan([&](Index i) { return fed[i] * level[i]; }, energy);
-
-  // its derivatives by the unknowns of the level, by k and by log tau
-  VectorXd slope(n);
-  const auto add = [&](Index column, const auto& input) {
-    scan(input, slope);
-    rows.derivatives.col(column) += direction.cwiseProduct(slope);
-  };
-  for (Index p = 0; p < friction.derivatives.cols(); ++p) {
-    const auto by = friction.derivatives.col(p);
-    if (by.isZero(0)) continue;
-    add(p, [&](Index i) { return fed[i] * counts[i] * by[i]; });
-  }
-  add(gain, [&](Index i) { return cooling * speed[i] * (level[i] + energy[i]); });
-  const double bend = pole * step / tau;
-  add(log_time_constant,
-      [&](Index i) { return bend * (energy[i] - k * speed[i] * (level[i] + energy[i])); });
-  rows.force += direction.cwiseProduct(energy);
-  return energy;
+void LoadBlock::FillLosses(const VectorXd& x, ModelRows& rows) const {
+  FillAlong(direction_.of_losses, x, rows);
 }
 
 VectorXd Model::Start() const {
@@ -105,23 +78,68 @@ Slice Model::Append(const std::vector<Unknown>& rows) {
   return at;
 }
 
-ModelRows Model::Evaluate(const VectorXd& x, VectorXd* energy) const {
-  ModelRows rows{VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, size())};
-  if (!heat) {
-    for (const auto& block : blocks) block->Fill(x, rows);
-    return rows;
+ModelAt::ModelAt(const Model& model, VectorXd x) : model_(model), x_(std::move(x)) {
+  if (!model.heat) return;
+  holds_ = Holds(model.heat->loop->intervals(), model.heat->At(x_));
+  has_own_losses_ = std::ranges::any_of(
+      model.blocks, [](const auto& block) { return block->MakesHeat() && block->HasOwnLosses(); });
+}
+
+HeatState ModelAt::Begin() const { return model_.heat ? model_.heat->Begin(x_) : HeatState{}; }
+
+HeatState ModelAt::End() const {
+  HeatState state = Begin();
+  ModelRows rows;
+  std::vector<SampleRange> stretches = Stretches();
+  stretches.pop_back();
+  for (const SampleRange& stretch : stretches) Along(stretch, state, rows);
+  model_.heat->EnterLast(x_, state);
+  return state;
+}
+
+void ModelAt::Along(const SampleRange& stretch, HeatState& state, ModelRows& rows) const {
+  rows.Reset(stretch, model_.size());
+  if (model_.heat) {
+    // friction first, whose loss the heat needs
+    for (const auto& block : model_.blocks) {
+      if (block->MakesHeat()) block->Fill(x_, rows);
+    }
+    ModelRows losses;
+    if (has_own_losses_) LossesAlong(stretch, losses);
+    model_.heat->Add(x_, holds_, has_own_losses_ ? losses : rows, state, rows);
   }
-  // friction first, whose loss the heat needs
-  for (const auto& block : blocks) {
-    if (block->MakesHeat()) block->Fill(x, rows);
+  for (const auto& block : model_.blocks) {
+    if (!model_.heat || !block->MakesHeat()) block->Fill(x_, rows);
   }
-  const ModelRows friction = rows;
-  const VectorXd found = heat->Fill(x, friction, rows);
-  if (energy) *energy = found;
-  for (const auto& block : blocks) {
-    if (!block->MakesHeat()) block->Fill(x, rows);
+}
+
+void ModelAt::LossesAlong(const SampleRange& stretch, ModelRows& rows) const {
+  rows.Reset(stretch, model_.size());
+  for (const auto& block : model_.blocks) {
+    if (block->MakesHeat()) block->FillLosses(x_, rows);
   }
-  return rows;
+}
+
+std::vector<SampleRange> ModelAt::Stretches() const {
+  // rows that stay in a cache, and enough of them for products of many columns
+  const Index length = model_.size() <= 32 ? 256 : 2048, last = model_.samples - 1;
+  std::vector<SampleRange> stretches;
+  for (Index first = 0; first < last; first += length) {
+    stretches.push_back({first, std::min(length, last - first)});
+  }
+  if (last >= 0) stretches.push_back({last, 1});
+  return stretches;
+}
+
+ModelRows ModelAt::All() const {
+  ModelRows all = ModelRows::Zero({0, model_.samples}, model_.size());
+  if (model_.heat) all.energy.resize(model_.samples);
+  ForEachStretch([&](const ModelRows& rows) {
+    if (model_.heat) all.energy.segment(rows.at.first, rows.at.count) = rows.energy;
+    all.force.segment(rows.at.first, rows.at.count) = rows.force;
+    all.derivatives.middleRows(rows.at.first, rows.at.count) = rows.derivatives;
+  });
+  return all;
 }
 
 }  // namespace warmjoint

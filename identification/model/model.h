@@ -7,38 +7,54 @@
 #include <vector>
 
 #include "identification/layout.h"
+#include "identification/model/heat_loop.h"
 #include "identification/model/unknown.h"
 
 namespace warmjoint {
-
-/// Force of a model over N samples, and its derivatives by the P unknowns.
-struct ModelRows {
-  Eigen::VectorXd force;        // [N] in the torque's unit
-  Eigen::MatrixXd derivatives;  // [N x P]
-};
 
 /// A part of the torque.
 class Block {
  public:
   virtual ~Block() = default;
-  /// Adds the part's force and derivatives. x: [P]
+  /// Adds the part's force and derivatives along rows.at. x: [P]
   virtual void Fill(const Eigen::VectorXd& x, ModelRows& rows) const = 0;
   /// Whether it is friction, whose loss warms the joint.
   virtual bool MakesHeat() const { return false; }
+  /// Whether the losses follow from other samples of the motion than the torque; and the part as it is there.
+  virtual bool HasOwnLosses() const { return false; }
+  virtual void FillLosses(const Eigen::VectorXd& x, ModelRows& rows) const { Fill(x, rows); }
 };
+
+/// Columns over N samples, [N x m], a sample after the other.
+using SharedColumns = std::shared_ptr<const ModelRows::Rows>;
 
 /// Columns times unknowns: C x.
 class LinearBlock : public Block {
  public:
-  LinearBlock(Slice at, Eigen::MatrixXd columns, bool makes_heat)
-      : at_(at), columns_(std::move(columns)), makes_heat_(makes_heat) {}
+  LinearBlock(Slice at, SharedColumns columns) : at_(at), columns_(std::move(columns)) {}
   void Fill(const Eigen::VectorXd& x, ModelRows& rows) const override;
-  bool MakesHeat() const override { return makes_heat_; }
 
  private:
   Slice at_;
-  Eigen::MatrixXd columns_;  // [N x m]
-  bool makes_heat_;
+  SharedColumns columns_;
+};
+
+/// Friction that is linear in its unknowns. of_losses: the columns of the losses, where they are others; or null
+class FrictionBlock : public Block {
+ public:
+  FrictionBlock(Slice at, SharedColumns columns, SharedColumns of_losses)
+      : force_(at, std::move(columns)), has_own_(of_losses != nullptr), losses_(at, of_losses) {}
+  void Fill(const Eigen::VectorXd& x, ModelRows& rows) const override { force_.Fill(x, rows); }
+  bool MakesHeat() const override { return true; }
+  bool HasOwnLosses() const override { return has_own_; }
+  void FillLosses(const Eigen::VectorXd& x, ModelRows& rows) const override {
+    (has_own_ ? losses_ : force_).Fill(x, rows);
+  }
+
+ private:
+  LinearBlock force_;
+  bool has_own_;
+  LinearBlock losses_;
 };
 
 /// A given force that may be wrong: r(z) = r0 + R z with z ~ N(0, 1), seen through a gain: g r(z), g = sign exp(x).
@@ -46,7 +62,10 @@ struct GivenForce {
   Eigen::VectorXd force;       // [N] r0
   Eigen::MatrixXd directions;  // [N x r] R
 
-  Eigen::VectorXd At(const Eigen::VectorXd& z) const { return force + directions * z; }
+  /// Along a stretch of m samples. z: [r]; returns [m]
+  Eigen::VectorXd At(const SampleRange& at, const Eigen::VectorXd& z) const {
+    return force.segment(at.first, at.count) + directions.middleRows(at.first, at.count) * z;
+  }
 };
 
 /// The places of a given force's unknowns in x.
@@ -69,40 +88,34 @@ class GivenBlock : public Block {
   GivenForce given_;
 };
 
-/// c |g r(z)| s: friction that grows with what the joint carries. s: the direction of motion.
+/// c |g r(z)| s: friction that grows with what the joint carries. s: the direction of motion, as the torque shows it and as the
+/// losses follow from it.
 class LoadBlock : public Block {
  public:
-  LoadBlock(Eigen::Index gain, GivenPlaces at, GivenForce carried, Eigen::VectorXd direction)
+  struct Directions {
+    Eigen::VectorXd of_force, of_losses;  // [N]
+  };
+  LoadBlock(Eigen::Index gain, GivenPlaces at, GivenForce carried, Directions direction)
       : gain_(gain), at_(at), carried_(std::move(carried)), direction_(std::move(direction)) {}
   void Fill(const Eigen::VectorXd& x, ModelRows& rows) const override;
   bool MakesHeat() const override { return true; }
+  bool HasOwnLosses() const override { return true; }
+  void FillLosses(const Eigen::VectorXd& x, ModelRows& rows) const override;
 
  private:
+  void FillAlong(const Eigen::VectorXd& direction, const Eigen::VectorXd& x, ModelRows& rows) const;
+
   Eigen::Index gain_;
   GivenPlaces at_;
   GivenForce carried_;
-  Eigen::VectorXd direction_;  // [N] s
-};
-
-/// The heat of a joint's own losses, Eqs. (20) to (22): tau dE/dt = -E + k |v| max(L + E, 0), L the level of all blocks that make heat,
-/// losses held over a step. Adds s E.
-struct HeatBlock {
-  Eigen::Index gain = 0, log_time_constant = 0;
-  double step = 0;                   // s
-  Eigen::VectorXd speed;             // [N] |v|, rad/s or m/s
-  Eigen::VectorXd sign;              // [N] of v
-  Eigen::VectorXd direction;         // [N] s: of the force, as the log shows it
-  std::vector<Eigen::Index> starts;  // samples at which the joint is cold again
-
-  /// friction: force and derivatives of the blocks that make heat. Returns E, [N].
-  Eigen::VectorXd Fill(const Eigen::VectorXd& x, const ModelRows& friction, ModelRows& rows) const;
+  Directions direction_;
 };
 
 /// A model of a torque.
 struct Model {
   std::vector<Unknown> table;  // [P]
   std::vector<std::shared_ptr<const Block>> blocks;
-  std::optional<HeatBlock> heat;
+  std::optional<HeatLoop> heat;
   Eigen::Index samples = 0;  // N
 
   Eigen::Index size() const { return std::ssize(table); }
@@ -114,8 +127,44 @@ struct Model {
   Eigen::VectorXd PriorMean() const;
   /// Appends rows and returns their places.
   Slice Append(const std::vector<Unknown>& rows);
-  /// Force and derivatives at x. energy: gets E, [N], of a model with heat.
-  ModelRows Evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* energy = nullptr) const;
+};
+
+/// A model at one point, a stretch of the log after the other: rows of all samples are far larger than the log.
+class ModelAt {
+ public:
+  /// model: must outlive this; x: [P]
+  ModelAt(const Model& model, Eigen::VectorXd x);
+
+  /// The heat at the first sample; empty without heat.
+  HeatState Begin() const;
+  /// The heat at the last sample, of a model with heat.
+  HeatState End() const;
+  /// Sets `rows` to those of a stretch. state: of the heat at its first sample, led on to the one after the last
+  void Along(const SampleRange& stretch, HeatState& state, ModelRows& rows) const;
+  /// The same of the blocks that make heat alone, as the losses follow from them, without heat.
+  void LossesAlong(const SampleRange& stretch, ModelRows& rows) const;
+
+  /// Calls visit(const ModelRows&) for one stretch after the other.
+  template <typename Visit>
+  void ForEachStretch(Visit&& visit) const {
+    HeatState state = Begin();
+    ModelRows rows;
+    for (const SampleRange& stretch : Stretches()) {
+      Along(stretch, state, rows);
+      visit(rows);
+    }
+  }
+  /// Rows of all samples at once.
+  ModelRows All() const;
+
+  /// The stretches that ForEachStretch takes; the last sample is one by itself.
+  std::vector<SampleRange> Stretches() const;
+
+ private:
+  const Model& model_;
+  Eigen::VectorXd x_;
+  std::vector<IntervalHold> holds_;
+  bool has_own_losses_ = false;
 };
 
 }  // namespace warmjoint

@@ -31,6 +31,13 @@ Scaled Decompose(const Eigen::MatrixXd& h) {
 
 }  // namespace
 
+double RoundingVariance(const Eigen::VectorXd& torque) {
+  if (torque.size() == 0) return 0;
+  const double error = static_cast<double>(torque.size()) * std::numeric_limits<double>::epsilon() *
+                       torque.cwiseAbs().maxCoeff();
+  return error * error;
+}
+
 Eigen::MatrixXd GramOf(const Eigen::MatrixXd& J) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(J.cols(), J.cols());
   if (J.rows() > 0) gram.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());

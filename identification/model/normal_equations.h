@@ -6,6 +6,11 @@
 
 namespace warmjoint {
 
+/// Variance that the rounding of doubles leaves in the residual of an exact torque: sums over n samples carry errors of
+/// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). A smaller residual is
+/// neither noise nor structure. torque: [n] N.m or N
+double RoundingVariance(const Eigen::VectorXd& torque);
+
 /// J^T J, [p x p]. J: [n x p]
 Eigen::MatrixXd GramOf(const Eigen::MatrixXd& J);
 

@@ -8,6 +8,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/model/minimise.h"
+#include "identification/model/model_squares.h"
 #include "identification/model/normal_equations.h"
 
 namespace warmjoint {
@@ -20,60 +21,6 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 40;
 /// Drop of the cost, in units of the noise, at which a fit has converged. Why: such a drop changes no parameter by 1 % of its deviation.
 constexpr double kRests = 1e-4;
-
-/// The squares of a model over the kept samples, whose noise is estimated during the fit.
-class ModelSquares {
- public:
-  ModelSquares(const Model& model, const ModelSamples& samples)
-      : model_(model),
-        torque_(samples.torque),
-        used_{samples.keep, {}},
-        precision_(model.PriorPrecision()),
-        mean_(model.PriorMean()) {}
-
-  /// Over a scale of the noise, with the priors.
-  RowSums At(const VectorXd& x, double scale) {
-    MoveTo(x);
-    RowSums sums{gram_ / scale, product_ / scale, kept_.squaredNorm() / scale};
-    const VectorXd off = x - mean_;
-    sums.gram.diagonal() += precision_;
-    sums.product -= precision_.cwiseProduct(off);
-    sums.squares += off.cwiseAbs2().dot(precision_);
-    return sums;
-  }
-  /// That of the residual at x.
-  NoiseScale NoiseAt(const VectorXd& x) {
-    MoveTo(x);
-    return NoiseScaleOf(kept_);
-  }
-  /// [N] torque - force at x.
-  VectorXd ResidualAt(const VectorXd& x) {
-    MoveTo(x);
-    return residual_;
-  }
-
- private:
-  void MoveTo(const VectorXd& x) {
-    if (x_.size() == x.size() && x_ == x) return;
-    x_ = x;
-    const ModelRows rows = model_.Evaluate(x);
-    residual_ = torque_ - rows.force;
-    kept_ = Kept(residual_, used_);
-    const MatrixXd j = Kept(rows.derivatives, used_);
-    gram_ = GramOf(j);
-    product_ = j.transpose() * kept_;
-  }
-
-  const Model& model_;
-  const VectorXd& torque_;
-  Selection used_;
-  VectorXd precision_, mean_;  // [P] of the priors
-  VectorXd x_;                 // [P] at which the others are
-  VectorXd residual_;          // [N]
-  VectorXd kept_;              // [n]
-  MatrixXd gram_;              // [P x P] J^T J
-  VectorXd product_;           // [P] J^T r
-};
 
 }  // namespace
 
@@ -122,9 +69,13 @@ SquaresProblem WithinLimits(const Model& model, const std::vector<Index>& held) 
 SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,
                   const std::vector<Index>& held) {
   ModelSquares squares(model, samples);
+  const Selection used{samples.keep, {}};
+  const auto noise_at = [&](const VectorXd& at) {
+    return NoiseScaleOf(Kept(squares.ResidualAt(at), used));
+  };
   SquaresProblem problem = WithinLimits(model, held);
   SolvedModel solved;
-  solved.noise = squares.NoiseAt(x);
+  solved.noise = noise_at(x);
   // one step by the noise of the fit so far, until step and noise no longer change
   problem.most_iterations = 1;
   for (; solved.iterations < kMostIterations && !solved.converged; ++solved.iterations) {
@@ -133,13 +84,36 @@ SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,
     Minimum step = Minimise(problem, std::move(x));
     x = std::move(step.x);
     solved.at_bound = std::move(step.at_bound);
-    solved.noise = squares.NoiseAt(x);
+    solved.noise = noise_at(x);
     const double change = std::abs(std::log(solved.noise.scale() / scale));
     solved.converged = step.fell < kRests && (change < 1e-3 || step.fell == 0);
   }
   solved.residual = squares.ResidualAt(x);
   solved.x = std::move(x);
   return solved;
+}
+
+Minimum SolveAtNoise(const Model& model, const ModelSamples& samples, double variance, VectorXd x) {
+  ModelSquares squares(model, samples);
+  SquaresProblem problem = WithinLimits(model);
+  problem.rests = SquaresProblem().rests;
+  const auto count = static_cast<double>(samples.keep.count());
+  problem.least = count * RoundingVariance(samples.torque) / variance;
+  problem.sums = [&](const VectorXd& at) { return squares.At(at, variance); };
+  return Minimise(problem, std::move(x));
+}
+
+LinearMinimum SolveLinear(const Model& model, const ModelSamples& samples) {
+  // at 0 the torque is what is left
+  const Index p = model.size();
+  const ModelRows::Rows rows = RowsToFit(ModelAt(model, VectorXd::Zero(p)), samples);
+  const MatrixXd columns = rows.leftCols(p);
+  const VectorXd torque = rows.col(p);
+  LinearMinimum found{SolveLeastSquares(columns, torque)};
+  if (found.solved.rank == p) {
+    found.squares = (torque - columns * found.solved.solution).squaredNorm();
+  }
+  return found;
 }
 
 BlockScatter ScatterOverBlocks(const MatrixXd& rows, const VectorXd& time, double origin,
@@ -160,7 +134,7 @@ BlockScatter ScatterOverBlocks(const MatrixXd& rows, const VectorXd& time, doubl
 SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
                               const SolvedModel& solved) {
   const Selection used{samples.keep, {}};
-  const MatrixXd j = Kept(model.Evaluate(solved.x).derivatives, used);
+  const MatrixXd j = Kept(ModelAt(model, solved.x).All().derivatives, used);
   const VectorXd e = Kept(solved.residual, used), time = Kept(samples.time, used);
   const double scale = solved.noise.scale();
   const VectorXd precision = model.PriorPrecision();

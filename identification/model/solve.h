@@ -4,18 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "identification/model/least_squares.h"
 #include "identification/model/minimise.h"
 #include "identification/model/model.h"
+#include "identification/model/model_squares.h"
 
 namespace warmjoint {
-
-/// What a model is fitted to.
-struct ModelSamples {
-  Eigen::VectorXd time;                        // [N] s
-  Eigen::VectorXd torque;                      // [N]
-  Eigen::Array<bool, Eigen::Dynamic, 1> keep;  // [N] that count
-  std::vector<Eigen::Index> starts;            // first samples of all recordings but the first
-};
 
 /// The information in a sample: 1 / (variance x autocorrelation time).
 struct NoiseScale {
@@ -42,6 +36,18 @@ SquaresProblem WithinLimits(const Model& model, const std::vector<Eigen::Index>&
 /// that stay as they are.
 SolvedModel Solve(const Model& model, const ModelSamples& samples, Eigen::VectorXd x,
                   const std::vector<Eigen::Index>& held = {});
+
+/// The same where the variance of the noise is known, to the last digits (SquaresProblem::rests), from x on.
+Minimum SolveAtNoise(const Model& model, const ModelSamples& samples, double variance,
+                     Eigen::VectorXd x);
+
+struct LinearMinimum {
+  LeastSquares solved;
+  double squares = 0;  // that are left; of columns that can be distinguished
+};
+
+/// The least squares of a model that is linear in its unknowns and has no priors.
+LinearMinimum SolveLinear(const Model& model, const ModelSamples& samples);
 
 struct SolvedCovariance {
   Eigen::MatrixXd covariance;     // [P x P] of x

@@ -189,8 +189,7 @@ InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::Vector
   const ClosedLoop together = ClosedLoop::Along(m, BesideRigid(columns, problem));
   Eigen::VectorXd torque = m.torque;
   if (rigid.size() > 0) torque -= problem.rigid * rigid;
-  InitialGuess start = ScanTimeConstant(together, together.direction().cwiseProduct(torque),
-                                        problem.selection.keep.cast<double>());
+  InitialGuess start = ScanTimeConstant(together, torque, problem.selection.keep.cast<double>());
   start.parameters.tail(rigid.size()) += rigid;
   return start;
 }

@@ -43,7 +43,8 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   const double length = time.tail(1)[0] - time[0];
 
   // the derivatives of the fit, with rows of their own for its priors
-  const ModelRows rows = cold.model.Evaluate(cold.solved.x);
+  const ModelAt model(cold.model, cold.solved.x);
+  const ModelRows rows = model.All();
   const MatrixXd j = Kept(rows.derivatives, used);
   const double scale = cold.solved.noise.scale();
   MatrixXd h = j.transpose() * j / scale;
@@ -56,14 +57,10 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   const VectorXd kept_time = Kept(time, used);
   const double block = std::max(5.0, length / 60);
 
-  // the losses of the cold friction, as it brakes
-  ModelRows friction{VectorXd::Zero(c.velocity.size()),
-                     MatrixXd::Zero(c.velocity.size(), cold.model.size())};
-  for (const auto& part : cold.model.blocks) {
-    if (part->MakesHeat()) part->Fill(cold.solved.x, friction);
-  }
-  const VectorXd level = c.sign.cwiseProduct(friction.force).cwiseMax(0.0);
-  const VectorXd loss = c.velocity.cwiseAbs().cwiseProduct(level);
+  // the losses of the cold friction
+  ModelRows friction;
+  model.LossesAlong({0, c.velocity.size()}, friction);
+  const VectorXd loss = c.velocity.cwiseAbs().cwiseProduct(c.sign.cwiseProduct(friction.force));
 
   const double shortest = length / kShare;
   HeatGuess best;

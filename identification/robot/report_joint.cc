@@ -64,23 +64,18 @@ FitParameter ParameterOf(const JointFit& fit, Index row) {
   return parameter;
 }
 
-/// The braking torque: law, load and heat. energy: gets E, where there is heat. [N]
-VectorXd FrictionAlong(const JointFit& fit, const VectorXd& x, VectorXd& energy) {
-  ModelRows rows{VectorXd::Zero(fit.model.samples),
-                 Eigen::MatrixXd::Zero(fit.model.samples, fit.model.size())};
-  for (const auto& block : fit.model.blocks) {
-    if (block->MakesHeat()) block->Fill(x, rows);
-  }
-  if (fit.model.heat) energy = fit.model.heat->Fill(x, ModelRows(rows), rows);
-  return rows.force;
-}
-
 /// Series over the log for pictures.
 JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
-  JointSeries series{c.samples.time, c.velocity, {}, {}, {}, c.samples.keep};
-  series.fitted = FrictionAlong(fit, fit.solved.x, series.energy);
-  series.measured = series.fitted + fit.solved.residual;
-  return series;
+  // what brakes: law, load and heat
+  Model friction = fit.model;
+  std::erase_if(friction.blocks, [](const auto& block) { return !block->MakesHeat(); });
+  const ModelRows rows = ModelAt(friction, fit.solved.x).All();
+  return {.time = c.samples.time,
+          .velocity = c.velocity,
+          .measured = rows.force + fit.solved.residual,
+          .fitted = rows.force,
+          .energy = rows.energy,
+          .kept = c.samples.keep};
 }
 
 Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
@@ -104,17 +99,8 @@ Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
 
 /// E at the last sample, and its derivatives.
 EndEnergy EndOf(const JointFit& fit) {
-  const Index samples = fit.model.samples, size = fit.model.size();
-  ModelRows friction{VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, size)};
-  for (const auto& block : fit.model.blocks) {
-    if (block->MakesHeat()) block->Fill(fit.solved.x, friction);
-  }
-  // E as it adds to the level, without the direction
-  HeatBlock heat = *fit.model.heat;
-  heat.direction.setOnes();
-  ModelRows energy{VectorXd::Zero(samples), Eigen::MatrixXd::Zero(samples, size)};
-  heat.Fill(fit.solved.x, friction, energy);
-  return {energy.force.tail(1)[0], energy.derivatives.bottomRows(1).transpose()};
+  const HeatState end = ModelAt(fit.model, fit.solved.x).End();
+  return {end.energy, end.slopes};
 }
 
 /// The fit in the form that judgements and reports read.

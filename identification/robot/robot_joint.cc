@@ -54,11 +54,24 @@ Unknown Nuisance(double deviation) {
 }
 
 /// Columns of the law over the samples. [N x 3], and one more where friction rises at low speed
-MatrixXd LawColumnsOf(const JointColumns& c, bool slows) {
-  MatrixXd columns(c.velocity.size(), slows ? 4 : 3);
+SharedColumns LawColumnsOf(const JointColumns& c, bool slows) {
+  ModelRows::Rows columns(c.velocity.size(), slows ? 4 : 3);
   columns.leftCols(3) << c.velocity, c.forwards, -c.backwards;
   if (slows) columns.col(3) = c.slow;
-  return columns;
+  return std::make_shared<const ModelRows::Rows>(std::move(columns));
+}
+
+/// The same as the losses follow from them: as the joint moves, not as the filter of the torque shows it, so that all brake.
+SharedColumns LossColumnsOf(const JointColumns& c, bool slows) {
+  ModelRows::Rows columns(c.velocity.size(), slows ? 4 : 3);
+  columns.leftCols(3) << c.velocity.cwiseAbs().cwiseProduct(c.sign), c.sign.cwiseMax(0.0),
+      c.sign.cwiseMin(0.0);
+  if (slows) columns.col(3) = c.slow.cwiseAbs().cwiseProduct(c.sign);
+  return std::make_shared<const ModelRows::Rows>(std::move(columns));
+}
+
+SharedColumns Shared(const MatrixXd& columns) {
+  return std::make_shared<const ModelRows::Rows>(columns);
 }
 
 /// Adds a joint's blocks to a model without heat.
@@ -103,13 +116,14 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
       model.Append(std::vector<Unknown>(static_cast<std::size_t>(c.ripple.cols()), harmonic));
 
   model.blocks = {
-      std::make_shared<LinearBlock>(fit.at.law, LawColumnsOf(c, slows), true),
-      std::make_shared<LoadBlock>(fit.at.load.begin, fit.at.given, c.carried, c.Direction()),
-      std::make_shared<LinearBlock>(fit.at.rotor, c.acceleration, false),
+      std::make_shared<FrictionBlock>(fit.at.law, LawColumnsOf(c, slows), LossColumnsOf(c, slows)),
+      std::make_shared<LoadBlock>(fit.at.load.begin, fit.at.given, c.carried,
+                                  LoadBlock::Directions{c.Direction(), c.sign}),
+      std::make_shared<LinearBlock>(fit.at.rotor, Shared(c.acceleration)),
       std::make_shared<GivenBlock>(fit.at.given, c.rigid),
   };
   if (c.ripple.cols() > 0) {
-    model.blocks.push_back(std::make_shared<LinearBlock>(fit.at.ripple, c.ripple, false));
+    model.blocks.push_back(std::make_shared<LinearBlock>(fit.at.ripple, Shared(c.ripple)));
   }
 }
 
@@ -124,13 +138,13 @@ void AddHeat(const JointColumns& c, const HeatGuess& guess, JointFit& fit) {
         .coordinate = Coordinate::logarithm,
         .start = std::log(guess.time_constant),
         .largest_step = .5}});
-  fit.model.heat = HeatBlock{.gain = fit.at.heat->begin,
-                             .log_time_constant = fit.at.heat->begin + 1,
-                             .step = c.step,
-                             .speed = c.velocity.cwiseAbs(),
-                             .sign = c.sign,
-                             .direction = c.Direction(),
-                             .starts = c.samples.starts};
+  // the speed in the direction in which the joint moves
+  const VectorXd moved = c.velocity.cwiseAbs().cwiseProduct(c.sign);
+  fit.model.heat = HeatLoop{.loop = std::make_shared<const ClosedLoop>(
+                                c.samples.time, moved, MatrixXd(moved.size(), 0), c.samples.starts),
+                            .direction = c.Direction(),
+                            .friction = fit.at.given.z.end(),
+                            .parameters = *fit.at.heat};
 }
 
 /// The directions of the description, which a first fit holds while the noise is not known.

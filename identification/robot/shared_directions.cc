@@ -106,7 +106,7 @@ class SharedSquares {
   JointSays Says(std::size_t j, const VectorXd& x) const {
     const ModelSamples& samples = columns_[j].samples;
     const Selection used{samples.keep, {}};
-    const ModelRows rows = fits_[j].model.Evaluate(Of(j, x));
+    const ModelRows rows = ModelAt(fits_[j].model, Of(j, x)).All();
     const double scale = std::sqrt(fits_[j].solved.noise.scale());
     return {Kept(rows.derivatives, used)(Eigen::all, places_[j].of_joint) / scale,
             Kept(VectorXd(samples.torque - rows.force), used) / scale};

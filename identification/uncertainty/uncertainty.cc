@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "identification/model/normal_equations.h"
 #include "identification/sentences/fit.h"
 #include "identification/uncertainty/few_segments.h"
 
@@ -221,13 +222,6 @@ Uncertainty Picked(Uncertainty uncertainty, const std::vector<Eigen::Index>& pla
     if (one->size() > 0) *one = (*one)(places, places).eval();
   }
   return uncertainty;
-}
-
-double RoundingVariance(const Eigen::VectorXd& torque) {
-  if (torque.size() == 0) return 0;
-  const double error = static_cast<double>(torque.size()) * std::numeric_limits<double>::epsilon() *
-                       torque.cwiseAbs().maxCoeff();
-  return error * error;
 }
 
 bool IsRounding(double squares, const Eigen::VectorXd& torque) {

@@ -67,11 +67,6 @@ RowsBetween RowsFrom(std::function<Eigen::MatrixXd()> all);
 /// scatter of the segments' scores counts (few_segments.h).
 Uncertainty CovarianceOf(const FittedRows& fit);
 
-/// Variance that the rounding of doubles leaves in the residual of an exact torque: sums over n samples carry errors of
-/// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). A smaller residual is
-/// neither noise nor structure. torque: [n] N.m or N
-double RoundingVariance(const Eigen::VectorXd& torque);
-
 /// Whether squares over the samples of a torque are no more than what rounding leaves.
 bool IsRounding(double squares, const Eigen::VectorXd& torque);
 

@@ -343,18 +343,14 @@ Fit Conclude(LawFit law) {
   fit.effective_parameters = fit.count;
   if (!std::isinf(law.threshold)) fit.loss_bend = law.threshold;
   fit.summary = Summary(law);
-  fit.jacobian = [columns = law.problem.task().columns] { return columns; };
+  fit.jacobian = [found] { return LawProblem::JacobianOf(found); };
 
   // the heat
   if (found.has_heat()) {
     fit.friction.thermal = found.thermal();
     fit.initial_energy = found.initial_energy();
-    fit.jump_samples = law.problem.loop().jumps();
-    const auto loop = std::make_shared<const ClosedLoop>(law.problem.loop());
-    fit.jacobian = [loop, rigid = law.problem.task().gravity.columns, found] {
-      return WarmJacobian(*loop, rigid, found);
-    };
-    fit.end_energy = [loop, found] { return WarmEnd(*loop, found); };
+    fit.jump_samples = found.model->heat->jump_samples;
+    fit.end_energy = [found] { return EndOf(found); };
     RemarkOnHeat(found, law.problem.gaps(), m, fit);
   }
 

@@ -24,20 +24,24 @@ bool RestsOver(const LogSamples& m, Eigen::Index behind) {
 /// Fits once more from where a fit ended, with what is known of E(0) and the noise that the fit left.
 ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFit& fit) {
   rows.initial = initial;
-  rows.scale = std::sqrt(fit.squares / rows.weight.sum());
+  rows.scale = rows.ScaleOf(fit);
   ThermalFit next = FitThermalFriction(rows, StartFrom(fit));
   next.Follow(fit);
   return next;
 }
 
-/// FitJumps with the E(0) that the fit estimates or holds. before: the loop of that fit; rows: with the jumps
-Eigen::VectorXd AddJumps(const ClosedLoop& before, ThermalRows rows,
-                         const std::vector<LogGap>& gaps, ThermalFit& fit) {
-  const Thermal thermal = fit.thermal();
+/// The largest |E| along the log of a fit. N.m or N
+double WarmestOf(const LawBlocks& blocks, const ThermalFit& fit) {
+  return blocks.loop->WithJumps(fit.model->heat->jump_samples)
+      .Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps())
+      .energy.cwiseAbs()
+      .maxCoeff();
+}
+
+/// FitJumps with the E(0) that the fit estimates or holds. rows: with the jumps
+Eigen::VectorXd AddJumps(ThermalRows rows, const std::vector<LogGap>& gaps, ThermalFit& fit) {
   // how large jumps may be, by the energy without them
-  const LoopResponse response =
-      before.Simulate(fit.law(), thermal, fit.initial_energy(), fit.jumps());
-  rows.jump_spread = JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
+  rows.jump_spread = JumpSpread(gaps, WarmestOf(rows.blocks, fit), fit.thermal().time_constant);
   fit = Again(rows, fit.initial, fit);
   return rows.jump_spread;
 }
@@ -114,25 +118,24 @@ std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps) {
 
 Eigen::VectorXd FitJumps(const ThermalRows& rows, const std::vector<LogGap>& gaps,
                          const InitialGuess& scanned, ThermalFit& fit) {
-  const ClosedLoop loop = rows.loop.WithJumps(Behind(gaps));
-  const ThermalRows with = rows.Along(loop);
-  Eigen::VectorXd spread = AddJumps(rows.loop, with, gaps, fit);
+  ThermalRows with = rows;
+  with.jump_samples = Behind(gaps);
+  Eigen::VectorXd spread = AddJumps(with, gaps, fit);
   if (!fit.estimates_initial_energy()) return spread;
 
   // the other order: a cold start, jumps, then E(0)
   ThermalRows cold = rows;
   cold.initial = InitialEnergy::zero;
-  cold.scale = std::sqrt(fit.squares / rows.weight.sum());
+  cold.scale = rows.ScaleOf(fit);
   ThermalFit other = FitThermalFriction(cold, scanned);
   if (!other.converged) return spread;
-  ThermalRows freed_rows = with;
-  freed_rows.jump_spread = AddJumps(rows.loop, with, gaps, other);
-  ThermalFit freed = Again(freed_rows, fit.initial, other);
+  with.jump_spread = AddJumps(with, gaps, other);
+  ThermalFit freed = Again(with, fit.initial, other);
   // taken where it converges and leaves smaller squares
   const bool leaves_less = !(fit.converged && fit.squares <= freed.squares);
   if (!freed.converged || !leaves_less) return spread;
   fit = std::move(freed);
-  return freed_rows.jump_spread;
+  return with.jump_spread;
 }
 
 std::string RefitStart(const ThermalRows& rows,

@@ -4,7 +4,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/model/least_squares.h"
 
 namespace warmjoint {
 namespace {
@@ -24,57 +23,38 @@ Eigen::VectorXd AtSamples(const Eigen::VectorXd& kept, const Selection& selectio
 LawProblem::LawProblem(const IdentifierInput& input, const LinearTask& task)
     : input_(input),
       task_(task),
-      columns_(Kept(task.columns, input.selection)),
-      torque_(Kept(input.measurements.torque, input.selection)),
-      kept_(input.selection.keep.cast<double>()),
-      loop_(ClosedLoop::Along(input.measurements, task.columns.leftCols(task.law_count()),
-                              LossColumns(task.law, input.measurements, task.load))),
-      level_(loop_.direction().cwiseProduct(input.measurements.torque)),
-      offsets_(loop_.direction().asDiagonal() * task.gravity.columns) {}
+      blocks_(input.measurements, task.columns.leftCols(task.law_count()),
+              LossColumns(task.law, input.measurements, task.load), task.gravity.columns) {}
+
+RowTreatment LawProblem::AsMeasured() const {
+  return {.torque = Kept(input_.measurements.torque, input_.selection)};
+}
+
+ModelSamples LawProblem::SamplesFor(const RowTreatment& rows) const {
+  const Selection& selection = input_.selection;
+  return {.torque = AtSamples(rows.torque, selection),
+          .keep = selection.keep,
+          .weights = rows.weights.size() > 0 ? AtSamples(rows.weights, selection) : rows.weights,
+          .transform = rows.transform.get()};
+}
+
+ThermalRows LawProblem::RowsFor(const RowTreatment& rows, const InitialEnergy& initial,
+                                double scale) const {
+  return {.blocks = blocks_,
+          .samples = SamplesFor(rows),
+          .initial = initial,
+          .scale = scale,
+          .jump_samples = Behind(gaps_),
+          .jump_spread = jump_spread_};
+}
 
 ThermalFit LawProblem::FitCold(const RowTreatment& rows) const {
-  // the rows with their weights and transform
-  Eigen::MatrixXd A = columns_;
-  Eigen::VectorXd y = rows.torque;
-  if (rows.transform) {
-    A = rows.transform->Of(A);
-    y = rows.transform->Of(y);
-  } else if (rows.weights.size() > 0) {
-    const Eigen::VectorXd root = rows.weights.cwiseSqrt();
-    A = root.asDiagonal() * A;
-    y = root.cwiseProduct(y);
-  }
-
-  LeastSquares solved = SolveLeastSquares(A, y);
-  ThermalFit fit;
-  fit.layout =
-      Layout::InOrder({{&Layout::law, task_.law_count()}, {&Layout::rigid, task_.gravity.count()}});
-  fit.converged = solved.rank == A.cols();
-  fit.mixed = std::move(solved.mixed);
-  fit.squares = kInfinity;
-  if (!fit.converged) return fit;
-  fit.squares = (y - A * solved.solution).squaredNorm();
-  fit.x = std::move(solved.solution);
-  fit.cofactor = std::move(solved.cofactor);
-  return fit;
+  return FitWithoutHeat(blocks_, SamplesFor(rows));
 }
 
 ThermalFit LawProblem::FitWarm(const RowTreatment& rows, const InitialEnergy& initial,
                                const InitialGuess& start) const {
-  const Selection& selection = input_.selection;
-  // the torque and the weights of all samples, of which those that are not kept count nothing
-  const Eigen::VectorXd level = loop_.direction().cwiseProduct(AtSamples(rows.torque, selection));
-  const Eigen::VectorXd weight =
-      rows.weights.size() > 0 ? AtSamples(rows.weights, selection) : kept_;
-  return FitThermalFriction({.loop = loop_,
-                             .level = level,
-                             .offsets = offsets_,
-                             .weight = weight,
-                             .initial = initial,
-                             .scale = rows.scale,
-                             .jump_spread = jump_spread_,
-                             .transform = rows.transform.get()},
-                            start);
+  return FitThermalFriction(RowsFor(rows, initial, rows.scale), start);
 }
 
 ThermalFit LawProblem::FitAgain(const RowTreatment& rows, const ThermalFit& fit) const {
@@ -85,12 +65,12 @@ ThermalFit LawProblem::FitAgain(const RowTreatment& rows, const ThermalFit& fit)
 
 InitialGuess LawProblem::Scan(const Eigen::VectorXd& torque, const ThermalFit& cold) const {
   const RigidPart& gravity = task_.gravity;
-  const Eigen::VectorXd level = loop_.direction().cwiseProduct(torque);
-  if (gravity.count() == 0) return ScanTimeConstant(loop_, level, kept_);
+  const Eigen::VectorXd kept = input_.selection.keep.cast<double>();
+  if (gravity.count() == 0) return ScanTimeConstant(*blocks_.loop, torque, kept);
 
   // gravity of the fit without warming is subtracted, and its remaining error is scanned together with the law
   const ClosedLoop together = ClosedLoop::Along(input_.measurements, task_.columns);
-  InitialGuess start = ScanTimeConstant(together, level - offsets_ * cold.rigid(), kept_);
+  InitialGuess start = ScanTimeConstant(together, torque - gravity.columns * cold.rigid(), kept);
   start.parameters.tail(gravity.count()) += cold.rigid();
   return start;
 }
@@ -98,7 +78,8 @@ InitialGuess LawProblem::Scan(const Eigen::VectorXd& torque, const ThermalFit& c
 ThermalResponse LawProblem::Respond(const ThermalFit& fit) const {
   ThermalResponse response;
   if (fit.has_heat()) {
-    LoopResponse loop = loop_.Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps());
+    LoopResponse loop = blocks_.loop->WithJumps(fit.model->heat->jump_samples)
+                            .Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps());
     response.force = std::move(loop.force);
     response.first_driving = loop.first_driving;
   } else {
@@ -108,8 +89,8 @@ ThermalResponse LawProblem::Respond(const ThermalFit& fit) const {
   return response;
 }
 
-Eigen::MatrixXd LawProblem::JacobianOf(const ThermalFit& fit) const {
-  return fit.has_heat() ? WarmJacobian(loop_, task_.gravity.columns, fit) : task_.columns;
+Eigen::MatrixXd LawProblem::JacobianOf(const ThermalFit& fit) {
+  return ModelAt(*fit.model, fit.x).All().derivatives;
 }
 
 Uncertainty LawProblem::CovarianceOf(const ThermalFit& plain,
@@ -125,27 +106,6 @@ Uncertainty LawProblem::CovarianceOf(const ThermalFit& plain,
 void LawProblem::TakeJumps(const std::vector<LogGap>& gaps, const Eigen::VectorXd& spread) {
   gaps_ = gaps;
   jump_spread_ = spread;
-  loop_ = loop_.WithJumps(Behind(gaps));
-}
-
-Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const Layout& layout) {
-  Eigen::MatrixXd kept(of.rows(), layout.rigid.begin);
-  kept << of.leftCols(layout.jumps.begin), of.rightCols(layout.jumps.size);
-  return kept;
-}
-
-Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const Eigen::MatrixXd& rigid,
-                             const ThermalFit& fit) {
-  const Thermal thermal = fit.thermal();
-  Eigen::MatrixXd jacobian =
-      OfEstimated(loop.Jacobian(fit.law(), thermal, fit.initial_energy(), fit.jumps()), fit.layout);
-  jacobian.col(fit.layout.log_time_constant()) *= thermal.time_constant;  // from tau to log(tau)
-  return ConcatColumns(jacobian, rigid);
-}
-
-EndEnergy WarmEnd(const ClosedLoop& loop, const ThermalFit& fit) {
-  const LoopEnd end = loop.End(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps());
-  return {end.energy, OfEstimated(end.slopes.transpose(), fit.layout).transpose()};
 }
 
 }  // namespace warmjoint

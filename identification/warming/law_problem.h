@@ -35,7 +35,7 @@ class LawProblem {
   LawProblem(const IdentifierInput& input, const LinearTask& task);
 
   /// The rows as they were measured.
-  RowTreatment AsMeasured() const { return {.torque = torque_}; }
+  RowTreatment AsMeasured() const;
   /// Without heat, by linear least squares. A fit has not converged where the columns cannot be distinguished.
   ThermalFit FitCold(const RowTreatment& rows) const;
   /// With heat.
@@ -50,22 +50,15 @@ class LawProblem {
 
   ThermalResponse Respond(const ThermalFit& fit) const;
   /// d(F + G + M a)/dx over all samples, without lag. [N x p]
-  Eigen::MatrixXd JacobianOf(const ThermalFit& fit) const;
+  static Eigen::MatrixXd JacobianOf(const ThermalFit& fit);
   /// The uncertainty of x of a fit to plain squares, for noise of any colour. residual: [n] that it leaves
   Uncertainty CovarianceOf(const ThermalFit& plain, const Eigen::VectorXd& residual) const;
 
   const IdentifierInput& input() const { return input_; }
   const LinearTask& task() const { return task_; }
-  const ClosedLoop& loop() const { return loop_; }
   /// The rows of fits with heat, without any treatment.
   ThermalRows WarmRows(const InitialEnergy& initial, double scale) const {
-    return {.loop = loop_,
-            .level = level_,
-            .offsets = offsets_,
-            .weight = kept_,
-            .initial = initial,
-            .scale = scale,
-            .jump_spread = jump_spread_};
+    return RowsFor(AsMeasured(), initial, scale);
   }
 
   /// Sets the gaps and further starts at which E jumps, and how large the jumps may be. spread: [J] N.m or N
@@ -73,27 +66,14 @@ class LawProblem {
   const std::vector<LogGap>& gaps() const { return gaps_; }
 
  private:
+  ModelSamples SamplesFor(const RowTreatment& rows) const;
+  ThermalRows RowsFor(const RowTreatment& rows, const InitialEnergy& initial, double scale) const;
+
   const IdentifierInput& input_;
   const LinearTask& task_;
-  Eigen::MatrixXd columns_;  // [n x d + q] law, then gravity and inertia
-  Eigen::VectorXd torque_;   // [n] N.m or N
-  Eigen::VectorXd kept_;     // [N] 1 where a sample is kept, else 0
-  ClosedLoop loop_;
-  Eigen::VectorXd level_;    // [N] sign(v) torque
-  Eigen::MatrixXd offsets_;  // [N x q] sign(v) dG/dg
+  LawBlocks blocks_;
   std::vector<LogGap> gaps_;
   Eigen::VectorXd jump_spread_;  // [J]
 };
-
-/// Columns of the loop's derivatives, which are by (p, k, log tau, E0, jumps), that a fit has: E0 only where it was
-/// estimated. of: [N x (d + 3 + J)] or a row
-Eigen::MatrixXd OfEstimated(const Eigen::MatrixXd& of, const Layout& layout);
-
-/// d(F + G)/dx over all samples, without lag. rigid: [N x q] dG/dg; returns [N x p]
-Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const Eigen::MatrixXd& rigid,
-                             const ThermalFit& fit);
-
-/// E at the end of the log, with its slopes by law, heat, E(0) where it was estimated, and jumps. [p without gravity]
-EndEnergy WarmEnd(const ClosedLoop& loop, const ThermalFit& fit);
 
 }  // namespace warmjoint

@@ -13,7 +13,7 @@ constexpr Eigen::Index kBlocks = 1000;
 using Taus = Eigen::Array<double, kTaus, 1>;
 
 /// Neighbouring samples taken together.
-struct Blocks {
+struct Averages {
   Eigen::VectorXd length;   // [m] duration, s
   Eigen::VectorXd loss;     // [m] mean of the measured loss over the duration, W
   Eigen::VectorXd weight;   // [m] number of kept samples
@@ -22,16 +22,16 @@ struct Blocks {
   std::vector<bool> last;   // [m] whether the joint is cold after the block
 };
 
-Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                  const Eigen::VectorXd& kept) {
+Averages MakeAverages(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                      const Eigen::VectorXd& kept) {
   // blocks of as many samples each
   const Eigen::Index size = 1 + (loop.size() - 1) / kBlocks;
   const Eigen::Index m = (loop.size() + size - 1) / size;
   const Eigen::Index d = loop.levels().cols();
   const Intervals& intervals = loop.intervals();
-  Blocks blocks{Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
-                Eigen::VectorXd::Zero(m), ClosedLoop::Rows::Zero(m, d),
-                Eigen::VectorXd::Zero(m), std::vector<bool>(static_cast<size_t>(m))};
+  Averages blocks{Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
+                  Eigen::VectorXd::Zero(m), ClosedLoop::Rows::Zero(m, d),
+                  Eigen::VectorXd::Zero(m), std::vector<bool>(static_cast<size_t>(m))};
 
   for (Eigen::Index b = 0; b < m; ++b) {
     const Eigen::Index begin = b * size, end = std::min(loop.size(), begin + size);
@@ -73,7 +73,7 @@ struct Products {
 };
 
 /// Filters the loss with every tau at once; x in the middle of a block represents the block.
-Products Filter(const Blocks& blocks, const Taus& tau) {
+Products Filter(const Averages& blocks, const Taus& tau) {
   const Eigen::Index d = blocks.levels.cols();
   Products products;
   products.columns.setZero(kTaus, d);
@@ -118,9 +118,9 @@ struct Parabola {
 
 }  // namespace
 
-InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
+InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& torque,
                               const Eigen::VectorXd& kept) {
-  const Blocks blocks = MakeBlocks(loop, level, kept);
+  const Averages blocks = MakeAverages(loop, loop.direction().cwiseProduct(torque), kept);
   const double total = blocks.length.sum();
   InitialGuess start;
   // time constants between those that the sampling and the duration can show, evenly in their logarithm

@@ -23,8 +23,8 @@ struct InitialGuess {
 /// Sixteen values of tau, even in log(tau), are tried; for each the rest is a linear solve (Golub
 /// and Pereyra 1973); a parabola through the best and its neighbours refines it. Samples are taken
 /// together in at most a thousand blocks, since a start need not be exact.
-/// level: [N] sign(v) torque, N.m or N; kept: [N] 1 where a sample takes part in fits, else 0.
-InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
+/// torque: [N] N.m or N; kept: [N] 1 where a sample takes part in fits, else 0.
+InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& torque,
                               const Eigen::VectorXd& kept);
 
 }  // namespace warmjoint

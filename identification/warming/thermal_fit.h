@@ -4,11 +4,14 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
+#include "identification/fit.h"
 #include "identification/forward/closed_loop.h"
-#include "identification/forward/row_products.h"
 #include "identification/layout.h"
+#include "identification/model/model.h"
+#include "identification/model/model_squares.h"
 #include "identification/warming/scan_time_constant.h"
 
 namespace warmjoint {
@@ -33,31 +36,35 @@ struct InitialEnergy {
 inline constexpr InitialEnergy InitialEnergy::zero{0, 0};
 inline constexpr InitialEnergy InitialEnergy::estimated{0, std::numeric_limits<double>::infinity()};
 
-/// A log, and how its rows count in a fit. Refers to what it is given.
+/// Law, gravity and inertia along a log of N samples, which all fits to it share.
+struct LawBlocks {
+  /// law, of_losses: [N x d], of_losses empty where losses have the same; rigid: [N x q]
+  LawBlocks(const LogSamples& measurements, const Eigen::MatrixXd& law,
+            const Eigen::MatrixXd& of_losses, const Eigen::MatrixXd& rigid);
+
+  std::shared_ptr<const ClosedLoop> loop;  // over the columns of the law, without jumps
+  SharedColumns law;                       // [N x d] dFn/dp
+  SharedColumns of_losses;                 // [N x d], or null
+  SharedColumns rigid;                     // [N x q] dG/dg, torque that makes no heat
+};
+
+struct ThermalFit;
+
+/// A log, and how its rows count in a fit with heat.
 struct ThermalRows {
-  const ClosedLoop& loop;          // over the columns of the law, with the jumps of E
-  const Eigen::VectorXd& level;    // [N] sign(v) torque, N.m or N
-  const Eigen::MatrixXd& offsets;  // [N x q] sign(v) dG/dg, torque that makes no heat
-  const Eigen::VectorXd& weight;   // [N] of the squares: 1, 0 or between
+  const LawBlocks& blocks;  // must outlive this
+  ModelSamples samples;     // torque in N.m or N
   InitialEnergy initial{};
-  double scale = 1;               // about the residuals' standard deviation, N.m or N
+  double scale = 1;                          // about the residuals' standard deviation, N.m or N
+  std::vector<Eigen::Index> jump_samples{};  // [J] at which E jumps
   Eigen::VectorXd jump_spread{};  // [J] standard deviation of each jump, N.m or N, or infinite
-  /// Of the rows that count, whose weights are 1 then, as torque; or none.
-  const RowTransform* transform = nullptr;
 
   /// Law, heat, E(0) where it is not held, jumps, gravity and inertia.
   Layout layout() const;
-  /// The same rows along another loop, which must outlive what is returned.
-  ThermalRows Along(const ClosedLoop& other) const {
-    return {.loop = other,
-            .level = level,
-            .offsets = offsets,
-            .weight = weight,
-            .initial = initial,
-            .scale = scale,
-            .jump_spread = jump_spread,
-            .transform = transform};
-  }
+  /// The model in this layout. Each jump has a prior about 0 with its spread, an expected E(0) one about its mean.
+  Model MakeModel() const;
+  /// The rms of the residual that a fit to these rows leaves.
+  double ScaleOf(const ThermalFit& fit) const;
 };
 
 /// What a fit of law, heat, gravity and inertia to one log came to, its rows as they were fitted and not over their scale.
@@ -69,9 +76,10 @@ struct ThermalFit {
   std::vector<FitPoint> trace;  // the solution last
   bool converged = false;
   Layout layout;
-  Eigen::VectorXd prior;            // [p] the diagonal P: what is known of x before the log
-  InitialEnergy initial;            // what was known of E(0)
-  std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be distinguished
+  std::shared_ptr<const Model> model;  // in that layout
+  Eigen::VectorXd prior;               // [p] the diagonal P: what is known of x before the log
+  InitialEnergy initial;               // what was known of E(0)
+  std::vector<Eigen::Index> mixed;     // columns of law and gravity that cannot be distinguished
 
   bool has_heat() const { return layout.heat.size > 0; }
   bool estimates_initial_energy() const { return layout.start.size > 0; }
@@ -91,12 +99,17 @@ struct ThermalFit {
   }
 };
 
-/// To begin where a fit ended: its law and offsets, and its warming.
+/// To begin where a fit ended: its law, its rigid part and its warming.
 InitialGuess StartFrom(const ThermalFit& fit);
 
-/// Minimises the squared residuals of the samples that count (model/minimise.h) with exact derivatives. start: parameters of the
-/// law and of the offsets [d + q]. Each jump counts as a sample that measured 0 with its spread, and an expected E(0) as one that
-/// measured its mean.
+/// The least squares (model/solve.h) of the samples that count, with exact derivatives. start: parameters of the law and of the rigid
+/// part [d + q].
 ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start);
+
+/// The same without heat, by linear least squares. A fit has not converged where the columns cannot be distinguished.
+ThermalFit FitWithoutHeat(const LawBlocks& blocks, const ModelSamples& samples);
+
+/// E at the last sample of a fit's log, with its slopes by law, heat, E(0) where it was estimated, and jumps. [p without rigid part]
+EndEnergy EndOf(const ThermalFit& fit);
 
 }  // namespace warmjoint

@@ -53,7 +53,7 @@ JointColumns Columns(const JointTruth& truth, unsigned seed, const VectorXd& giv
   // the log of a robot that is not as described
   VectorXd z = given;
   if (z.size() == 0) z = VectorXd::NullaryExpr(4, [&] { return normal(random); });
-  const VectorXd rigid = c.rigid.At(z), load = c.carried.At(z);
+  const VectorXd rigid = c.rigid.At({0, n}, z), load = c.carried.At({0, n}, z);
   c.samples.torque.resize(n);
   double energy = 0;
   const double pole = std::exp(-h / truth.tau);

@@ -1,0 +1,96 @@
+#include "identification/model/model_squares.h"
+
+namespace warmjoint {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Roots of the weights, 0 where a sample does not count. [N]
+VectorXd RootsOf(const ModelSamples& samples) {
+  VectorXd roots = samples.keep.cast<double>();
+  if (samples.weights.size() > 0) roots.array() *= samples.weights.array().sqrt();
+  return roots;
+}
+
+}  // namespace
+
+ModelRows::Rows RowsToFit(const ModelAt& model, const ModelSamples& samples) {
+  const VectorXd roots = RootsOf(samples);
+  ModelRows::Rows all;
+  Index next = 0;
+  model.ForEachStretch([&](const ModelRows& rows) {
+    const Index p = rows.derivatives.cols();
+    if (next == 0) all.resize(samples.keep.count(), p + 1);
+    for (Index i = 0; i < rows.at.count; ++i) {
+      const Index n = rows.at.first + i;
+      if (!samples.keep[n]) continue;
+      all.row(next).head(p) = roots[n] * rows.derivatives.row(i);
+      all(next++, p) = roots[n] * (samples.torque[n] - rows.force[i]);
+    }
+  });
+  if (samples.transform) samples.transform->Apply(all);
+  return all;
+}
+
+ModelSquares::ModelSquares(const Model& model, const ModelSamples& samples)
+    : model_(model),
+      samples_(samples),
+      roots_(RootsOf(samples)),
+      precision_(model.PriorPrecision()),
+      mean_(model.PriorMean()) {}
+
+RowSums ModelSquares::At(const VectorXd& x, double variance) {
+  MoveTo(x);
+  const Index p = x.size();
+  RowSums sums{products_.topLeftCorner(p, p) / variance, products_.col(p).head(p) / variance,
+               products_(p, p) / variance};
+  // what was known before the data counts as rows of its own
+  const VectorXd off = x - mean_;
+  sums.gram.diagonal() += precision_;
+  sums.product -= precision_.cwiseProduct(off);
+  sums.squares += off.cwiseAbs2().dot(precision_);
+  return sums;
+}
+
+const VectorXd& ModelSquares::ResidualAt(const VectorXd& x) {
+  MoveTo(x);
+  return residual_;
+}
+
+void ModelSquares::MoveTo(const VectorXd& x) {
+  if (x_.size() == x.size() && x_ == x) return;
+  x_ = x;
+  const ModelAt model(model_, x);
+  if (!samples_.transform) {
+    products_ = SumAlong(model);
+    return;
+  }
+  // a transform takes all rows at once
+  const ModelRows::Rows rows = RowsToFit(model, samples_);
+  RowProducts products(rows.cols());
+  for (const auto& row : rows.rowwise()) products.Next() = row;
+  products_ = products.Sums();
+}
+
+MatrixXd ModelSquares::SumAlong(const ModelAt& model) {
+  const Index p = x_.size();
+  residual_.resize(model_.samples);
+  RowProducts products(p + 1);
+  model.ForEachStretch([&](const ModelRows& rows) {
+    for (Index i = 0; i < rows.at.count; ++i) {
+      const Index n = rows.at.first + i;
+      residual_[n] = samples_.torque[n] - rows.force[i];
+      const double root = roots_[n];
+      if (root == 0) continue;
+      auto next = products.Next();
+      for (Index j = 0; j < p; ++j) next[j] = root * rows.derivatives(i, j);
+      next[p] = root * residual_[n];
+    }
+  });
+  return products.Sums();
+}
+
+}  // namespace warmjoint
