@@ -21,29 +21,18 @@ struct LoopResponse {
   std::optional<Eigen::Index> first_driving;
 };
 
-/// The state at the end of the loop, or of a stretch of it.
-struct LoopEnd {
-  double energy = 0;       // E at the last sample, or at the one after the stretch, N.m or N
-  Eigen::VectorXd slopes;  // [d + 3 + J] dE/d(p, k, log tau, E0, jumps)
-};
-
-/// Columns of a law along the samples from the first on, and those of its losses; empty: the same. Both [m x d].
-struct LoopColumns {
-  Eigen::Index first = 0;
-  Eigen::MatrixXd law;
-  Eigen::MatrixXd loss{};
+/// Changes of E at samples, which no logged loss explains.
+struct EnergyJumps {
+  std::vector<Eigen::Index> samples{};  // [J] ascending
+  Eigen::VectorXd values{};             // [J] N.m or N
 };
 
 /// The loop E -> F -> W -> E over N samples of a velocity, for a law that is linear in its d
 /// parameters p. In its domain (F v >= 0) the loop is linear in E with the pole
 /// lambda = te + ke |v|: written with the level a = F sign(v) = g p + E, g = sign(v) dFn/dp,
-///     E[n+1] = te E[n] + ke |v[n]| a[n],
-/// so that the derivatives S of E by all parameters share lambda:
-///     p:  S[n+1] = lambda S[n] + ke |v| g          k:        lambda S[n] + (1 - te) |v| a
-///     E0: S[n+1] = lambda S[n], S[0] = 1           log tau:  lambda S[n] + te h/tau (E - k |v| a)
-/// Where losses have levels of their own, a and g in those of k|v| a and k|v| g are theirs.
-/// Samples at rest have W = 0 and keep cooling. With uneven sampling each interval is exact.
-/// Where E jumps by b at a sample (WithJumps): b: S = 0 before, 1 there, then lambda S[n].
+///     E[n+1] = te E[n] + ke |v[n]| a[n].
+/// Where losses have levels of their own, a is theirs. Samples at rest have W = 0 and keep cooling. With uneven sampling each
+/// interval is exact. Its derivatives: model/heat_loop.h.
 class ClosedLoop {
  public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -54,30 +43,13 @@ class ClosedLoop {
              const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts = {});
 
   /// parameters: [d] of the law; initial_energy: E(0), N.m or N.
-  /// jumps: [J] N.m or N, of E at the samples of WithJumps.
   LoopResponse Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                        double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
-
-  /// dF/d(p, k, tau, E0, jumps): [N x (d + 3 + J)], exact.
-  Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                           double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
-
-  /// dF/d(p, k, log tau, E0, jumps) along a stretch, [m x (d + 3 + J)], of a law with other columns than the loop's, which
-  /// are not read. at: E and its derivatives at the first of its samples, led on to the sample after it.
-  Rows SlopesAlong(const LoopColumns& columns, const Eigen::VectorXd& parameters,
-                   const Thermal& thermal, const Eigen::VectorXd& jumps, LoopEnd& at) const;
-
-  /// E at the last sample, and its exact derivatives there.
-  LoopEnd End(const Eigen::VectorXd& parameters, const Thermal& thermal, double initial_energy = 0,
-              const Eigen::VectorXd& jumps = {}) const;
+                        double initial_energy = 0, const EnergyJumps& jumps = {}) const;
 
   /// Along a recording. Where it has mean speeds, these make the losses, with loss_columns, which are
   /// `columns` at its loss velocity; empty: the same. Both [N x d].
   static ClosedLoop Along(const LogSamples& measurements, const Eigen::MatrixXd& columns,
                           const Eigen::MatrixXd& loss_columns = {});
-
-  /// The same loop whose E jumps at samples, ascending: [J]
-  ClosedLoop WithJumps(std::vector<Eigen::Index> samples) const;
 
   Eigen::Index size() const { return speed_.size(); }
   const Eigen::VectorXd& speed() const { return speed_; }  // [N] of the losses, |v|, rad/s or m/s
@@ -87,17 +59,15 @@ class ClosedLoop {
     return loss_levels_.size() > 0 ? loss_levels_ : levels_;
   }
   const Intervals& intervals() const { return intervals_; }
-  const std::vector<Eigen::Index>& jumps() const { return jumps_; }  // [J] samples
 
  private:
-  Rows Signed(const Eigen::MatrixXd& columns, Eigen::Index first = 0) const;
+  Rows Signed(const Eigen::MatrixXd& columns) const;
 
   Eigen::VectorXd speed_;
   Eigen::VectorXd direction_;
   Rows levels_;
   Rows loss_levels_;  // empty: levels_
   Intervals intervals_;
-  std::vector<Eigen::Index> jumps_;
 };
 
 /// Derivatives by the discrete pair from those by the continuous one: columns k and tau (the last

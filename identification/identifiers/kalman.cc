@@ -30,6 +30,7 @@
 #include "identification/online/kalman_bank.h"
 #include "identification/sentences/fit.h"
 #include "identification/sentences/friction.h"
+#include "identification/warming/thermal_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/foundation/robust_noise.h"
 
@@ -296,7 +297,8 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   fit.effective_parameters = fit.count;
 
   // the information of the whole recording on these parameters
-  Eigen::MatrixXd jacobian = Kept(track.loop.Jacobian(x, thermal), fit.used).leftCols(fit.count);
+  const LawBlocks law(track.loop, LawColumns(track.law, m.velocity));
+  Eigen::MatrixXd jacobian = Kept(WarmJacobian(law, x, thermal, 0), fit.used).leftCols(fit.count);
   jacobian.col(last.at.log_time_constant()) *= thermal.time_constant;  // from tau to ln tau
   if (!fit.fitted.allFinite() || !jacobian.allFinite()) {
     fit.refusal = RanAway();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/forward/closed_loop_kernel.h"
+#include "identification/forward/holds.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/fitted_model.h"

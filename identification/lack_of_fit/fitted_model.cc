@@ -11,6 +11,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/gaps.h"
+#include "identification/warming/thermal_fit.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
@@ -147,11 +148,12 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
     of_loss = NominalDerivatives(fit, *m.loss_velocity, m.load);
   }
   const Jumps jumps = JumpsOf(fit, m);
-  ClosedLoop& loop = model.loop.emplace(ClosedLoop::Along(m, model.derivatives, of_loss));
-  if (!jumps.at.empty()) loop = loop.WithJumps(Behind(jumps.at));
+  const LawBlocks blocks(m, model.derivatives, of_loss, Eigen::MatrixXd(m.size(), 0));
+  model.loop = blocks.loop;
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
-  const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jumps.values);
+  const Eigen::MatrixXd all = WarmJacobian(blocks, parameters, thermal, fit.initial_energy,
+                                           {Behind(jumps.at), jumps.values});
 
   // law, heat and, where it was estimated, the first start; where it was not, it is an assumption, too
   const bool starts = !fit.Values(Role::start).empty();

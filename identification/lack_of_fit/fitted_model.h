@@ -4,6 +4,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,8 +34,8 @@ struct FittedModel {
   std::vector<MapQuantity> mapped;      // the quantities that the maps are over
 
   std::optional<Thermal> thermal;  // where a warming was estimated
-  /// where a warming was estimated: that of the law's parameters, with the jumps
-  std::optional<ClosedLoop> loop;
+  /// where a warming was estimated: that of the law's parameters
+  std::shared_ptr<const ClosedLoop> loop;
   bool has_bristle = false;  // whether the law has a state of its own, by which the joint sticks
 };
 

@@ -117,9 +117,9 @@ bool WarmingBlock::FitGiven(const MapBlock& maps) {
   fit_ = FitThermalFriction(rows, from);
   if (is_first && gaps_.size() > starts_.size()) FitJumps(rows, gaps_, from, *fit_);
   // the energy by this warming, which is given when the maps are fitted next
-  energy_ = blocks.loop->WithJumps(Behind(gaps_))
-                .Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->jumps())
-                .energy;
+  energy_ =
+      blocks.loop->Simulate(fit_->law(), fit_->thermal(), fit_->initial_energy(), fit_->JumpsOfE())
+          .energy;
   return fit_->converged && energy_.allFinite();
 }
 

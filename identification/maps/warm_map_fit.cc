@@ -1,8 +1,13 @@
 #include "identification/maps/warm_map_fit.h"
 
-#include <Eigen/Cholesky>
+#include <algorithm>
+#include <memory>
 #include <utility>
 
+#include "identification/fit_data.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/maps/local_rows.h"
+#include "identification/model/normal_equations.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/weight_prior.h"
 #include "identification/warming/gaps.h"
@@ -49,24 +54,61 @@ VectorXd StepUnder(const Conditions& conditions, const MatrixXd& gram, const Vec
   return scale.cwiseProduct(solver.Solve(scale.cwiseProduct(gram * x + product))) - x;
 }
 
+/// The kernels of maps: friction that depends on the place.
+class KernelBlock : public Block {
+ public:
+  KernelBlock(Slice at, std::vector<FrictionMap> maps, MapPoints points)
+      : at_(at), maps_(std::move(maps)), points_(std::move(points)) {}
+  void Fill(const VectorXd& x, ModelRows& rows) const override {
+    const MatrixXd kernels = DenseKernels(maps_, points_, rows.at.first, rows.at.end());
+    rows.force += kernels * at_.Of(x);
+    rows.derivatives.middleCols(at_.begin, at_.size) += kernels;
+  }
+  bool MakesHeat() const override { return true; }
+
+ private:
+  Slice at_;
+  std::vector<FrictionMap> maps_;  // shapes
+  MapPoints points_;               // [N x 5]
+};
+
+/// Law, maps, heat, gravity and inertia in a layout. heat: of the fit with the latest maps, whose priors are taken over
+Model ModelOf(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
+              const ThermalFit& heat, const Layout& at) {
+  const LogSamples& m = input.measurements;
+  const LawBlocks of_law(m, LawColumns(*task.law, m.velocity), LossColumns(*task.law, m),
+                         task.rigid.columns);
+  Model model;
+  model.samples = m.size();
+  model.table.resize(static_cast<std::size_t>(at.size()));
+  const Index first = heat.layout.heat.begin, count = heat.layout.rigid.begin - first;
+  std::copy_n(heat.model->table.begin() + first, count, model.table.end() - count);
+  model.blocks = {std::make_shared<FrictionBlock>(at.law, of_law.law, of_law.of_losses),
+                  std::make_shared<KernelBlock>(at.weights, block.fit().maps, PointsOf(m)),
+                  std::make_shared<LinearBlock>(at.rigid, of_law.rigid)};
+  model.heat = *heat.model->heat;
+  model.heat->friction = at.weights.end();
+  model.heat->parameters = at.heat;
+  model.heat->start = at.start;
+  model.heat->jumps = at.jumps;
+  return model;
+}
+
 }  // namespace
 
 WarmMapFit::WarmMapFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
                        const WarmingBlock& warming)
     : selection_(input.selection),
+      layout_(JoinedLayout(block.fit().layout, warming.fit().layout)),
       penalty_(block.solver().penalty()),
       variance_(block.Squares() / static_cast<double>(input.selection.count())),
-      rows_(input, {.law = *task.law,
-                    .maps = block.fit().maps,
-                    .rigid = task.rigid.columns,
-                    .jump_samples = Behind(warming.gaps()),
-                    .layout = JoinedLayout(block.fit().layout, warming.fit().layout)}) {
-  // the heat as the block has it, and what is known of it beforehand
+      model_(ModelOf(input, task, block, warming.fit(), layout_)),
+      samples_{.torque = input.measurements.torque, .keep = input.selection.keep},
+      squares_(model_, samples_),
+      x_(VectorXd::Zero(layout_.size())) {
+  // the heat as the block has it
   const ThermalFit& heat = warming.fit();
-  prior_ = mean_ = x_ = VectorXd::Zero(layout().size());
   const Index first = heat.layout.heat.begin, count = heat.layout.rigid.begin - first;
-  prior_.tail(count) = heat.prior.segment(first, count);
-  if (layout().start.size > 0) mean_[layout().energy()] = heat.initial.mean;
   x_.tail(count) = heat.x.segment(first, count);
 }
 
@@ -78,7 +120,7 @@ bool WarmMapFit::Refine(MapBlock& block) {
     MinimiseUnder(Extended(conditions, layout().size()));
     if (!converged_) break;
     // with the energy that was found, other conditions may hold
-    const VectorXd energy = rows_.Energy();
+    const VectorXd energy = ModelAt(model_, x_).Energy();
     if (!block.FitGiven(energy)) return false;
     const bool hold = block.solver().conditions() == conditions;
     if (hold || i + 1 == kMostConditions) {
@@ -99,29 +141,18 @@ void WarmMapFit::MinimiseUnder(const Conditions& conditions) {
   problem.rests = kRests;
   Minimum found = Minimise(problem, x_);
   x_ = std::move(found.x);
-  rows_.MoveTo(x_);
   converged_ = found.converged && x_.allFinite();
   iterations_ += static_cast<int>(found.trace.size()) - 1;
 }
 
-MatrixXd WarmMapFit::Penalised() const {
-  MatrixXd gram = rows_.gram();
-  const Slice& at = layout().weights;
-  gram.block(at.begin, at.begin, at.size, at.size) += penalty_;
-  gram.diagonal() += prior_;
-  return gram;
-}
-
 RowSums WarmMapFit::At(const VectorXd& x) {
-  rows_.MoveTo(x);
-  const VectorXd weights = layout().weights.Of(x), pulled = penalty_ * weights;
-  const VectorXd off = x - mean_;
-  RowSums sums{Penalised(), rows_.product() - prior_.cwiseProduct(off),
-               rows_.squares() + weights.dot(pulled) + prior_.dot(off.cwiseAbs2())};
-  layout().weights.In(sums.product) -= pulled;
-  sums.gram /= variance_;
-  sums.product /= variance_;
-  sums.squares /= variance_;
+  RowSums sums = squares_.At(x, variance_);
+  // the weights' prior
+  const Slice& at = layout_.weights;
+  const VectorXd weights = at.Of(x), pulled = penalty_ * weights / variance_;
+  sums.gram.block(at.begin, at.begin, at.size, at.size) += penalty_ / variance_;
+  at.In(sums.product) -= pulled;
+  sums.squares += weights.dot(pulled);
   return sums;
 }
 
@@ -130,16 +161,19 @@ void WarmMapFit::HeatInto(ThermalFit& warming) const {
   warming.x.segment(first, count) = x_.tail(count);
 }
 
-Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) const {
+Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) {
+  const KeptRows rows(model_, x_, samples_.keep);
+  const VectorXd torque = Kept(samples_.torque, selection_);
   // with independent weights, since with correlated ones the standard errors of gain and time constant would be wrong by a half
   return warmjoint::CovarianceOf(
-      {.rows = [&](Index first, Index last) { return rows_.Between(first, last); },
-       .cofactor = Cofactor(Penalised()),
+      {.rows = [&](Index first, Index last) { return rows.Between(first, last); },
+       .cofactor = Cofactor(variance_ * At(x_).gram),
        .residual = residual,
        .selection = selection_,
-       .fitted = rows_.torque() - residual,
-       .prior = prior_,
-       .pull = WeightPrior{rows_.gram(), maps.free(), maps.weights(), maps.strength, maps.unseen}});
+       .fitted = torque - residual,
+       .prior = variance_ * model_.PriorPrecision(),
+       .pull = WeightPrior{squares_.OfData(x_).gram, maps.free(), maps.weights(), maps.strength,
+                           maps.unseen}});
 }
 
 }  // namespace warmjoint

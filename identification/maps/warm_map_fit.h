@@ -5,9 +5,9 @@
 
 #include "identification/maps/map_blocks.h"
 #include "identification/maps/map_fit.h"
-#include "identification/maps/warm_map_rows.h"
 #include "identification/model/conditions.h"
 #include "identification/model/minimise.h"
+#include "identification/model/model_squares.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
@@ -19,32 +19,35 @@ class WarmMapFit {
   /// Shapes, strength and what is known of the heat are those of the blocks; input: must outlive this.
   WarmMapFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
              const WarmingBlock& warming);
+  WarmMapFit(const WarmMapFit&) = delete;
+  WarmMapFit& operator=(const WarmMapFit&) = delete;
 
   /// Minimises from the block's latest fit on, and gives it law, weights and E. False where nothing can be solved.
   bool Refine(MapBlock& block);
 
   bool converged() const { return converged_; }
   int iterations() const { return iterations_; }
-  const Layout& layout() const { return rows_.layout(); }
-  const WarmMapRows& rows() const { return rows_; }
+  const Layout& layout() const { return layout_; }
+  /// dE/dx at the end of the log. [p]
+  Eigen::VectorXd EndSlopes() const { return ModelAt(model_, x_).End().slopes; }
   /// Writes the heat that the fit estimates into `warming`.
   void HeatInto(ThermalFit& warming) const;
   /// The uncertainty of all unknowns (uncertainty.h). maps: the block's; residual: [n] that is left, N.m or N
-  Uncertainty CovarianceOf(const MapFit& maps, const Eigen::VectorXd& residual) const;
+  Uncertainty CovarianceOf(const MapFit& maps, const Eigen::VectorXd& residual);
 
  private:
   /// From x_ on under conditions.
   void MinimiseUnder(const Conditions& conditions);
+  /// Over the variance, with the prior of the weights and what was known beforehand.
   RowSums At(const Eigen::VectorXd& x);
-  /// J^T J with the prior of the weights, and what was known beforehand. [p x p]
-  Eigen::MatrixXd Penalised() const;
 
   const Selection& selection_;
+  Layout layout_;
   Eigen::MatrixXd penalty_;  // [q x q] s P
   double variance_;          // about that of the noise, (N.m)^2 or N^2
-  WarmMapRows rows_;
-  Eigen::VectorXd prior_,
-      mean_;           // [p] the noise's variance over the prior variance of each unknown, or 0
+  Model model_;
+  ModelSamples samples_;
+  ModelSquares squares_;
   Eigen::VectorXd x_;  // [p]
   bool converged_ = false;
   int iterations_ = 0;

@@ -128,7 +128,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
     return Refused(name, Status::not_identifiable, *why);
   }
   AddHeat(warm, uncertainty, m, fit);
-  const Eigen::VectorXd of_end = warm.joint->rows().OfEnd();
+  const Eigen::VectorXd of_end = warm.joint->EndSlopes();
   fit.end_energy_std = std::sqrt(of_end.dot(uncertainty.covariance * of_end));
   if (!GivesFriction(fit)) return fit;
   // a friction that drives the joint by its own heat is not a valid model

@@ -23,7 +23,7 @@ struct WarmMaps {
   double visible = 0;
   bool converged = false;
   /// null where no warming was found in addition to the maps
-  std::shared_ptr<const WarmMapFit> joint{};
+  std::shared_ptr<WarmMapFit> joint{};
 };
 
 /// Least squares of law, maps and heat together over the closed loop (warm_map_fit.h). It begins where two turns of each, given

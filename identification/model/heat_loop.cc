@@ -4,7 +4,7 @@
 #include <array>
 #include <type_traits>
 
-#include "identification/forward/closed_loop_kernel.h"
+#include "identification/forward/holds.h"
 #include "models/foundation/four.h"
 
 namespace warmjoint {

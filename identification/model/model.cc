@@ -99,18 +99,27 @@ HeatState ModelAt::End() const {
 
 void ModelAt::Along(const SampleRange& stretch, HeatState& state, ModelRows& rows) const {
   rows.Reset(stretch, model_.size());
-  if (model_.heat) {
-    // friction first, whose loss the heat needs
-    for (const auto& block : model_.blocks) {
-      if (block->MakesHeat()) block->Fill(x_, rows);
-    }
-    ModelRows losses;
-    if (has_own_losses_) LossesAlong(stretch, losses);
-    model_.heat->Add(x_, holds_, has_own_losses_ ? losses : rows, state, rows);
-  }
+  if (model_.heat) AddFriction(state, rows);
   for (const auto& block : model_.blocks) {
     if (!model_.heat || !block->MakesHeat()) block->Fill(x_, rows);
   }
+}
+
+void ModelAt::AddFriction(HeatState& state, ModelRows& rows) const {
+  // the friction whose losses are at the same samples is filled once
+  const auto fill = [&](bool has_own, auto&& fill_block) {
+    for (const auto& block : model_.blocks) {
+      if (block->MakesHeat() && block->HasOwnLosses() == has_own) fill_block(*block);
+    }
+  };
+  fill(false, [&](const Block& block) { block.Fill(x_, rows); });
+  if (!has_own_losses_) return model_.heat->Add(x_, holds_, rows, state, rows);
+  ModelRows losses = rows;
+  fill(true, [&](const Block& block) {
+    block.Fill(x_, rows);
+    block.FillLosses(x_, losses);
+  });
+  model_.heat->Add(x_, holds_, losses, state, rows);
 }
 
 void ModelAt::LossesAlong(const SampleRange& stretch, ModelRows& rows) const {
@@ -129,6 +138,13 @@ std::vector<SampleRange> ModelAt::Stretches() const {
   }
   if (last >= 0) stretches.push_back({last, 1});
   return stretches;
+}
+
+VectorXd ModelAt::Energy() const {
+  VectorXd energy(model_.samples);
+  ForEachStretch(
+      [&](const ModelRows& rows) { energy.segment(rows.at.first, rows.at.count) = rows.energy; });
+  return energy;
 }
 
 ModelRows ModelAt::All() const {

@@ -154,6 +154,8 @@ class ModelAt {
       visit(rows);
     }
   }
+  /// E along the log, [N], of a model with heat.
+  Eigen::VectorXd Energy() const;
   /// Rows of all samples at once.
   ModelRows All() const;
 
@@ -161,6 +163,9 @@ class ModelAt {
   std::vector<SampleRange> Stretches() const;
 
  private:
+  /// Adds the blocks that make heat, and the heat.
+  void AddFriction(HeatState& state, ModelRows& rows) const;
+
   const Model& model_;
   Eigen::VectorXd x_;
   std::vector<IntervalHold> holds_;

@@ -1,5 +1,7 @@
 #include "identification/model/model_squares.h"
 
+#include <algorithm>
+
 namespace warmjoint {
 
 using Eigen::Index;
@@ -35,6 +37,38 @@ ModelRows::Rows RowsToFit(const ModelAt& model, const ModelSamples& samples) {
   return all;
 }
 
+KeptRows::KeptRows(const Model& model, const VectorXd& x,
+                   const Eigen::Array<bool, Eigen::Dynamic, 1>& keep)
+    : model_(model, x), size_(model.size()), stretches_(model_.Stretches()) {
+  for (Index n = 0; n < keep.size(); ++n) {
+    if (keep[n]) kept_.push_back(n);
+  }
+  HeatState state = model_.Begin();
+  ModelRows rows;
+  for (const SampleRange& stretch : stretches_) {
+    begins_.push_back(state);
+    if (model.heat) model_.Along(stretch, state, rows);
+  }
+}
+
+MatrixXd KeptRows::Between(Index first, Index last) const {
+  MatrixXd all(last - first, size_);
+  // from the stretch that holds the first of them
+  ModelRows rows;
+  for (Index done = first; done < last;) {
+    const Index sample = kept_[static_cast<std::size_t>(done)];
+    const auto after = std::ranges::upper_bound(stretches_, sample, {}, &SampleRange::first);
+    const auto at = static_cast<std::size_t>(after - stretches_.begin() - 1);
+    HeatState state = begins_[at];
+    model_.Along(stretches_[at], state, rows);
+    for (; done < last && kept_[static_cast<std::size_t>(done)] < rows.at.end(); ++done) {
+      all.row(done - first) =
+          rows.derivatives.row(kept_[static_cast<std::size_t>(done)] - rows.at.first);
+    }
+  }
+  return all;
+}
+
 ModelSquares::ModelSquares(const Model& model, const ModelSamples& samples)
     : model_(model),
       samples_(samples),
@@ -42,11 +76,17 @@ ModelSquares::ModelSquares(const Model& model, const ModelSamples& samples)
       precision_(model.PriorPrecision()),
       mean_(model.PriorMean()) {}
 
-RowSums ModelSquares::At(const VectorXd& x, double variance) {
+RowSums ModelSquares::OfData(const VectorXd& x) {
   MoveTo(x);
   const Index p = x.size();
-  RowSums sums{products_.topLeftCorner(p, p) / variance, products_.col(p).head(p) / variance,
-               products_(p, p) / variance};
+  return {products_.topLeftCorner(p, p), products_.col(p).head(p), products_(p, p)};
+}
+
+RowSums ModelSquares::At(const VectorXd& x, double variance) {
+  RowSums sums = OfData(x);
+  sums.gram /= variance;
+  sums.product /= variance;
+  sums.squares /= variance;
   // what was known before the data counts as rows of its own
   const VectorXd off = x - mean_;
   sums.gram.diagonal() += precision_;

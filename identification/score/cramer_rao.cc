@@ -9,6 +9,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/model/normal_equations.h"
+#include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
 namespace {
@@ -87,11 +88,11 @@ CramerRao CramerRaoBound(const LogSamples& measurements, const Selection& select
 
   // the closed loop at the truth; its last column is E(0)
   const std::vector<double> values = LawValues(truth.friction);
-  const ClosedLoop loop(measurements.time, truth.velocity, columns);
+  const LawBlocks loop({measurements.time, truth.velocity, columns}, columns);
   const Eigen::Index used = initial_energy == KnownInitialEnergy::yes ? d + 2 : d + 3;
   const Eigen::MatrixXd continuous =
-      loop.Jacobian(Eigen::Map<const Eigen::VectorXd>(values.data(), d), *truth.friction.thermal,
-                    truth.initial_energy);
+      WarmJacobian(loop, Eigen::Map<const Eigen::VectorXd>(values.data(), d),
+                   *truth.friction.thermal, truth.initial_energy);
   // the same derivatives by the discrete pair
   const Eigen::MatrixXd discrete = ByDiscretePair(continuous, *truth.friction.thermal, step);
   const Eigen::MatrixXd kept = rows_of(continuous.leftCols(used));

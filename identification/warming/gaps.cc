@@ -32,8 +32,7 @@ ThermalFit Again(ThermalRows rows, const InitialEnergy& initial, const ThermalFi
 
 /// The largest |E| along the log of a fit. N.m or N
 double WarmestOf(const LawBlocks& blocks, const ThermalFit& fit) {
-  return blocks.loop->WithJumps(fit.model->heat->jump_samples)
-      .Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps())
+  return blocks.loop->Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.JumpsOfE())
       .energy.cwiseAbs()
       .maxCoeff();
 }

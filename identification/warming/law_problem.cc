@@ -78,8 +78,8 @@ InitialGuess LawProblem::Scan(const Eigen::VectorXd& torque, const ThermalFit& c
 ThermalResponse LawProblem::Respond(const ThermalFit& fit) const {
   ThermalResponse response;
   if (fit.has_heat()) {
-    LoopResponse loop = blocks_.loop->WithJumps(fit.model->heat->jump_samples)
-                            .Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.jumps());
+    LoopResponse loop =
+        blocks_.loop->Simulate(fit.law(), fit.thermal(), fit.initial_energy(), fit.JumpsOfE());
     response.force = std::move(loop.force);
     response.first_driving = loop.first_driving;
   } else {

@@ -53,6 +53,24 @@ LawBlocks::LawBlocks(const LogSamples& measurements, const MatrixXd& columns,
       of_losses(loss_columns.size() > 0 ? Shared(loss_columns) : nullptr),
       rigid(Shared(rigid_columns)) {}
 
+LawBlocks::LawBlocks(ClosedLoop motion, const MatrixXd& columns)
+    : loop(std::make_shared<const ClosedLoop>(std::move(motion))),
+      law(Shared(columns)),
+      rigid(Shared(MatrixXd(columns.rows(), 0))) {}
+
+MatrixXd WarmJacobian(const LawBlocks& blocks, const VectorXd& parameters, const Thermal& thermal,
+                      double initial_energy, const EnergyJumps& jumps) {
+  ThermalRows rows{.blocks = blocks, .initial = InitialEnergy::estimated};
+  rows.jump_samples = jumps.samples;
+  rows.jump_spread = VectorXd::Constant(std::ssize(jumps.samples), kInfinity);
+  const Model model = rows.MakeModel();
+  VectorXd x(model.size());
+  x << parameters, thermal.gain, std::log(thermal.time_constant), initial_energy, jumps.values;
+  MatrixXd jacobian = ModelAt(model, x).All().derivatives;
+  jacobian.col(rows.layout().log_time_constant()) /= thermal.time_constant;  // from log tau to tau
+  return jacobian;
+}
+
 Layout ThermalRows::layout() const {
   return Layout::InOrder({{&Layout::law, blocks.law->cols()},
                           {&Layout::heat, 2},

@@ -41,6 +41,8 @@ struct LawBlocks {
   /// law, of_losses: [N x d], of_losses empty where losses have the same; rigid: [N x q]
   LawBlocks(const LogSamples& measurements, const Eigen::MatrixXd& law,
             const Eigen::MatrixXd& of_losses, const Eigen::MatrixXd& rigid);
+  /// Law alone along a motion, at which the losses are, too. law: [N x d], the columns of the loop
+  LawBlocks(ClosedLoop motion, const Eigen::MatrixXd& law);
 
   std::shared_ptr<const ClosedLoop> loop;  // over the columns of the law, without jumps
   SharedColumns law;                       // [N x d] dFn/dp
@@ -48,12 +50,18 @@ struct LawBlocks {
   SharedColumns rigid;                     // [N x q] dG/dg, torque that makes no heat
 };
 
+/// dF/d(p, k, tau, E(0), jumps) along the log of warm friction without a rigid part, exact. parameters: [d]; returns
+/// [N x d + 3 + J]
+Eigen::MatrixXd WarmJacobian(const LawBlocks& blocks, const Eigen::VectorXd& parameters,
+                             const Thermal& thermal, double initial_energy,
+                             const EnergyJumps& jumps = {});
+
 struct ThermalFit;
 
 /// A log, and how its rows count in a fit with heat.
 struct ThermalRows {
   const LawBlocks& blocks;  // must outlive this
-  ModelSamples samples;     // torque in N.m or N
+  ModelSamples samples{};   // torque in N.m or N
   InitialEnergy initial{};
   double scale = 1;                          // about the residuals' standard deviation, N.m or N
   std::vector<Eigen::Index> jump_samples{};  // [J] at which E jumps
@@ -88,6 +96,7 @@ struct ThermalFit {
   double initial_energy() const { return estimates_initial_energy() ? x[layout.energy()] : 0; }
   Eigen::VectorXd law() const { return layout.law.Of(x); }      // [d]
   Eigen::VectorXd jumps() const { return layout.jumps.Of(x); }  // [J] of E, N.m or N
+  EnergyJumps JumpsOfE() const { return {model->heat->jump_samples, jumps()}; }
   Eigen::VectorXd rigid() const { return layout.rigid.Of(x); }  // [q]
   /// The deviation of an unknown for a variance of the noise.
   double Deviation(Eigen::Index i, double variance) const {

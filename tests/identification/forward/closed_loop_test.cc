@@ -9,6 +9,7 @@
 #include "identification/forward/log_trajectory.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/warming/thermal_fit.h"
 #include "models/friction/along_motion.h"
 #include "models/friction/laws.h"
 #include "tests/support/golden.h"
@@ -22,6 +23,11 @@ constexpr double kStep = 1;  // s
 
 Eigen::VectorXd EvenTime(Eigen::Index n, double h = kStep) {
   return Eigen::VectorXd::LinSpaced(n, 0, h * static_cast<double>(n - 1));
+}
+
+LawBlocks Blocks(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity) {
+  const Eigen::MatrixXd columns = LawColumns(*FindLaw("viscous_coulomb"), velocity);
+  return {ClosedLoop(time, velocity, columns), columns};
 }
 
 ClosedLoop Loop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity) {
@@ -50,7 +56,9 @@ TEST(ClosedLoop, ReproducesTheGoldenSimulation) {
   ExpectNear(response.loss, test::ToVector(golden.at("W")), 1e-12);
   ExpectNear(response.energy, test::ToVector(golden.at("E")), 1e-12);
   EXPECT_FALSE(response.first_driving);
-  ExpectNear(ByDiscretePair(loop.Jacobian(p, thermal, golden.at("E0")), thermal, kStep),
+  const Eigen::MatrixXd jacobian =
+      WarmJacobian(Blocks(EvenTime(v.size()), v), p, thermal, golden.at("E0"));
+  ExpectNear(ByDiscretePair(jacobian, thermal, kStep),
              test::ToMatrix(golden.at("dF_dkv_dkc_dke_dte_dE0")), 1e-12);
 }
 
@@ -95,7 +103,8 @@ TEST(ClosedLoop, AgreesWithDualNumbersOnUnevenSamples) {
   // 1e-12: rounding, the Jet's pole loses digits in 1 - exp
   for (Eigen::Index last = 0; last < time.size(); ++last) {
     const Jet force = LastForce(time, v.head(last + 1), p);
-    const Eigen::MatrixXd jacobian = loop.Jacobian(Eigen::Vector2d(5, 15), thermal, -0.5);
+    const Eigen::MatrixXd jacobian =
+        WarmJacobian(Blocks(time, v), Eigen::Vector2d(5, 15), thermal, -0.5);
     EXPECT_NEAR(loop.Simulate(Eigen::Vector2d(5, 15), thermal, -0.5).force[last], force.a, 1e-12);
     ExpectNear(jacobian.row(last), force.v.transpose(), v[last] == 0 ? 0 : 1e-12);
   }
@@ -107,10 +116,9 @@ TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
   const Eigen::VectorXd v =
       (Eigen::VectorXd(10) << 0.5, -0.2, -0.8, 0, 0.9, 0.4, -0.7, 0.3, 0.6, -0.6).finished();
   const Friction friction{"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-0.8, 7}};
-  const ClosedLoop loop =
-      ClosedLoop(time, v, LawColumns(*FindLaw("viscous_coulomb"), v), {6}).WithJumps({2, 8});
-  const LoopResponse response =
-      loop.Simulate(Eigen::Vector2d(5, 15), *friction.thermal, -0.5, Eigen::Vector2d(0.3, -0.2));
+  const ClosedLoop loop = ClosedLoop(time, v, LawColumns(*FindLaw("viscous_coulomb"), v), {6});
+  const LoopResponse response = loop.Simulate(Eigen::Vector2d(5, 15), *friction.thermal, -0.5,
+                                              {{2, 8}, Eigen::Vector2d(0.3, -0.2)});
   JointTrajectory trajectory{time, v};
   trajectory.starts = {6};
   const Prediction p = AlongMotion(friction).Predict(trajectory, {-0.5, 0, {{2, 0.3}, {8, -0.2}}});
@@ -157,7 +165,9 @@ TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
     const double step = 1e-5 * std::abs(x[i]);
     differences.col(i) = (force(step) - force(-step)) / (2 * step);
   }
-  ExpectNear(loop.Jacobian(p, thermal, -0.5), differences, 1e-8);
+  const LawBlocks blocks(m, LawColumns(law, m.velocity), LossColumns(law, m),
+                         Eigen::MatrixXd(7, 0));
+  ExpectNear(WarmJacobian(blocks, p, thermal, -0.5), differences, 1e-8);
 }
 
 TEST(ThermalFilter, FollowsTheGoldenFilterFromItsInitialEnergy) {
