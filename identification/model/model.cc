@@ -12,9 +12,18 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 void LinearBlock::Fill(const VectorXd& x, ModelRows& rows) const {
-  const auto columns = columns_->middleRows(rows.at.first, rows.at.count);
-  rows.force += columns * x.segment(at_.begin, at_.size);
-  rows.derivatives.middleCols(at_.begin, at_.size) += columns;
+  // force and derivatives of a sample at once
+  const Index m = at_.size, stride = rows.derivatives.cols();
+  const double* column = columns_->data() + rows.at.first * m;
+  double* to = rows.derivatives.data() + at_.begin;
+  for (Index i = 0; i < rows.at.count; ++i, column += m, to += stride) {
+    double force = 0;
+    for (Index j = 0; j < m; ++j) {
+      force += column[j] * x[at_.begin + j];
+      to[j] += column[j];
+    }
+    rows.force[i] += force;
+  }
 }
 
 void GivenBlock::Fill(const VectorXd& x, ModelRows& rows) const {
