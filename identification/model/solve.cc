@@ -116,47 +116,4 @@ LinearMinimum SolveLinear(const Model& model, const ModelSamples& samples) {
   return found;
 }
 
-BlockScatter ScatterOverBlocks(const MatrixXd& rows, const VectorXd& time, double origin,
-                               double length) {
-  BlockScatter scatter{MatrixXd::Zero(rows.cols(), rows.cols())};
-  const auto block_of = [&](Index i) { return std::floor((time[i] - origin) / length); };
-  for (Index i = 0; i < rows.rows();) {
-    const double block = block_of(i);
-    VectorXd sum = VectorXd::Zero(rows.cols());
-    for (; i < rows.rows() && block_of(i) == block; ++i) sum += rows.row(i).transpose();
-    scatter.squares += sum * sum.transpose();
-    ++scatter.blocks;
-  }
-  scatter.squares *= scatter.blocks / std::max(scatter.blocks - 1, 1.0);
-  return scatter;
-}
-
-SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
-                              const SolvedModel& solved) {
-  const Selection used{samples.keep, {}};
-  const MatrixXd j = Kept(ModelAt(model, solved.x).All().derivatives, used);
-  const VectorXd e = Kept(solved.residual, used), time = Kept(samples.time, used);
-  const double scale = solved.noise.scale();
-  const VectorXd precision = model.PriorPrecision();
-  const MatrixXd data = GramOf(j) / scale;
-  MatrixXd h = data;
-  h.diagonal() += precision;
-
-  // scores of each block of time
-  SolvedCovariance found;
-  const double length = samples.time.tail(1)[0] - samples.time[0];
-  const double step = length / static_cast<double>(samples.time.size() - 1);
-  found.block =
-      std::clamp(4 * solved.noise.correlation * step, std::min(.5, length / 20), length / 20);
-  const BlockScatter scatter =
-      ScatterOverBlocks((e / scale).asDiagonal() * j, time, samples.time[0], found.block);
-  MatrixXd meat = scatter.squares;
-  meat.diagonal() += precision;
-  const MatrixXd inverse = InverseScaled(h);
-  found.covariance = inverse * meat * inverse;
-  found.degrees_of_freedom = std::max(scatter.blocks - 1, 3.0);
-  found.effective_parameters = (inverse * data).trace();
-  return found;
-}
-
 }  // namespace warmjoint

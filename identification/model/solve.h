@@ -1,4 +1,4 @@
-// The fit of a model to samples whose noise is not known, and the covariance of its unknowns.
+// The fit of a model to samples, whose noise is known or not.
 #pragma once
 
 #include <Eigen/Core>
@@ -48,28 +48,6 @@ struct LinearMinimum {
 
 /// The least squares of a model that is linear in its unknowns and has no priors.
 LinearMinimum SolveLinear(const Model& model, const ModelSamples& samples);
-
-struct SolvedCovariance {
-  Eigen::MatrixXd covariance;     // [P x P] of x
-  double degrees_of_freedom = 1;  // of Student's quantile: blocks of time less 1
-  double effective_parameters = 0;
-  double block = 0;  // s
-};
-
-/// Sandwich H^-1 (sum over blocks of time of (J^T e)(J^T e)^T B / (B - 1) + prior) H^-1, H = J^T J / scale + prior. Blocks last
-/// four times the residual's correlation, .5 s at least and a twentieth of the log at most.
-SolvedCovariance CovarianceOf(const Model& model, const ModelSamples& samples,
-                              const SolvedModel& solved);
-
-/// The scatter of rows between blocks of time.
-struct BlockScatter {
-  Eigen::MatrixXd
-      squares;  // [p x p] sum over the blocks of s s^T, s the sum of a block's rows, times B / (B - 1)
-  double blocks = 0;  // B
-};
-/// rows: [n x p]; time: [n] s; blocks of `length`, s, from `origin` on
-BlockScatter ScatterOverBlocks(const Eigen::MatrixXd& rows, const Eigen::VectorXd& time,
-                               double origin, double length);
 
 /// Variance about 0 and autocorrelation time of a residual's kept samples. e: [n]
 NoiseScale NoiseScaleOf(const Eigen::VectorXd& e);

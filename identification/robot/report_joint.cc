@@ -116,12 +116,8 @@ Fit FitOf(const JointFit& fit, const JointColumns& c) {
     made.parameters.push_back(ParameterOf(fit, row));
   }
   made.count = static_cast<int>(fit.model.size());
-  made.effective_parameters = fit.uncertainty.effective_parameters;
-  Uncertainty uncertainty;
-  uncertainty.covariance = fit.uncertainty.covariance;
-  uncertainty.degrees_of_freedom = fit.uncertainty.degrees_of_freedom;
-  uncertainty.noise.variance = uncertainty.noise.innovation = fit.solved.noise.variance;
-  made.errors.covariance = [uncertainty] { return uncertainty; };
+  made.effective_parameters = fit.effective_parameters;
+  made.errors.covariance = [uncertainty = fit.uncertainty] { return uncertainty; };
   if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
   return made;
 }
@@ -202,16 +198,15 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
   train.keep.tail(n - cut) = false;
   Selection test{c.samples.keep, {}};
   test.keep.head(cut) = false;
-  if (static_cast<double>(train.keep.count()) < kFewest + fit.uncertainty.effective_parameters ||
+  if (static_cast<double>(train.keep.count()) < kFewest + fit.effective_parameters ||
       test.count() < kFewest) {
     return std::nullopt;
   }
   const SolvedModel again = FitAgain(fit, c, train);
   JointHoldOut found;
   const VectorXd measured = Kept(c.samples.torque, test);
-  found.metrics =
-      ComputeMetrics(measured, measured - Kept(again.residual, test),
-                     static_cast<int>(fit.model.size()), fit.uncertainty.effective_parameters);
+  found.metrics = ComputeMetrics(measured, measured - Kept(again.residual, test),
+                                 static_cast<int>(fit.model.size()), fit.effective_parameters);
   Selection moving = test;
   constexpr double at_rest = .02;  // of the top speed
   moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;

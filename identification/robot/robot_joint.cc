@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/model/normal_equations.h"
@@ -172,13 +173,44 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
   return std::max(mean, std::sqrt(first.solved.noise.variance));
 }
 
+/// How sure the unknowns of a fit are.
+struct Sureness {
+  Uncertainty uncertainty;
+  double effective_parameters = 0;
+};
+
+Sureness SurenessOf(const Model& model, const ModelSamples& samples, const SolvedModel& solved) {
+  const Selection used{samples.keep, {}};
+  const KeptRows rows(model, solved.x, samples.keep);
+  const MatrixXd gram = ModelSquares(model, samples).OfData(solved.x).gram;
+  // the fit weighed the rows by the noise of as many samples as are independent
+  const double scale = solved.noise.scale();
+  const VectorXd prior = scale * model.PriorPrecision();
+  const MatrixXd cofactor = InverseScaled(gram + MatrixXd(prior.asDiagonal()));
+  const VectorXd residual = Kept(solved.residual, used);
+  return {CovarianceOf({.rows = [&](Index first, Index last) { return rows.Between(first, last); },
+                        .cofactor = cofactor,
+                        .residual = residual,
+                        .selection = used,
+                        .fitted = Kept(samples.torque, used) - residual,
+                        .prior = prior,
+                        .prior_variance = scale}),
+          (cofactor * gram).trace()};
+}
+
+void AddSureness(const JointColumns& c, JointFit& fit) {
+  Sureness found = SurenessOf(fit.model, c.samples, fit.solved);
+  fit.uncertainty = std::move(found.uncertainty);
+  fit.effective_parameters = found.effective_parameters;
+}
+
 /// The model in all parts but heat, fitted.
 JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
                  double level) {
   JointFit fit;
   AddBlocks(c, guess, q, false, level, fit);
   SolveFresh(c, fit);
-  fit.uncertainty = CovarianceOf(fit.model, c.samples, fit.solved);
+  AddSureness(c, fit);
   return fit;
 }
 
@@ -192,7 +224,7 @@ JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuest
   x.head(rise) = cold.solved.x.head(rise);
   x.tail(size - rise) = cold.solved.x.tail(size - rise);
   fit.solved = Solve(fit.model, c.samples, x);
-  fit.uncertainty = CovarianceOf(fit.model, c.samples, fit.solved);
+  AddSureness(c, fit);
   return fit;
 }
 
@@ -211,7 +243,7 @@ void FindBeyond(const JointColumns& c, JointFit& fit) {
     unbound.table[static_cast<std::size_t>(i)].lower = -kInfinity;
   }
   const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
-  const SolvedCovariance uncertainty = CovarianceOf(unbound, c.samples, free);
+  const Uncertainty uncertainty = SurenessOf(unbound, c.samples, free).uncertainty;
   const double reach = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
   for (const Index i : fit.solved.at_bound) {
     if (free.x[i] + reach * std::sqrt(uncertainty.covariance(i, i)) >= 0) continue;
@@ -279,7 +311,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       JointFit warm = fit;
       AddHeat(c, heat, warm);
       SolveOn(c, warm);
-      warm.uncertainty = CovarianceOf(warm.model, c.samples, warm.solved);
+      AddSureness(c, warm);
       // the fit has to agree, with a time constant within those that were tried
       const Index gain = warm.at.heat->begin;
       const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&

@@ -10,6 +10,7 @@
 
 #include "identification/model/model.h"
 #include "identification/model/solve.h"
+#include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
 
@@ -76,7 +77,8 @@ struct JointFit {
   Model model;
   JointPlaces at;
   SolvedModel solved;
-  SolvedCovariance uncertainty;
+  Uncertainty uncertainty;          // of x
+  double effective_parameters = 0;  // that the log determines, and not the priors
   double warming =
       0;  // by how many deviations friction changes with the heat of its losses, at the best tau
   std::vector<std::string> beyond;  // rows of the law whose whole interval lies beyond their bound

@@ -66,17 +66,14 @@ class SharedSquares {
     return problem;
   }
 
-  /// The scatter of the scores in each joint's blocks of time, and of the priors. [p x p]
+  /// J^T R J of the noise of each joint's fit, and of the priors. [p x p]
   MatrixXd Scatter(const VectorXd& x) const {
     MatrixXd sum = OfPriors(x).gram;
     for (std::size_t j = 0; j < fits_.size(); ++j) {
-      const JointSays says = Says(j, x);
-      const ModelSamples& samples = columns_[j].samples;
-      const VectorXd time = Kept(samples.time, {samples.keep, {}});
+      const MatrixXd rows = Says(j, x).derivatives;
       sum(places_[j].here, places_[j].here) +=
-          ScatterOverBlocks(says.left.asDiagonal() * says.derivatives, time, time[0],
-                            fits_[j].uncertainty.block)
-              .squares;
+          ScatterThrough(fits_[j].uncertainty.noise, rows, {columns_[j].samples.keep, {}}) /
+          fits_[j].solved.noise.scale();
     }
     return sum;
   }

@@ -12,13 +12,13 @@ namespace warmjoint {
 struct SharedDirections {
   Eigen::VectorXd z;              // [r]
   Eigen::MatrixXd covariance;     // [r x r]
-  double degrees_of_freedom = 1;  // of Student's quantile: that of the joint with the fewest blocks
+  double degrees_of_freedom = 1;  // of Student's quantile: the fewest of a joint
   bool converged = false;
 };
 
 /// The least squares (minimise.h) over the joints' own unknowns and one z for all of them, from the joints' fits on. fits, columns:
-/// [n] of joints whose columns have the same r directions. Weights, priors and the sandwich by blocks of time are those of each
-/// joint's fit (CovarianceOf); the prior of z counts once. The prior of a gain is about the mean of the joints' log gains, so that
+/// [n] of joints whose columns have the same r directions. Weights, priors and the colour of the noise are those of each
+/// joint's fit; the prior of z counts once. The prior of a gain is about the mean of the joints' log gains, so that
 /// the priors of the gains do not determine a common scale of all masses.
 SharedDirections FitShared(const std::vector<JointFit>& fits,
                            const std::vector<JointColumns>& columns);

@@ -144,11 +144,17 @@ void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertain
       std::max(n / uncertainty.noise.variance_inflation - hat.trace(), 1.0);
 }
 
+/// The parameters that the data determine, and not what was known beforehand: d - tr(C P).
+double Determined(const FittedRows& fit) {
+  const auto d = static_cast<double>(fit.cofactor.rows());
+  return fit.prior.size() > 0 ? d - fit.cofactor.diagonal().dot(fit.prior) : d;
+}
+
 /// Sets the covariance from the noise and from what was known.
 void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& uncertainty) {
   const Eigen::MatrixXd& C = fit.cofactor;
   const auto n = static_cast<double>(fit.residual.size());
-  const auto d = static_cast<double>(C.rows());
+  const double d = Determined(fit);
   // the part that the fit took up, as a number of samples, of coloured noise at most half of them
   double taken = d;
   uncertainty.degrees_of_freedom = n - d;
@@ -156,7 +162,11 @@ void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& unce
     taken = std::min((C * scatter).trace() / uncertainty.noise.variance, 0.5 * n);
     uncertainty.degrees_of_freedom = std::max(n / uncertainty.noise.variance_inflation - d, 1.0);
   }
-  if (fit.prior.size() > 0) scatter.diagonal() += uncertainty.noise.variance * fit.prior;
+  if (fit.prior.size() > 0) {
+    const double variance =
+        fit.prior_variance > 0 ? fit.prior_variance : uncertainty.noise.variance;
+    scatter.diagonal() += variance * fit.prior;
+  }
   uncertainty.covariance = n / (n - taken) * (C * scatter * C);
 }
 
@@ -197,7 +207,7 @@ Uncertainty CovarianceOf(const FittedRows& fit) {
   uncertainty.white = squares / std::max(static_cast<double>(n - d), 1.0) * fit.cofactor;
   if (is_white && uncertainty.uneven == 0) {
     // (J^T R J + v P) C is the variance times the identity
-    uncertainty.degrees_of_freedom = static_cast<double>(n - d);
+    uncertainty.degrees_of_freedom = static_cast<double>(n) - Determined(fit);
     uncertainty.covariance = squares / uncertainty.degrees_of_freedom * fit.cofactor;
   } else {
     OfSquares(fit, scatter(), uncertainty);

@@ -49,6 +49,8 @@ struct FittedRows {
   Eigen::VectorXd weights{};  // [n] diagonal of W; or empty: 1
   /// [d] what is known of x beforehand, the diagonal of P: the noise's variance over that of each parameter, or 0; or empty
   Eigen::VectorXd prior{};
+  /// The noise's variance that P is made with, where the fit had another than that of the residual; 0: the same
+  double prior_variance = 0;
   std::optional<WeightPrior> pull{};  // s |w|^2, which is in C as well
 };
 
