@@ -1,17 +1,23 @@
 #include "identification/lagged/lag_search.h"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "identification/fit_data.h"
+#include "identification/model/minimise.h"
+#include "identification/model/normal_equations.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr int kBits = 20;  // 1e-6
-constexpr std::uintmax_t kMostFits = 40;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSlopeStep = 1e-5;  // of log T; why: half of the digits of a double
 
 constexpr int kFewestRuns = 4;
 constexpr double kLagByChance = 1e-3;  // of logs
@@ -43,7 +49,8 @@ LagRange LagsOf(const KeptRuns& runs) {
 
 }  // namespace
 
-std::optional<double> FindLag(const KeptRuns& runs, const std::function<double(double)>& squares) {
+std::optional<double> FindLag(const KeptRuns& runs, const std::function<double(double)>& squares,
+                              const std::function<double(double, const LagBracket&)>& refine) {
   const LagRange range = LagsOf(runs);
   const std::vector<double> tried = range.Tried();
   if (tried.empty()) return std::nullopt;
@@ -51,20 +58,50 @@ std::optional<double> FindLag(const KeptRuns& runs, const std::function<double(d
   std::vector<double> left;
   for (const double lag : tried) left.push_back(squares(lag));
   const auto best = static_cast<std::size_t>(std::ranges::min_element(left) - left.begin());
-  if (!std::isfinite(left[best])) return std::nullopt;
+  if (!std::isfinite(left[best]) || !std::isfinite(squares(tried[best]))) return std::nullopt;
 
   // refined between its neighbours
-  const double below = tried[best > 0 ? best - 1 : 0];
-  const double above = tried[std::min(best + 1, tried.size() - 1)];
-  std::uintmax_t fits = kMostFits;
-  const auto [at, least] = boost::math::tools::brent_find_minima(
-      [&](double logarithm) { return squares(std::exp(logarithm)); }, std::log(below),
-      std::log(above), kBits, fits);
-
+  const double lag = refine(
+      tried[best], {tried[best > 0 ? best - 1 : 0], tried[std::min(best + 1, tried.size() - 1)]});
   // a lag at an end of the range is not one that the log determines
-  const double lag = std::exp(at);
-  if (!std::isfinite(least) || !range.Holds(lag)) return std::nullopt;
+  if (!range.Holds(lag)) return std::nullopt;
   return lag;
+}
+
+double RefineLag(const Model& model, const VectorXd& x, const ModelSamples& samples,
+                 double variance, const RowsOfLag& rows_of, double lag, const LagBracket& bracket) {
+  const Index p = model.size();
+  ModelSamples none = samples;
+  none.torque.setZero();
+  const VectorXd measured = Kept(samples.torque, {samples.keep, {}});
+  SquaresProblem problem;
+  problem.sums = [&](const VectorXd& at) -> RowSums {
+    // the model before any lag
+    const ModelRows::Rows model_rows = RowsToFit(ModelAt(model, at.head(p)), none);
+    const VectorXd force = -model_rows.col(p);
+    const auto left_by = [&](double trial) -> VectorXd {
+      const LaggedRows rows = rows_of(trial);
+      return rows.Of(rows.BeforeLag(measured) - force);
+    };
+    // its rows behind the lag, the column of log T by central differences, and what is left
+    const double T = std::exp(at[p]);
+    RowTransform::Rows rows(model_rows.rows(), p + 2);
+    rows << rows_of(T).Of(model_rows.leftCols(p)),
+        (left_by(T * std::exp(-kSlopeStep)) - left_by(T * std::exp(kSlopeStep))) / (2 * kSlopeStep),
+        left_by(T);
+    const MatrixXd products = GramOf(rows) / variance;
+    RowSums sums{products.topLeftCorner(p + 1, p + 1), products.col(p + 1).head(p + 1),
+                 products(p + 1, p + 1)};
+    AddPriors(model, at.head(p), sums);
+    return sums;
+  };
+  problem.lower = VectorXd::Constant(p + 1, -kInfinity);
+  problem.upper = VectorXd::Constant(p + 1, kInfinity);
+  problem.lower[p] = std::log(bracket.below);
+  problem.upper[p] = std::log(bracket.above);
+  VectorXd start(p + 1);
+  start << x, std::log(lag);
+  return std::exp(Minimise(problem, std::move(start)).x[p]);
 }
 
 bool SeesLag(const LaggedRows& rows, const Eigen::VectorXd& torque,

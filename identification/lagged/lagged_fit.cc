@@ -41,14 +41,16 @@ struct Found {
 };
 
 /// The best lag with noise of one colour. colour: of the time constant; none where it is white.
-Found BestOf(const std::shared_ptr<const KeptRuns>& runs, const FitAtLag& fit_at,
+Found BestOf(const std::shared_ptr<const KeptRuns>& runs, const LagFits& fits,
              const std::function<std::shared_ptr<const Whitening>(double lag)>& colour) {
+  const RowsOfLag rows_of = [&](double lag) { return LaggedRows(runs, lag, colour(lag)); };
   // the time constant that leaves least, and the fit there
   const auto lag = FindLag(
-      *runs, [&](double trial) { return fit_at(LaggedRows(runs, trial, colour(trial))).squares; });
+      *runs, [&](double trial) { return fits.fit_at(rows_of(trial)).squares; },
+      [&](double best, const LagBracket& bracket) { return fits.refine(rows_of, best, bracket); });
   if (!lag) return {};
-  Found found{std::make_shared<const LaggedRows>(runs, *lag, colour(*lag))};
-  found.squares = fit_at(*found.rows).squares;
+  Found found{std::make_shared<const LaggedRows>(rows_of(*lag))};
+  found.squares = fits.fit_at(*found.rows).squares;
   return found;
 }
 
@@ -88,13 +90,13 @@ std::optional<std::string> WhyNoLag(const IdentifierInput& input) {
 
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
                                             const VectorXd& measured, const VectorXd& without,
-                                            const FitAtLag& fit_at) {
+                                            const LagFits& fits) {
   if (without.size() > 0 && !ShowsLag(runs, without, measured - without)) return nullptr;
 
   // noise that is white where it joins the torque
-  const Found plain = BestOf(runs, fit_at, [](double) { return nullptr; });
+  const Found plain = BestOf(runs, fits, [](double) { return nullptr; });
   if (!plain.rows) return nullptr;
-  const VectorXd torque = fit_at(*plain.rows).torque;
+  const VectorXd torque = fits.fit_at(*plain.rows).torque;
   if (torque.size() == 0) return nullptr;
   const VectorXd left = measured - plain.rows->Lagged(torque);
   if (!SeesLag(*plain.rows, torque, left)) return nullptr;
@@ -105,8 +107,8 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
   if (!IsSurelyColoured(noise, measured.size())) return plain.rows;
   const double step = runs->Step();
   const auto own = WhiteningOfRuns(noise, *runs);
-  const Found coloured = BestOf(runs, fit_at, [&](double) { return own; });
-  const Found passed = BestOf(runs, fit_at, [&](double lag) {
+  const Found coloured = BestOf(runs, fits, [&](double) { return own; });
+  const Found passed = BestOf(runs, fits, [&](double lag) {
     return WhiteningOfRuns(Autoregressive(std::exp(-step / lag), noise.variance), *runs);
   });
   // both maps have the determinant 1 but for the first samples of runs

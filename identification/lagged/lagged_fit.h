@@ -9,6 +9,7 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
+#include "identification/lagged/lag_search.h"
 #include "identification/lagged/lagged_rows.h"
 #include "identification/options.h"
 
@@ -38,8 +39,13 @@ struct LaggedModel {
   Eigen::VectorXd torque;      // [N] of the model, without the lag; empty where there is no fit
 };
 
-/// Fits a model to rows of the lag.
-using FitAtLag = std::function<LaggedModel(const LaggedRows& rows)>;
+/// How a model is fitted behind a lag.
+struct LagFits {
+  /// At one time constant, to rows of the lag.
+  std::function<LaggedModel(const LaggedRows& rows)> fit_at;
+  /// With the time constant as one more unknown (RefineLag), from the latest fit on.
+  std::function<double(const RowsOfLag& rows_of, double lag, const LagBracket& bracket)> refine;
+};
 
 /// The rows of the best lag, the noise of white colour or, where that would be wrong beyond doubt
 /// (IsSurelyColoured), of the likelier of two: the one that the residual shows, and that of white
@@ -48,7 +54,7 @@ using FitAtLag = std::function<LaggedModel(const LaggedRows& rows)>;
 /// measured: [n]; without: [n] torque of that fit, empty where it failed.
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
                                             const Eigen::VectorXd& measured,
-                                            const Eigen::VectorXd& without, const FitAtLag& fit_at);
+                                            const Eigen::VectorXd& without, const LagFits& fits);
 
 /// Adds the lag to a fit of the model to those rows: its row of the table, its effect on
 /// the model's torque and Jacobian, and the errors of all estimated values together. The fit has its

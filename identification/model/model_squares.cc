@@ -37,6 +37,14 @@ ModelRows::Rows RowsToFit(const ModelAt& model, const ModelSamples& samples) {
   return all;
 }
 
+void AddPriors(const Model& model, const VectorXd& x, RowSums& sums) {
+  const Index p = model.size();
+  const VectorXd precision = model.PriorPrecision(), off = x - model.PriorMean();
+  sums.gram.diagonal().head(p) += precision;
+  sums.product.head(p) -= precision.cwiseProduct(off);
+  sums.squares += off.cwiseAbs2().dot(precision);
+}
+
 KeptRows::KeptRows(const Model& model, const VectorXd& x,
                    const Eigen::Array<bool, Eigen::Dynamic, 1>& keep)
     : model_(model, x), size_(model.size()), stretches_(model_.Stretches()) {
@@ -70,11 +78,7 @@ MatrixXd KeptRows::Between(Index first, Index last) const {
 }
 
 ModelSquares::ModelSquares(const Model& model, const ModelSamples& samples)
-    : model_(model),
-      samples_(samples),
-      roots_(RootsOf(samples)),
-      precision_(model.PriorPrecision()),
-      mean_(model.PriorMean()) {}
+    : model_(model), samples_(samples), roots_(RootsOf(samples)) {}
 
 RowSums ModelSquares::OfData(const VectorXd& x) {
   MoveTo(x);
@@ -87,11 +91,7 @@ RowSums ModelSquares::At(const VectorXd& x, double variance) {
   sums.gram /= variance;
   sums.product /= variance;
   sums.squares /= variance;
-  // what was known before the data counts as rows of its own
-  const VectorXd off = x - mean_;
-  sums.gram.diagonal() += precision_;
-  sums.product -= precision_.cwiseProduct(off);
-  sums.squares += off.cwiseAbs2().dot(precision_);
+  AddPriors(model_, x, sums);
   return sums;
 }
 

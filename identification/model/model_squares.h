@@ -24,6 +24,10 @@ struct ModelSamples {
 /// Rows [J, y - f] of the samples that count, weighted and transformed. [n x P + 1]
 ModelRows::Rows RowsToFit(const ModelAt& model, const ModelSamples& samples);
 
+/// Adds what was known before the data, which counts as rows of its own, to sums over the variance of the noise. x: of the model's
+/// table, which are the first unknowns of the sums
+void AddPriors(const Model& model, const Eigen::VectorXd& x, RowSums& sums);
+
 /// Rows J of the samples that count, made when they are asked for: all of them may be far larger than the log.
 class KeptRows {
  public:
@@ -61,11 +65,10 @@ class ModelSquares {
 
   const Model& model_;
   const ModelSamples& samples_;
-  Eigen::VectorXd roots_;             // [N] of the weights, 0 where a sample does not count
-  Eigen::VectorXd precision_, mean_;  // [P] of the priors
-  Eigen::VectorXd x_;                 // [P] at which the others are
-  Eigen::VectorXd residual_;          // [N]
-  Eigen::MatrixXd products_;          // [P + 1 x P + 1] of the rows [J, y - f]
+  Eigen::VectorXd roots_;     // [N] of the weights, 0 where a sample does not count
+  Eigen::VectorXd x_;         // [P] at which the others are
+  Eigen::VectorXd residual_;  // [N]
+  Eigen::MatrixXd products_;  // [P + 1 x P + 1] of the rows [J, y - f]
 };
 
 }  // namespace warmjoint

@@ -189,7 +189,12 @@ std::optional<FitAtOneLag> FitAtBestLag(const LawFit& law, std::optional<Initial
     latest = {nullptr, std::move(rows), std::move(next)};
     return {latest.fit.squares, Kept(response.torque, selection)};
   };
-  auto lag = SearchLag(runs, measured, without, fit_at);
+  const auto refine = [&](const RowsOfLag& rows_of, double at, const LagBracket& bracket) {
+    const ThermalFit& fit = latest.fit;
+    return RefineLag(*fit.model, fit.x, law.problem.SamplesFor(law.problem.AsMeasured()),
+                     law.rows.scale * law.rows.scale, rows_of, at, bracket);
+  };
+  auto lag = SearchLag(runs, measured, without, {fit_at, refine});
   if (!lag || fit_at(*lag).torque.size() == 0) return std::nullopt;
   latest.rows.transform = latest.lag = std::move(lag);
   return latest;

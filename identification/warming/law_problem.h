@@ -36,6 +36,8 @@ class LawProblem {
 
   /// The rows as they were measured.
   RowTreatment AsMeasured() const;
+  /// The samples of a fit to treated rows.
+  ModelSamples SamplesFor(const RowTreatment& rows) const;
   /// Without heat, by linear least squares. A fit has not converged where the columns cannot be distinguished.
   ThermalFit FitCold(const RowTreatment& rows) const;
   /// With heat.
@@ -66,7 +68,6 @@ class LawProblem {
   const std::vector<LogGap>& gaps() const { return gaps_; }
 
  private:
-  ModelSamples SamplesFor(const RowTreatment& rows) const;
   ThermalRows RowsFor(const RowTreatment& rows, const InitialEnergy& initial, double scale) const;
 
   const IdentifierInput& input_;
