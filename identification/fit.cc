@@ -37,7 +37,7 @@ Eigen::MatrixXd CofactorOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
   Eigen::MatrixXd rows = Kept(fit.jacobian(), fit.used);
   if (errors.whitening) rows = errors.whitening->Of(rows);
-  Eigen::MatrixXd normal = rows.transpose() * rows;
+  Eigen::MatrixXd normal = GramOf(rows);
   if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
   return Cofactor(normal);
 }

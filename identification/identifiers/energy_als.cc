@@ -290,7 +290,7 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
   }
 
   // with kernels the strength of their prior joins the normal equations
-  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  Eigen::MatrixXd normal = GramOf(jacobian);
   const Slice weights = part.layout().weights;
   normal.diagonal().segment(weights.begin, weights.size).array() += part.strength;
   const Eigen::MatrixXd cofactor = Cofactor(normal);

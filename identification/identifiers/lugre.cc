@@ -98,7 +98,7 @@ Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& 
     error[k++] = (half[static_cast<Eigen::Index>(j)] - full[i]) / (3 * problem.deviation[r]);
   }
   // the shift of the parameters, by least squares
-  return Cofactor(J.transpose() * J) * (J.transpose() * error);
+  return Cofactor(GramOf(J)) * (J.transpose() * error);
 }
 
 /// Weighs both groups of samples by the residuals of a fit, and outliers as Huber (1964) does:

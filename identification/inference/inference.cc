@@ -84,7 +84,7 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   uncertainty.noise = whitening.noise();
   // the covariance if noise of the same variance were white
   const Eigen::MatrixXd plain = Kept(fit.jacobian(), fit.used);
-  uncertainty.white = uncertainty.noise.variance * Cofactor(plain.transpose() * plain);
+  uncertainty.white = uncertainty.noise.variance * Cofactor(GramOf(plain));
   const auto samples = static_cast<double>(whitening.size());
   const auto count = static_cast<double>(fit.errors.cofactor.rows());
   uncertainty.degrees_of_freedom =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
 #include "identification/fit_parameters.h"
 #include "identification/forward/closed_loop.h"
@@ -211,8 +212,8 @@ Eigen::MatrixXd NominalDerivatives(const Fit& fit, const Eigen::VectorXd& veloci
                                    const std::optional<Eigen::VectorXd>& load) {
   Eigen::MatrixXd derivatives =
       NominalDerivatives(*FindLaw(fit.friction.law), LawValues(fit.friction), velocity);
-  if (!fit.RowOf(Role::load)) return derivatives;
-  return ConcatColumns(derivatives, load->cwiseAbs().cwiseProduct(velocity.cwiseSign()));
+  const PartFit grows = fit.RowOf(Role::load) ? PartFit::estimated : PartFit::none;
+  return WithLoad(std::move(derivatives), grows, velocity, load);
 }
 
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,

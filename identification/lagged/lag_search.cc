@@ -83,7 +83,7 @@ double RefineLag(const Model& model, const VectorXd& x, const ModelSamples& samp
       const LaggedRows rows = rows_of(trial);
       return rows.Of(rows.BeforeLag(measured) - force);
     };
-    // its rows behind the lag, the column of log T by central differences, and what is left
+    // its rows after the lag, the column of log T by central differences, and what is left
     const double T = std::exp(at[p]);
     RowTransform::Rows rows(model_rows.rows(), p + 2);
     rows << rows_of(T).Of(model_rows.leftCols(p)),

@@ -8,7 +8,6 @@
 #include "identification/fit_parameters.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/model/normal_equations.h"
 #include "identification/seen_samples.h"
 #include "identification/sentences/late_torque.h"
 
@@ -139,18 +138,14 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
     return AtSamples(columns, kept, all);
   };
 
-  // and the errors of the estimated values
+  // and the errors of the estimated values; the lag has no prior
   ErrorModel& errors = fit.errors;
-  MatrixXd columns = AtKept(fit.jacobian(), runs);
-  if (rows->whitening()) columns = rows->whitening()->Of(columns);
-  MatrixXd normal = columns.transpose() * columns;
-  if (errors.prior.size() > 0) {
-    errors.prior.conservativeResize(normal.cols());
-    errors.prior[normal.cols() - 1] = 0;
-    normal.diagonal() += errors.prior;
+  if (const Index p = errors.prior.size(); p > 0) {
+    errors.prior.conservativeResize(p + 1);
+    errors.prior[p] = 0;
   }
-  errors.cofactor = Cofactor(normal);
   errors.whitening = rows->whitening();
+  errors.cofactor = CofactorOf(fit);
 
   // the remainders at the starts of runs are fitted, too, which makes the residual smaller than the noise
   const auto samples = static_cast<double>(runs.count());

@@ -65,13 +65,17 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   return columns;
 }
 
+Eigen::MatrixXd WithLoad(Eigen::MatrixXd of_law, PartFit load, const Eigen::VectorXd& velocity,
+                         const std::optional<Eigen::VectorXd>& carried) {
+  if (load == PartFit::none) return of_law;
+  of_law.conservativeResize(Eigen::NoChange, of_law.cols() + 1);
+  of_law.rightCols(1) = carried->cwiseAbs().cwiseProduct(velocity.cwiseSign());
+  return of_law;
+}
+
 Eigen::MatrixXd NominalColumns(const Law& law, PartFit load, const LogSamples& m,
                                const Eigen::VectorXd& velocity) {
-  Eigen::MatrixXd columns = LawColumns(law, velocity);
-  if (load == PartFit::none) return columns;
-  columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-  columns.rightCols(1) = m.load->cwiseAbs().cwiseProduct(velocity.cwiseSign());
-  return columns;
+  return WithLoad(LawColumns(law, velocity), load, velocity, m.load);
 }
 
 Eigen::MatrixXd LossColumns(const Law& law, const LogSamples& m, PartFit load) {

@@ -5,6 +5,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "identification/options.h"
@@ -52,6 +53,10 @@ struct LoadOption {
                          "the column load, else by the gravity that is fitted with it; or none"});
   }
 };
+
+/// Columns of a law over samples, [N x d], and where it is estimated that of load_gain after them, |load| sign(v). carried: [N] load
+Eigen::MatrixXd WithLoad(Eigen::MatrixXd of_law, PartFit load, const Eigen::VectorXd& velocity,
+                         const std::optional<Eigen::VectorXd>& carried);
 
 /// Regressor of Fn, with the column of load_gain, |load| sign(v), after those of the law's parameters where it is estimated.
 /// velocity: [N]; load: [N] of the log; returns [N x d] or [N x d + 1]

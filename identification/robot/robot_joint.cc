@@ -174,12 +174,13 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
 }
 
 /// How sure the unknowns of a fit are.
-struct Sureness {
+struct SolvedErrors {
   Uncertainty uncertainty;
   double effective_parameters = 0;
 };
 
-Sureness SurenessOf(const Model& model, const ModelSamples& samples, const SolvedModel& solved) {
+SolvedErrors ErrorsOfSolved(const Model& model, const ModelSamples& samples,
+                            const SolvedModel& solved) {
   const Selection used{samples.keep, {}};
   const KeptRows rows(model, solved.x, samples.keep);
   const MatrixXd gram = ModelSquares(model, samples).OfData(solved.x).gram;
@@ -198,8 +199,8 @@ Sureness SurenessOf(const Model& model, const ModelSamples& samples, const Solve
           (cofactor * gram).trace()};
 }
 
-void AddSureness(const JointColumns& c, JointFit& fit) {
-  Sureness found = SurenessOf(fit.model, c.samples, fit.solved);
+void AddErrors(const JointColumns& c, JointFit& fit) {
+  SolvedErrors found = ErrorsOfSolved(fit.model, c.samples, fit.solved);
   fit.uncertainty = std::move(found.uncertainty);
   fit.effective_parameters = found.effective_parameters;
 }
@@ -210,7 +211,7 @@ JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuest
   JointFit fit;
   AddBlocks(c, guess, q, false, level, fit);
   SolveFresh(c, fit);
-  AddSureness(c, fit);
+  AddErrors(c, fit);
   return fit;
 }
 
@@ -224,7 +225,7 @@ JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuest
   x.head(rise) = cold.solved.x.head(rise);
   x.tail(size - rise) = cold.solved.x.tail(size - rise);
   fit.solved = Solve(fit.model, c.samples, x);
-  AddSureness(c, fit);
+  AddErrors(c, fit);
   return fit;
 }
 
@@ -243,7 +244,7 @@ void FindBeyond(const JointColumns& c, JointFit& fit) {
     unbound.table[static_cast<std::size_t>(i)].lower = -kInfinity;
   }
   const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
-  const Uncertainty uncertainty = SurenessOf(unbound, c.samples, free).uncertainty;
+  const Uncertainty uncertainty = ErrorsOfSolved(unbound, c.samples, free).uncertainty;
   const double reach = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
   for (const Index i : fit.solved.at_bound) {
     if (free.x[i] + reach * std::sqrt(uncertainty.covariance(i, i)) >= 0) continue;
@@ -276,7 +277,7 @@ GainGuess GuessGain(const JointColumns& c) {
   columns << c.rigid.force, c.velocity, c.forwards, -c.backwards, c.acceleration;
   columns = Kept(columns, used);
   const VectorXd y = Kept(c.samples.torque, used);
-  const MatrixXd h = columns.transpose() * columns;
+  const MatrixXd h = GramOf(columns);
   const VectorXd x = SolveScaled(h, columns.transpose() * y);
   const NoiseScale noise = NoiseScaleOf(y - columns * x);
   const MatrixXd covariance = InverseScaled(h) * noise.scale();
@@ -311,7 +312,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       JointFit warm = fit;
       AddHeat(c, heat, warm);
       SolveOn(c, warm);
-      AddSureness(c, warm);
+      AddErrors(c, warm);
       // the fit has to agree, with a time constant within those that were tried
       const Index gain = warm.at.heat->begin;
       const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&

@@ -48,7 +48,7 @@ Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const LogSamples& meas
 /// Standard deviations of the first `count` parameters; NaN where there are none.
 /// jacobian: [n x p] for noise of deviation sigma, N.m or N, that is white.
 Eigen::VectorXd Deviations(const Eigen::MatrixXd& jacobian, double sigma, Eigen::Index count) {
-  const Eigen::MatrixXd cofactor = Cofactor(jacobian.transpose() * jacobian);
+  const Eigen::MatrixXd cofactor = Cofactor(GramOf(jacobian));
   if (!(sigma > 0) || !cofactor.allFinite()) {
     return Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
   }
@@ -83,7 +83,7 @@ CramerRao CramerRaoBound(const LogSamples& measurements, const Selection& select
   if (!truth.friction.thermal) {
     const Eigen::MatrixXd kept = rows_of(columns);
     const Eigen::VectorXd deviations = Deviations(kept, sigma, count);
-    return {deviations, deviations, kept.transpose() * kept / (sigma * sigma)};
+    return {deviations, deviations, GramOf(kept) / (sigma * sigma)};
   }
 
   // the closed loop at the truth; its last column is E(0)
@@ -98,7 +98,7 @@ CramerRao CramerRaoBound(const LogSamples& measurements, const Selection& select
   const Eigen::MatrixXd kept = rows_of(continuous.leftCols(used));
   return {Deviations(kept, sigma, count),
           Deviations(rows_of(discrete.leftCols(used)), sigma, count),
-          kept.transpose() * kept / (sigma * sigma)};
+          GramOf(kept) / (sigma * sigma)};
 }
 
 }  // namespace warmjoint

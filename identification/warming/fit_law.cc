@@ -300,7 +300,7 @@ ErrorModel ErrorsOf(const LawFit& law, const Eigen::VectorXd& residual) {
   if (std::isinf(law.threshold)) return errors;
   // with Huber's loss: plain columns and the scores of the loss
   const Eigen::MatrixXd rows = Kept(law.problem.JacobianOf(law.fit), law.input().selection);
-  Eigen::MatrixXd normal = rows.transpose() * rows;
+  Eigen::MatrixXd normal = GramOf(rows);
   if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
   errors.cofactor = Cofactor(normal);
   errors.scores = HuberScores(residual, law.threshold);
