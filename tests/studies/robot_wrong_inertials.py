@@ -1,10 +1,11 @@
 """How often intervals of identify-robot hold the truth, on logs of a robot whose description is wrong by a tenth.
 
-    robot_wrong_inertials.py PROGRAM ROBOT.xml fourier|moves REALIZATIONS OUT.json [OPTION of identify-robot]...
+    robot_wrong_inertials.py PROGRAM ROBOT.xml fourier|moves[+ripple|+coloured] REALIZATIONS OUT.json [OPTION of identify-robot]...
 
 Aim: coverage of 95 % intervals and rms error over the reported deviation, by parameter, with the description as prior and, as peers take it
 (least squares), as true. Data: 20 minutes at 100 Hz, sums of four sines a joint, or moves between six places with rests; rigid torque of the true robot by mj_inverse, friction with load (gravity and Coriolis) and warming, white noise; masses, places and
-inertias of the description are off by 10 % each. One joint does not warm. No engine steps: nothing but the noise and the description is wrong.
+inertias of the description are off by 10 % each. One joint does not warm. No engine steps: nothing but the noise and the description is wrong. `+ripple` adds 5 % of the Coulomb friction as a sine of seven
+turns of each joint, which no model has; `+coloured` as much noise again, of a correlation time of .3 s.
 Prints each kind of parameter with the p of an exact binomial test against 95 %; failures count as such.
 """
 
@@ -160,6 +161,20 @@ def simulate(robot, kind, seed, motions):
     return t, q, *measured(robot, seed, v, acc, rigid, carried)
 
 
+def spoilt(by, seed, q, truth):
+    """A torque that the model lacks."""
+    if by == "ripple":
+        return .05 * truth["coulomb"] * np.sin(7 * q)
+    if by != "coloured":
+        return 0
+    n = q.shape[1]
+    pole, drawn = np.exp(-STEP / .3), np.random.default_rng(9000 + seed).standard_normal(q.shape)
+    noise = np.zeros_like(q)
+    for i in range(1, len(q)):
+        noise[i] = pole * noise[i - 1] + np.sqrt(1 - pole**2) * drawn[i]
+    return np.where(np.arange(n) < n // 2, .5, .15) * noise
+
+
 def measured(robot, seed, v, acc, rigid, carried):
     """Torques with friction, rotor and noise, the wrong description and the truth of one realization."""
     n = v.shape[1]
@@ -180,9 +195,11 @@ def identify(program, robot, t, q, torque, folder, *options):
 
 def main():
     program, robot, kind, count, out, *options = sys.argv[1:]
+    kind, _, by = kind.partition("+")
     motions, rows, claims = {}, [], []
     for seed in range(1, int(count) + 1):
         t, q, torque, wrong, truth = simulate(robot, kind, seed, motions)
+        torque = torque + spoilt(by, seed, q, truth)
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             mujoco.mj_saveModel(wrong, str(folder / "robot.mjb"))
@@ -192,7 +209,7 @@ def main():
                 rows += found
                 claims += said
         rows += least_squares(t, q, torque, wrong, truth, seed, list(answer["joints"]))
-        kept = {"robot": pathlib.Path(robot).stem, "motion": kind, "realizations": seed, "report": report_of(rows, claims), "claims": claims, "rows": rows}
+        kept = {"robot": pathlib.Path(robot).stem, "motion": f"{kind} {by}".strip(), "realizations": seed, "report": report_of(rows, claims), "claims": claims, "rows": rows}
         pathlib.Path(out).write_text(json.dumps(kept) + "\n", encoding="utf-8")
         print(f"{seed} of {count}", flush=True)
     print(json.dumps(kept["report"], indent=2))
