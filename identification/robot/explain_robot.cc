@@ -78,6 +78,17 @@ std::string ExplainTurnedSign(const std::string& joint) {
       joint, joint, joint);
 }
 
+std::string ExplainWrongDescription(const std::string& joint, double times) {
+  return fmt::format(
+      "{}: the torque is that of a description {:.1f} times as wrong as its prior allows, or of "
+      "something that neither description nor "
+      "friction has. With a load, friction is as sure as it says; with a ripple over the angle, it "
+      "is not. --tool unknown fits "
+      "a load, --gear a motor's ripple, --inertials given:SHARE says how wrong the description may "
+      "be",
+      joint, times);
+}
+
 std::string ExplainUnknownGain(const std::string& joint) {
   return fmt::format(
       "the gain of its current is unknown, so friction is in A; give --torque-constant "

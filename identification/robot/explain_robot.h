@@ -28,6 +28,7 @@ std::string ExplainWorseHeldOut(double with, double without, const std::string& 
 // what a reader has to know in addition to the numbers
 std::string ExplainTurnedTorque(const std::string& joint);
 std::string ExplainTurnedSign(const std::string& joint);
+std::string ExplainWrongDescription(const std::string& joint, double times);
 std::string ExplainUnknownGain(const std::string& joint);
 inline constexpr const char* kNegativeRotor =
     "the rotor's inertia is below 0: the torque may be late against the position, or the links "

@@ -161,6 +161,7 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const Jo
     causes.push_back(Note(std::move(sentence), SentenceIn::any_answer));
   };
   if (fit.at.given.sign < 0) say(ExplainTurnedSign(c.joint));
+  if (fit.description_error > 1) say(ExplainWrongDescription(c.joint, fit.description_error));
   const Index rotor = fit.at.rotor.begin;
   VectorXd by_rotor = VectorXd::Zero(fit.model.size());
   by_rotor[rotor] = 1;

@@ -1,5 +1,6 @@
 #include "identification/robot/robot_joint.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,8 @@ constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor 
 constexpr double kLoadSpread = .2;
 /// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
 constexpr double kRippleShare = .2;
+/// A direction of the description of which the log tells: by whose error in the torque its variance falls by a tenth at least.
+constexpr double kTold = .1;
 /// Share of the log, at its end, that a further mechanism has to predict.
 constexpr double kUnseen = .4;
 
@@ -236,6 +239,25 @@ void SolveOn(const JointColumns& c, JointFit& fit) {
   fit.solved = Solve(fit.model, c.samples, x);
 }
 
+/// By how many times its prior the description is wrong, as the log has it: the root of z^T (I - C)^-1 z over the number of directions
+/// that the log tells of, C the covariance of z, since the estimate of a z ~ N(0, 1) has the variance I - C. 1 where chance explains it.
+double DescriptionErrorOf(const JointFit& fit, const JointQuestion& q) {
+  const Slice& at = fit.at.given.z;
+  if (at.size == 0) return 1;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> told(MatrixXd::Identity(at.size, at.size) -
+                                                     at.Block(fit.uncertainty.covariance));
+  const VectorXd along = told.eigenvectors().transpose() * at.Of(fit.solved.x);
+  double squares = 0, count = 0;
+  for (Index i = 0; i < at.size; ++i) {
+    if (told.eigenvalues()[i] < kTold) continue;
+    squares += along[i] * along[i] / told.eigenvalues()[i];
+    ++count;
+  }
+  if (count == 0) return 1;
+  const double p = PValueOfF(squares / count, count, fit.uncertainty.degrees_of_freedom);
+  return p < q.error_level / q.joints ? std::max(1.0, std::sqrt(squares / count)) : 1;
+}
+
 /// Rows of the law that the data put beyond their bound with their whole interval.
 void FindBeyond(const JointColumns& c, JointFit& fit) {
   if (fit.solved.at_bound.empty()) return;
@@ -320,6 +342,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       if (is_told && Predicts(warm, fit, c)) fit = std::move(warm);
     }
   }
+  fit.description_error = DescriptionErrorOf(fit, q);
   FindBeyond(c, fit);
   return fit;
 }

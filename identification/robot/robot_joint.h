@@ -81,6 +81,8 @@ struct JointFit {
   double effective_parameters = 0;  // that the log determines, and not the priors
   double warming =
       0;  // by how many deviations friction changes with the heat of its losses, at the best tau
+  /// by how many times its prior the description is wrong; 1 where chance explains its errors
+  double description_error = 1;
   std::vector<std::string> beyond;  // rows of the law whose whole interval lies beyond their bound
 
   double Value(Eigen::Index row) const { return solved.x[row]; }

@@ -142,6 +142,17 @@ TEST(RobotJoint, JointsTogetherTellWhatTheDescriptionHasWrong) {
   EXPECT_LT(squares, 73.4);
 }
 
+TEST(RobotJoint, SaysByHowMuchADescriptionIsMoreWrongThanItsPrior) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  const VectorXd z = VectorXd::NullaryExpr(4, [&] { return normal(random) < 0 ? -6 : 6; });
+  EXPECT_NEAR(Fit(Columns({}, 2, z)).description_error, 6, 2);
+  // one that is as wrong as its prior has it says nothing
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    EXPECT_EQ(Fit(Columns({}, seed)).description_error, 1) << seed;
+  }
+}
+
 TEST(RobotJoint, TellsATurnedTorque) {
   JointColumns c = Columns({}, 2);
   c.samples.torque = -c.samples.torque;
