@@ -258,8 +258,8 @@ double DescriptionErrorOf(const JointFit& fit, const JointQuestion& q) {
   return p < q.error_level / q.joints ? std::max(1.0, std::sqrt(squares / count)) : 1;
 }
 
-/// Rows of the law that the data put beyond their bound with their whole interval.
-void FindBeyond(const JointColumns& c, JointFit& fit) {
+/// Rows of the law that the data put beyond their bound, beyond chance over all joints.
+void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
   if (fit.solved.at_bound.empty()) return;
   Model unbound = fit.model;
   for (const Index i : fit.solved.at_bound) {
@@ -267,7 +267,8 @@ void FindBeyond(const JointColumns& c, JointFit& fit) {
   }
   const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
   const Uncertainty uncertainty = ErrorsOfSolved(unbound, c.samples, free).uncertainty;
-  const double reach = StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel);
+  const double reach =
+      StudentQuantile(uncertainty.degrees_of_freedom, 1 - q.error_level / q.joints);
   for (const Index i : fit.solved.at_bound) {
     if (free.x[i] + reach * std::sqrt(uncertainty.covariance(i, i)) >= 0) continue;
     fit.beyond.push_back(fit.model.table[static_cast<std::size_t>(i)].name);
@@ -343,7 +344,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
     }
   }
   fit.description_error = DescriptionErrorOf(fit, q);
-  FindBeyond(c, fit);
+  FindBeyond(c, q, fit);
   return fit;
 }
 

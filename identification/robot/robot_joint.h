@@ -83,7 +83,7 @@ struct JointFit {
       0;  // by how many deviations friction changes with the heat of its losses, at the best tau
   /// by how many times its prior the description is wrong; 1 where chance explains its errors
   double description_error = 1;
-  std::vector<std::string> beyond;  // rows of the law whose whole interval lies beyond their bound
+  std::vector<std::string> beyond;  // rows of the law beyond their bound, beyond chance
 
   double Value(Eigen::Index row) const { return solved.x[row]; }
   double Deviation(Eigen::Index row) const { return std::sqrt(uncertainty.covariance(row, row)); }
