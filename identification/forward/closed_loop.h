@@ -55,9 +55,6 @@ class ClosedLoop {
   const Eigen::VectorXd& speed() const { return speed_; }  // [N] of the losses, |v|, rad/s or m/s
   const Eigen::VectorXd& direction() const { return direction_; }  // [N] sign(v)
   const Rows& levels() const { return levels_; }                   // [N x d] g
-  const Rows& loss_levels() const {                                // [N x d] g of the losses
-    return loss_levels_.size() > 0 ? loss_levels_ : levels_;
-  }
   const Intervals& intervals() const { return intervals_; }
 
  private:

@@ -49,9 +49,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   if (problem.warming == PartFit::none) return squares;
 
   // with warming, from the best time constant of a scan
-  Eigen::MatrixXd rigid = problem.rigid;
-  if (rigid.cols() == 0) rigid.resize(m.size(), 0);
-  const LawBlocks blocks(m, columns, {}, rigid);
+  const LawBlocks blocks(m, columns, {}, problem.rigid);
   const InitialGuess start =
       ScanBesideRigid(columns, cold.solution.tail(problem.rigid.cols()), problem);
   const ThermalFit fit =

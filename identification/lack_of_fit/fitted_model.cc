@@ -149,7 +149,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
     of_loss = NominalDerivatives(fit, *m.loss_velocity, m.load);
   }
   const Jumps jumps = JumpsOf(fit, m);
-  const LawBlocks blocks(m, model.derivatives, of_loss, Eigen::MatrixXd(m.size(), 0));
+  const LawBlocks blocks(m, model.derivatives, of_loss, {});
   model.loop = blocks.loop;
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);

@@ -77,18 +77,21 @@ double RefineLag(const Model& model, const VectorXd& x, const ModelSamples& samp
   SquaresProblem problem;
   problem.sums = [&](const VectorXd& at) -> RowSums {
     // the model before any lag
-    const ModelRows::Rows model_rows = RowsToFit(ModelAt(model, at.head(p)), none);
-    const VectorXd force = -model_rows.col(p);
+    ModelRows::Rows here = RowsToFit(ModelAt(model, at.head(p)), none);
+    const VectorXd force = -here.col(p);
     const auto left_by = [&](double trial) -> VectorXd {
       const LaggedRows rows = rows_of(trial);
       return rows.Of(rows.BeforeLag(measured) - force);
     };
     // its rows after the lag, the column of log T by central differences, and what is left
     const double T = std::exp(at[p]);
-    RowTransform::Rows rows(model_rows.rows(), p + 2);
-    rows << rows_of(T).Of(model_rows.leftCols(p)),
+    const LaggedRows lagged = rows_of(T);
+    here.col(p) = lagged.BeforeLag(measured) - force;
+    lagged.Apply(here);
+    RowTransform::Rows rows(here.rows(), p + 2);
+    rows << here.leftCols(p),
         (left_by(T * std::exp(-kSlopeStep)) - left_by(T * std::exp(kSlopeStep))) / (2 * kSlopeStep),
-        left_by(T);
+        here.col(p);
     const MatrixXd products = GramOf(rows) / variance;
     RowSums sums{products.topLeftCorner(p + 1, p + 1), products.col(p + 1).head(p + 1),
                  products(p + 1, p + 1)};

@@ -39,7 +39,7 @@ struct LaggedModel {
   Eigen::VectorXd torque;      // [N] of the model, without the lag; empty where there is no fit
 };
 
-/// How a model is fitted behind a lag.
+/// How a model is fitted with a lag.
 struct LagFits {
   /// At one time constant, to rows of the lag.
   std::function<LaggedModel(const LaggedRows& rows)> fit_at;

@@ -100,7 +100,7 @@ HeatState ModelAt::End() const {
   HeatState state = Begin();
   ModelRows rows;
   std::vector<SampleRange> stretches = Stretches();
-  stretches.pop_back();
+  stretches.back().count -= 1;  // up to the last sample
   for (const SampleRange& stretch : stretches) Along(stretch, state, rows);
   model_.heat->EnterLast(x_, state);
   return state;
@@ -140,12 +140,11 @@ void ModelAt::LossesAlong(const SampleRange& stretch, ModelRows& rows) const {
 
 std::vector<SampleRange> ModelAt::Stretches() const {
   // rows that stay in a cache, and enough of them for products of many columns
-  const Index length = model_.size() <= 32 ? 256 : 2048, last = model_.samples - 1;
+  const Index length = model_.size() <= 32 ? 256 : 2048, samples = model_.samples;
   std::vector<SampleRange> stretches;
-  for (Index first = 0; first < last; first += length) {
-    stretches.push_back({first, std::min(length, last - first)});
+  for (Index first = 0; first < samples; first += length) {
+    stretches.push_back({first, std::min(length, samples - first)});
   }
-  if (last >= 0) stretches.push_back({last, 1});
   return stretches;
 }
 

@@ -27,6 +27,9 @@ class Block {
 
 /// Columns over N samples, [N x m], a sample after the other.
 using SharedColumns = std::shared_ptr<const ModelRows::Rows>;
+inline SharedColumns Shared(const Eigen::MatrixXd& columns) {
+  return std::make_shared<const ModelRows::Rows>(columns);
+}
 
 /// Columns times unknowns: C x.
 class LinearBlock : public Block {
@@ -43,18 +46,19 @@ class LinearBlock : public Block {
 class FrictionBlock : public Block {
  public:
   FrictionBlock(Slice at, SharedColumns columns, SharedColumns of_losses)
-      : force_(at, std::move(columns)), has_own_(of_losses != nullptr), losses_(at, of_losses) {}
+      : force_(at, columns),
+        losses_(at, of_losses ? of_losses : columns),
+        has_own_(of_losses != nullptr) {}
   void Fill(const Eigen::VectorXd& x, ModelRows& rows) const override { force_.Fill(x, rows); }
   bool MakesHeat() const override { return true; }
   bool HasOwnLosses() const override { return has_own_; }
   void FillLosses(const Eigen::VectorXd& x, ModelRows& rows) const override {
-    (has_own_ ? losses_ : force_).Fill(x, rows);
+    losses_.Fill(x, rows);
   }
 
  private:
-  LinearBlock force_;
+  LinearBlock force_, losses_;
   bool has_own_;
-  LinearBlock losses_;
 };
 
 /// A given force that may be wrong: r(z) = r0 + R z with z ~ N(0, 1), seen through a gain: g r(z), g = sign exp(x).
@@ -159,7 +163,7 @@ class ModelAt {
   /// Rows of all samples at once.
   ModelRows All() const;
 
-  /// The stretches that ForEachStretch takes; the last sample is one by itself.
+  /// The stretches that ForEachStretch takes.
   std::vector<SampleRange> Stretches() const;
 
  private:

@@ -89,6 +89,7 @@ SolvedModel Solve(const Model& model, const ModelSamples& samples, VectorXd x,
     solved.converged = step.fell < kRests && (change < 1e-3 || step.fell == 0);
   }
   solved.residual = squares.ResidualAt(x);
+  solved.gram = squares.OfData(x).gram;
   solved.x = std::move(x);
   return solved;
 }

@@ -22,6 +22,7 @@ struct NoiseScale {
 struct SolvedModel {
   Eigen::VectorXd x;         // [P]
   Eigen::VectorXd residual;  // [N] torque - force
+  Eigen::MatrixXd gram;      // [P x P] J^T J at x
   NoiseScale noise;
   std::vector<Eigen::Index> at_bound;  // unknowns that are held at theirs
   bool converged = false;

@@ -74,10 +74,6 @@ SharedColumns LossColumnsOf(const JointColumns& c, bool slows) {
   return std::make_shared<const ModelRows::Rows>(std::move(columns));
 }
 
-SharedColumns Shared(const MatrixXd& columns) {
-  return std::make_shared<const ModelRows::Rows>(columns);
-}
-
 /// Adds a joint's blocks to a model without heat.
 void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestion& q, bool slows,
                double level, JointFit& fit) {
@@ -176,36 +172,32 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
   return std::max(mean, std::sqrt(first.solved.noise.variance));
 }
 
-/// How sure the unknowns of a fit are.
-struct SolvedErrors {
-  Uncertainty uncertainty;
-  double effective_parameters = 0;
-};
+/// (J^T J + P)^-1, P by the noise of as many samples as are independent, by which the fit weighed its rows.
+MatrixXd PenalisedCofactor(const Model& model, const SolvedModel& solved) {
+  const VectorXd prior = solved.noise.scale() * model.PriorPrecision();
+  return InverseScaled(solved.gram + MatrixXd(prior.asDiagonal()));
+}
 
-SolvedErrors ErrorsOfSolved(const Model& model, const ModelSamples& samples,
-                            const SolvedModel& solved) {
+/// How sure the unknowns of a fit are. cofactor: PenalisedCofactor
+Uncertainty UncertaintyOf(const Model& model, const ModelSamples& samples,
+                          const SolvedModel& solved, const MatrixXd& cofactor) {
   const Selection used{samples.keep, {}};
   const KeptRows rows(model, solved.x, samples.keep);
-  const MatrixXd gram = ModelSquares(model, samples).OfData(solved.x).gram;
-  // the fit weighed the rows by the noise of as many samples as are independent
   const double scale = solved.noise.scale();
-  const VectorXd prior = scale * model.PriorPrecision();
-  const MatrixXd cofactor = InverseScaled(gram + MatrixXd(prior.asDiagonal()));
   const VectorXd residual = Kept(solved.residual, used);
-  return {CovarianceOf({.rows = [&](Index first, Index last) { return rows.Between(first, last); },
-                        .cofactor = cofactor,
-                        .residual = residual,
-                        .selection = used,
-                        .fitted = Kept(samples.torque, used) - residual,
-                        .prior = prior,
-                        .prior_variance = scale}),
-          (cofactor * gram).trace()};
+  return CovarianceOf({.rows = [&](Index first, Index last) { return rows.Between(first, last); },
+                       .cofactor = cofactor,
+                       .residual = residual,
+                       .selection = used,
+                       .fitted = Kept(samples.torque, used) - residual,
+                       .prior = scale * model.PriorPrecision(),
+                       .prior_variance = scale});
 }
 
 void AddErrors(const JointColumns& c, JointFit& fit) {
-  SolvedErrors found = ErrorsOfSolved(fit.model, c.samples, fit.solved);
-  fit.uncertainty = std::move(found.uncertainty);
-  fit.effective_parameters = found.effective_parameters;
+  const MatrixXd cofactor = PenalisedCofactor(fit.model, fit.solved);
+  fit.uncertainty = UncertaintyOf(fit.model, c.samples, fit.solved, cofactor);
+  fit.effective_parameters = (cofactor * fit.solved.gram).trace();
 }
 
 /// The model in all parts but heat, fitted.
@@ -266,7 +258,8 @@ void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
     unbound.table[static_cast<std::size_t>(i)].lower = -kInfinity;
   }
   const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
-  const Uncertainty uncertainty = ErrorsOfSolved(unbound, c.samples, free).uncertainty;
+  const Uncertainty uncertainty =
+      UncertaintyOf(unbound, c.samples, free, PenalisedCofactor(unbound, free));
   const double reach =
       StudentQuantile(uncertainty.degrees_of_freedom, 1 - q.error_level / q.joints);
   for (const Index i : fit.solved.at_bound) {

@@ -13,7 +13,6 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/huber.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/model/normal_equations.h"
 #include "identification/seen_samples.h"
 #include "identification/sentences/fit.h"
 #include "identification/sentences/friction.h"
@@ -291,20 +290,15 @@ std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
   return trace;
 }
 
-/// The rows and residuals from which the errors of a fit follow, for any loss. residual: [n]
-ErrorModel ErrorsOf(const LawFit& law, const Eigen::VectorXd& residual) {
-  ErrorModel errors;
-  errors.prior = law.fit.prior;
-  errors.cofactor = law.fit.cofactor;
-  errors.whitening = law.whitening;
-  if (std::isinf(law.threshold)) return errors;
+/// The rows and residuals from which the errors of a fit follow, for any loss. fit: with its Jacobian and residual
+void SetErrors(const LawFit& law, Fit& fit) {
+  fit.errors.prior = law.fit.prior;
+  fit.errors.cofactor = law.fit.cofactor;
+  fit.errors.whitening = law.whitening;
+  if (std::isinf(law.threshold)) return;
   // with Huber's loss: plain columns and the scores of the loss
-  const Eigen::MatrixXd rows = Kept(law.problem.JacobianOf(law.fit), law.input().selection);
-  Eigen::MatrixXd normal = GramOf(rows);
-  if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
-  errors.cofactor = Cofactor(normal);
-  errors.scores = HuberScores(residual, law.threshold);
-  return errors;
+  fit.errors.scores = HuberScores(fit.residual(), law.threshold);
+  fit.errors.cofactor = CofactorOf(fit);
 }
 
 /// What was done: a clause.
@@ -343,12 +337,12 @@ Fit Conclude(LawFit law) {
   fit.used = law.input().selection;
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(response.torque, fit.used);
-  fit.errors = ErrorsOf(law, fit.residual());
+  fit.jacobian = [found] { return LawProblem::JacobianOf(found); };
+  SetErrors(law, fit);
   fit.count = static_cast<int>(found.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(law.threshold)) fit.loss_bend = law.threshold;
   fit.summary = Summary(law);
-  fit.jacobian = [found] { return LawProblem::JacobianOf(found); };
 
   // the heat
   if (found.has_heat()) {

@@ -19,10 +19,6 @@ using Eigen::VectorXd;
 
 constexpr double kFirm = 1e-9;  // of the residuals' scale: the least spread of a prior
 
-SharedColumns Shared(const MatrixXd& columns) {
-  return std::make_shared<const ModelRows::Rows>(columns);
-}
-
 /// Law and rigid part in a layout.
 Model WithoutHeat(const LawBlocks& blocks, const Layout& at) {
   Model model;
@@ -56,7 +52,7 @@ LawBlocks::LawBlocks(const LogSamples& measurements, const MatrixXd& columns,
 LawBlocks::LawBlocks(ClosedLoop motion, const MatrixXd& columns)
     : loop(std::make_shared<const ClosedLoop>(std::move(motion))),
       law(Shared(columns)),
-      rigid(Shared(MatrixXd(columns.rows(), 0))) {}
+      rigid(Shared({})) {}
 
 MatrixXd WarmJacobian(const LawBlocks& blocks, const VectorXd& parameters, const Thermal& thermal,
                       double initial_energy, const EnergyJumps& jumps) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -18,10 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kSamples = 700;  // of some stretches
-
-SharedColumns Shared(const MatrixXd& columns) {
-  return std::make_shared<const ModelRows::Rows>(columns);
-}
 
 /// A motion with uneven samples, turns and a second recording.
 struct Motion {
@@ -75,16 +72,22 @@ VectorXd SomePoint() {
   return x;
 }
 
+/// d f/dx_i about x by central differences.
+template <typename Value>
+Value SlopeBy(Index i, const VectorXd& x, const std::function<Value(const VectorXd&)>& f) {
+  VectorXd more = x, less = x;
+  more[i] += 1e-5;
+  less[i] -= 1e-5;
+  return (f(more) - f(less)) / 2e-5;
+}
+
 TEST(Model, DerivativesAreThoseOfItsForce) {
   const Model model = EveryBlock();
   const VectorXd x = SomePoint();
   const ModelRows rows = ModelAt(model, x).All();
   for (Index i = 0; i < x.size(); ++i) {
-    VectorXd more = x, less = x;
-    more[i] += 1e-5;
-    less[i] -= 1e-5;
     const VectorXd slope =
-        (ModelAt(model, more).All().force - ModelAt(model, less).All().force) / 2e-5;
+        SlopeBy<VectorXd>(i, x, [&](const VectorXd& at) { return ModelAt(model, at).All().force; });
     // central differences: 1e-10 of the third derivative, and rounding over the step
     EXPECT_LT((slope - rows.derivatives.col(i)).cwiseAbs().maxCoeff(),
               1e-7 * std::max(1.0, slope.cwiseAbs().maxCoeff()))
@@ -98,11 +101,8 @@ TEST(Model, EndsWithTheHeatOfItsLastSample) {
   const HeatState end = ModelAt(model, x).End();
   EXPECT_NEAR(end.energy, ModelAt(model, x).Energy()[kSamples - 1], 1e-14);
   for (Index i = 0; i < x.size(); ++i) {
-    VectorXd more = x, less = x;
-    more[i] += 1e-5;
-    less[i] -= 1e-5;
     const double slope =
-        (ModelAt(model, more).End().energy - ModelAt(model, less).End().energy) / 2e-5;
+        SlopeBy<double>(i, x, [&](const VectorXd& at) { return ModelAt(model, at).End().energy; });
     EXPECT_NEAR(end.slopes[i], slope, 1e-7 * std::max(1.0, std::abs(slope))) << i;
   }
 }
