@@ -15,28 +15,14 @@ import sys
 import tempfile
 
 import numpy as np
+from shared_logs import logs
 
-UR10E = "--map time=t_s,position=q,velocity=qd,torque=i_A --unit torque=A"
-NIST = ("--map time=timestamp,position=actual_q_0,velocity=actual_qd_0,torque=actual_current_0 "
-        "--unit position=deg --unit torque=A --motion any")
-# name: file, arguments of the program, columns and units of least squares (time, position, velocity, torque)
-LOGS = {
-    **{f"UR10e {j}": (f"ur10e_joints/joint{j}.csv", UR10E, ("t_s", "q", "qd", "i_A"), 1) for j in range(1, 6)},
-    "EMPS": ("emps/DATA_EMPS.csv", "--map time=t_s,position=q_m,torque=force_N --joint linear",
-             ("t_s", "q_m", None, "force_N"), 1),
-    "NIST 1": ("nist_ur5/robot.csv", NIST,
-               ("timestamp", "actual_q_0", "actual_qd_0", "actual_current_0"), np.pi / 180),
-    "xArm6": ("xarm6_thermal/j3_48deg_s.csv",
-              "--map time=t,position=q_deg,velocity=v_deg,torque=i,temperature=temp --unit position=deg,velocity=deg/s,torque=A,"
-              "temperature=degC", None, np.pi / 180),
-}
-XARM = ("t", "q_deg", "v_deg", "i")
 FRICTION = ("viscous", "coulomb", "coulomb_positive", "coulomb_negative", "thermal_gain", "thermal_time_constant")
 
 
 def least_squares(path, columns, to_radians):
     """Fit in per cent of least squares on the last 30 % of the moving samples."""
-    table = np.genfromtxt(path, delimiter=",", names=True)
+    table = np.genfromtxt(path, delimiter=",", names=True, usecols=[one for one in columns if one])
     t, q, tau = table[columns[0]], table[columns[1]] * to_radians, table[columns[3]]
     v = table[columns[2]] if columns[2] else np.gradient(q, t)
     half = max(1, round(0.02 / np.median(np.diff(t))))  # samples of a 40 ms mean, as a low-pass
@@ -128,13 +114,13 @@ def main():
     everything, friction_z, half_widths = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         for identifier in sys.argv[3:] or ["auto", "nominal-ls"]:
-            for name, (file, arguments, columns, unit) in LOGS.items():
-                path = shared / "data" / file
-                whole = identify(program, path, arguments, identifier, folder)
-                parts = [identify(program, half, arguments, identifier, folder) for half in halves(path, folder)]
+            for name, log in logs(shared).items():
+                path, columns, unit = log.path(shared, folder), log.columns, log.radians
+                whole = identify(program, path, log.arguments, identifier, folder)
+                parts = [identify(program, half, log.arguments, identifier, folder) for half in halves(path, folder)]
                 z = distances(*parts) if all(part["status"] == "ok" for part in parts) else {}
                 everything += z.values()
-                speeds = speeds_of(path, columns or XARM, unit)
+                speeds = speeds_of(path, columns, unit)
                 at = friction_at(whole, speeds)
                 half_widths += [half / abs(value) for value, half in at.values()]
                 one, other = (friction_at(part, speeds) for part in parts)
@@ -142,9 +128,8 @@ def main():
                        for key in one.keys() & other.keys()}
                 friction_z += off.values()
                 fit = (whole.get("metrics") or {}).get("fit")
-                ls = f"{least_squares(path, columns, unit):.1f} %" if columns else "-"
                 print(f"{name:8} {identifier:12} {whole['status']:16} Fit {fit if fit is None else round(fit, 1)} %, "
-                      f"least squares held out {ls}; halves {parts[0]['status']}, {parts[1]['status']}:",
+                      f"least squares held out {least_squares(path, columns, unit):.1f} %; halves {parts[0]['status']}, {parts[1]['status']}:",
                       ", ".join(f"{n} z {value:.1f}" for n, value in z.items()))
                 print("    friction at", ", ".join(
                     f"{speed:.3g} {state} {value:.4g} +- {100 * half / abs(value):.1f} %" +

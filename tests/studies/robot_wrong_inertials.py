@@ -26,9 +26,9 @@ POINTS = "points by least squares"
 LOGARITHMS = ("thermal_time_constant", "gain")
 
 
-def motion(kind, k, n):
+def motion(kind, k, n, seconds=1200):
     random = np.random.default_rng(k)
-    t = np.arange(0, 1200, STEP)
+    t = np.arange(0, seconds, STEP)
     centre = np.resize([0, -1.5, 1.5, -1.5, -1.5, 0], n)
     if kind == "moves":  # 2 s from place to place by a cosine, .6 s of rest
         places = centre + random.uniform(-.8, .8, (6, n))
@@ -151,11 +151,11 @@ def described(robot, random):
     return wrong
 
 
-def simulate(robot, kind, seed, motions):
+def simulate(robot, kind, seed, motions, seconds=1200):
     """Time, positions, torques, the wrong description and the truth of one realization."""
     n = passive(robot).nv
     if seed % 3 not in motions:
-        t, q, v, acc = motion(kind, seed % 3, n)
+        t, q, v, acc = motion(kind, seed % 3, n, seconds)
         motions[seed % 3] = (t, q, v, acc, *torques(passive(robot), q, v, acc))
     t, q, v, acc, rigid, carried = motions[seed % 3]
     return t, q, *measured(robot, seed, v, acc, rigid, carried)
@@ -184,11 +184,16 @@ def measured(robot, seed, v, acc, rigid, carried):
     return rigid + truth["rotor_inertia"] * acc + friction(truth, v, carried) + noise * random.standard_normal(v.shape), wrong, truth
 
 
-def identify(program, robot, t, q, torque, folder, *options):
-    """What identify-robot answers for a log, which it writes into a folder."""
+def write(t, q, torque, file):
+    """A log of all joints."""
     n = q.shape[1]
     header = ",".join(["time", *(f"q{j}" for j in range(n)), *(f"torque{j}" for j in range(n))])
-    np.savetxt(folder / "log.csv", np.column_stack([t, q, torque]), delimiter=",", header=header, comments="", fmt="%.9g")
+    np.savetxt(file, np.column_stack([t, q, torque]), delimiter=",", header=header, comments="", fmt="%.9g")
+
+
+def identify(program, robot, t, q, torque, folder, *options):
+    """What identify-robot answers for a log, which it writes into a folder."""
+    write(t, q, torque, folder / "log.csv")
     subprocess.run([program, "identify-robot", robot, folder / "log.csv", "-o", folder / "robot.json", *options], capture_output=True, check=False)
     return json.loads((folder / "robot.json").read_text())
 

@@ -1,6 +1,7 @@
 # Several source files compiled as one, since most of a file's time goes into the headers that it shares with its
 # neighbours. Files of one group merge their anonymous namespaces, so that a group takes no two that define the same name.
 option(WARMJOINT_UNITY "compile source files in groups; OFF compiles each by itself" ${PROJECT_IS_TOP_LEVEL})
+option(WARMJOINT_UNITY_TESTS "the same for the tests' files" ${WARMJOINT_UNITY})
 set(WARMJOINT_UNITY_SIZE 12 CACHE STRING "most source files in a group")
 
 # warmjoint_names(VARIABLE file): what the file defines at the beginning of a line, which is where clang-format puts all
@@ -31,8 +32,12 @@ endfunction()
 
 # warmjoint_unity(TARGET): its source files in groups, each file in the first that has room for it and none of its names.
 # Targets of one folder that share files list these first and in one order, and so get the same groups.
+# warmjoint_unity(TARGET [WHEN]): WHEN: whether to do so, WARMJOINT_UNITY where nothing is given.
 function(warmjoint_unity target)
-  if(NOT WARMJOINT_UNITY)
+  if(NOT ARGC GREATER 1)
+    set(ARGV1 ${WARMJOINT_UNITY})
+  endif()
+  if(NOT ARGV1)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
