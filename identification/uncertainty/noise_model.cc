@@ -245,11 +245,13 @@ Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const RowsBetween& rows,
     row -= kept;
     scatter.selfadjointView<Eigen::Lower>().rankUpdate(Z.bottomRows(kBlock).transpose());
 
-    // before the first sample: until it has died away
+    // before the first sample: until it has died away, which white noise has at once
+    if (end <= kBlock && p == 0) break;
     Z.topRows(p) = Z.bottomRows(p).eval();
     largest = largest.cwiseMax(Z.cwiseAbs().colwise().maxCoeff());
+    if (end > kBlock) continue;
     const Eigen::RowVectorXd left = Z.topRows(p).cwiseAbs().colwise().maxCoeff();
-    if (end - kBlock <= 0 && ((left - 1e-4 * largest).array() <= 0).all()) break;
+    if (((left - 1e-4 * largest).array() <= 0).all()) break;
   }
   scatter.triangularView<Eigen::StrictlyUpper>() = scatter.transpose();
   return noise.innovation * scatter;
