@@ -54,8 +54,8 @@ Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
   // a row that the estimate lacks keeps its value, without errors
   for (const FitParameter& row : fit.parameters) {
     const EstimatedParameter* one = estimate.Find(row.name);
-    inference.parameters.push_back(one ? ParameterInterval{one->value, one->std, one->interval95, 0}
-                                       : ParameterInterval{row.value, {}, {}, 0});
+    inference.parameters.push_back(one ? ParameterInterval{one->value, one->std, one->interval95}
+                                       : ParameterInterval{row.value, {}, {}});
   }
   return inference;
 }

@@ -197,8 +197,9 @@ std::optional<Cause> UnknownFriction(const std::vector<SpeedFigure>& at_speeds,
     const FigureChange change = ChangeOf(causes, one.derivatives, About::friction);
     if (!change.has_interval) continue;
     ++counted;
-    const double half = one.HalfWidth() + change.Reach();
-    if (half < std::abs(one.at.value + change.shift)) continue;
+    FrictionAtSpeed moved = one.at;
+    Move(change, moved.value, moved.interval95);
+    if (0.5 * (moved.interval95[1] - moved.interval95[0]) < std::abs(moved.value)) continue;
     unknown.push_back(i);
     left_out.push_back(one.at);
   }

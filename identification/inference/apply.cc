@@ -10,33 +10,6 @@
 namespace warmjoint {
 namespace {
 
-/// Changes a value and its interval, if it has one.
-void Move(const FigureChange& change, double& value, std::array<double, 2>* interval,
-          std::vector<WidthPart>& parts) {
-  value += change.shift;
-  if (!interval) return;
-
-  // the value may be anywhere in a range; the interval holds the true one for noise around either end (ReachBeyondEnds)
-  auto& [lower, upper] = *interval;
-  const double half = 0.5 * (upper - lower), middle = 0.5 * (lower + upper);
-  const double apart = change.below + change.above;
-  if (apart > 0 && half > 0) {
-    const double reach = half * ReachBeyondEnds(kNormal95 * apart / half) / kNormal95;
-    lower = middle - change.below - reach;
-    upper = middle + change.above + reach;
-  }
-  const double covered = 0.5 * (upper - lower) - half;
-  lower += change.shift - change.reach;
-  upper += change.shift + change.reach;
-
-  // the sources that cover share what they add to the half width
-  for (WidthPart part : change.parts) parts.push_back(part);
-  for (WidthPart part : change.covered) {
-    part.half_width *= apart > 0 ? covered / apart : 0;
-    parts.push_back(part);
-  }
-}
-
 /// Changes the value of a row of the table to that where other rows are held at their bounds; its interval stays that of noise.
 void Hold(const std::vector<Cause>& causes, std::size_t row, ParameterInterval& estimated) {
   for (const Cause& cause : causes) {
@@ -51,9 +24,12 @@ void Apply(const FigureChange& change, ParameterInterval& estimated) {
     estimated.std.reset();
     estimated.interval95.reset();
   }
-  estimated.widened += change.Reach();
-  Move(change, estimated.value, estimated.interval95 ? &*estimated.interval95 : nullptr,
-       estimated.parts);
+  if (!estimated.interval95) {
+    estimated.value += change.shift;
+    return;
+  }
+  std::ranges::move(Move(change, estimated.value, *estimated.interval95),
+                    std::back_inserter(estimated.parts));
 }
 
 /// Applies all rows to the friction at speeds, and drops the figures that depend on a number without an interval.
@@ -67,7 +43,7 @@ void Apply(const std::vector<Cause>& causes, std::vector<SpeedFigure>& at_speeds
     SpeedFigure& one = at_speeds[i];
     const FigureChange change = ChangeOf(causes, one.derivatives, About::friction);
     if (!stays[i] || !change.has_interval) continue;
-    Move(change, one.at.value, &one.at.interval95, one.parts);
+    std::ranges::move(Move(change, one.at.value, one.at.interval95), std::back_inserter(one.parts));
     left.push_back(std::move(one));
   }
   at_speeds = std::move(left);
@@ -172,6 +148,31 @@ FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& d
     if (reach > 0) change.parts.push_back({source, reach});
   }
   return change;
+}
+
+std::vector<WidthPart> Move(const FigureChange& change, double& value,
+                            std::array<double, 2>& interval) {
+  auto& [lower, upper] = interval;
+  const double half = 0.5 * (upper - lower), middle = 0.5 * (lower + upper);
+  // the value may be anywhere in a range
+  const double range = change.below + change.above;
+  if (range > 0 && half > 0) {
+    const double reach = half * ReachBeyondEnds(kNormal95 * range / half) / kNormal95;
+    lower = middle - change.below - reach;
+    upper = middle + change.above + reach;
+  }
+  const double covered = 0.5 * (upper - lower) - half;
+  value += change.shift;
+  lower += change.shift - change.reach;
+  upper += change.shift + change.reach;
+
+  // the sources that cover share what they add to the half width
+  std::vector<WidthPart> parts = change.parts;
+  for (WidthPart part : change.covered) {
+    part.half_width *= range > 0 ? covered / range : 0;
+    parts.push_back(part);
+  }
+  return parts;
 }
 
 }  // namespace warmjoint

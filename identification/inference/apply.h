@@ -1,6 +1,7 @@
 // The answer after a list of causes was applied to it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -24,9 +25,6 @@ struct FigureChange {
   bool has_interval = true;          // whether all that it depends on has one
   std::vector<WidthPart> parts{};    // of reach, by source
   std::vector<WidthPart> covered{};  // of below and above
-
-  /// The most that the end of the interval that changes most can change.
-  double Reach() const { return reach + below + above; }
 };
 
 /// The biases of one row act together, |d b| + 1.96 |d S|, up to the most that the row allows. Rows of one source are several
@@ -35,5 +33,11 @@ struct FigureChange {
 /// figure is, `parameters` also for figures that are computed from them
 FigureChange ChangeOf(const std::vector<Cause>& causes, const Eigen::VectorXd& derivatives,
                       About of);
+
+/// The one rule by which a figure and its 95 % interval change: shift moves both, reach widens the interval at either end, and with
+/// below and above it holds the true value for noise around any value of that range (ReachBeyondEnds). Returns what of the new
+/// half width each source adds.
+std::vector<WidthPart> Move(const FigureChange& change, double& value,
+                            std::array<double, 2>& interval);
 
 }  // namespace warmjoint

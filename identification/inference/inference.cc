@@ -20,7 +20,7 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
   // where the error is that of the value itself, the interval is symmetric
   if (parameter.coordinate == Coordinate::value) {
     const double reach = quantile * deviation;
-    return {value, deviation, {{value - reach, value + reach}}, 0};
+    return {value, deviation, {{value - reach, value + reach}}};
   }
 
   // of a positive value the logarithm is nearer to normal
@@ -28,7 +28,7 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
   const double relative = by_logarithm ? deviation : deviation / std::abs(value);
   const double factor = std::exp(quantile * relative);
   const std::pair<double, double> ends = std::minmax({value / factor, value * factor});
-  return {value, std::abs(value) * relative, {{ends.first, ends.second}}, 0};
+  return {value, std::abs(value) * relative, {{ends.first, ends.second}}};
 }
 
 /// The same about the fit's own value, where that was shifted; of a value that is at a bound, from the bound on.
@@ -47,7 +47,7 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
   std::vector<ParameterInterval> all;
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
-    ParameterInterval one{parameter.value - parameter.moved, {}, {}, 0};
+    ParameterInterval one{parameter.value - parameter.moved, {}, {}};
     if (parameter.estimated) {
       const double quantile = StudentQuantile(uncertainty.DegreesOfFreedom(column), kIntervalLevel);
       const double deviation = uncertainty.Deviation(column++);

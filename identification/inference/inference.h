@@ -27,7 +27,6 @@ struct ParameterInterval {
   double value = 0;  // of the fit, or shifted by the bias that the verdict found
   std::optional<double> std;
   std::optional<std::array<double, 2>> interval95;
-  double widened = 0;  // by which each end of the interval lies farther out than by noise alone
   std::vector<WidthPart> parts{};  // which add up to the half width
 
   double HalfWidth() const { return interval95 ? 0.5 * ((*interval95)[1] - (*interval95)[0]) : 0; }

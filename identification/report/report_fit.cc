@@ -36,9 +36,9 @@ Eigen::Vector2d EndAlong(const LogSamples& m, const Friction& friction, const Th
 
 /// Errors of figures.
 struct FigureErrors {
-  Eigen::MatrixXd covariance;  // [q x q] by noise
-  Eigen::VectorXd widened;     // [q] by how much the verdict widens their intervals
-  bool has_intervals = true;   // whether every parameter that matters has an interval
+  Eigen::MatrixXd covariance;           // [q x q] by noise
+  std::vector<FigureChange> by_causes;  // [q]
+  bool has_intervals = true;            // whether every parameter that matters has an interval
 };
 
 /// An estimated row of the table: its place there, among the estimated ones, and among those of its role.
@@ -102,8 +102,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 /// The errors of figures from the covariance of the parameters, to first order. slopes: [q x p], over the coordinates.
 FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
                             const Eigen::MatrixXd& slopes) {
-  FigureErrors errors{slopes * inference.uncertainty.covariance * slopes.transpose(),
-                      Eigen::VectorXd::Zero(slopes.rows()), true};
+  FigureErrors errors{slopes * inference.uncertainty.covariance * slopes.transpose(), {}, true};
   Eigen::MatrixXd by_value = Eigen::MatrixXd::Zero(slopes.rows(), std::ssize(inference.parameters));
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
     const ParameterInterval& estimated = inference.parameters[at.row];
@@ -113,7 +112,7 @@ FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
         slopes.col(at.column) / fit.parameters[at.row].ValueByCoordinate(estimated.value);
   }
   for (Eigen::Index i = 0; i < by_value.rows(); ++i) {
-    errors.widened[i] = ChangeOf(inference.causes, by_value.row(i), About::parameters).Reach();
+    errors.by_causes.push_back(ChangeOf(inference.causes, by_value.row(i), About::parameters));
   }
   return errors;
 }
@@ -132,16 +131,18 @@ Eigen::Matrix2d HeatCovariance(const Fit& fit, const Inference& inference, size_
   return inference.uncertainty.covariance(rows, rows);
 }
 
-void Move(double shift, double widened, EstimatedParameter& parameter) {
-  parameter.value += shift;
-  if (!parameter.interval95) return;
-  (*parameter.interval95)[0] += shift - widened;
-  (*parameter.interval95)[1] += shift + widened;
+/// Changes a figure, and its interval where it has one.
+void Move(const FigureChange& change, EstimatedParameter& figure) {
+  if (figure.interval95) {
+    Move(change, figure.value, *figure.interval95);
+  } else {
+    figure.value += change.shift;
+  }
 }
 
 /// thermal_gain_discrete (ke) and thermal_pole (te) for a sampling interval h (s). Their standard
 /// deviations follow those of (k, ln tau) to first order; the interval of te is that of ln tau, so
-/// that it stays between 0 and 1. Both intervals are widened as those of k and tau were. There are no
+/// that it stays between 0 and 1. Causes change both by their derivatives by k and tau. There are no
 /// intervals where k and tau have none.
 std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& inference, double h) {
   // k and tau as they were fitted, and the discrete pair of one sampling interval
@@ -172,14 +173,22 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
                         std::exp(-h / (fitted.time_constant * factor))}};
   }
 
-  // what the verdict changed
+  // what the causes change: to first order the intervals, exactly the values
   const Thermal now{known_gain.value, known_tau.value};
   const DiscreteThermal moved = Discretise(now, h);
-  // the widening of tau times dte/dtau = te h/tau^2 is that of te
-  const double pole_reach = moved.pole * h / std::pow(now.time_constant, 2) * known_tau.widened;
-  Move(moved.pole - discrete.pole, pole_reach, pole);
-  Move(moved.gain - discrete.gain,
-       (1 - moved.pole) * known_gain.widened + std::abs(now.gain) * pole_reach, gain);
+  const double pole_by_tau = moved.pole * h / std::pow(now.time_constant, 2);
+  const auto rows = std::ssize(inference.parameters);
+  const Eigen::VectorXd of_gain = Eigen::VectorXd::Unit(rows, static_cast<Eigen::Index>(gain_row)),
+                        of_tau = Eigen::VectorXd::Unit(rows, static_cast<Eigen::Index>(tau_row));
+  const auto change = [&](const Eigen::VectorXd& derivatives, double shift) {
+    FigureChange one = ChangeOf(inference.causes, derivatives, About::parameters);
+    one.shift = shift;
+    return one;
+  };
+  Move(change(pole_by_tau * of_tau, moved.pole - discrete.pole), pole);
+  Move(change((1 - moved.pole) * of_gain - now.gain * pole_by_tau * of_tau,
+              moved.gain - discrete.gain),
+       gain);
   return {gain, pole};
 }
 
@@ -258,10 +267,7 @@ void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double&
            std::array<double, 2>& interval) {
   Eigen::VectorXd derivatives = Eigen::VectorXd::Zero(std::ssize(inference.parameters));
   derivatives.head(by_law.size()) = by_law;
-  const FigureChange change = ChangeOf(inference.causes, derivatives, About::friction);
-  const double shift = change.shift, reach = change.Reach();
-  value += shift;
-  interval = {interval[0] + shift - reach, interval[1] + shift + reach};
+  Move(ChangeOf(inference.causes, derivatives, About::friction), value, interval);
 }
 
 /// Bands along maps, by the law that is reported.
@@ -312,8 +318,12 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
     const bool has_interval = fit.end_energy_std ? HasIntervals(inference) : errors.has_intervals;
     if (has_interval && std::isfinite(deviation)) {
       one.std = deviation;
-      const double half = reach * deviation + errors.widened[stage];
+      const double half = reach * deviation;
       one.interval95 = {{end[stage] - half, end[stage] + half}};
+      // the value follows the changed parameters already
+      FigureChange change = errors.by_causes[stage];
+      change.shift = 0;
+      Move(change, one.value, *one.interval95);
     }
     state.push_back(std::move(one));
   }

@@ -21,7 +21,7 @@ Inference ByNoise() {
   Inference inference;
   inference.message = "fitted";
   inference.gives_friction = true;
-  inference.parameters = {{5, 0.5, {{4, 6}}, 0}, {15, 1, {{13, 17}}, 0}};
+  inference.parameters = {{5, 0.5, {{4, 6}}}, {15, 1, {{13, 17}}}};
   return inference;
 }
 
@@ -51,7 +51,7 @@ TEST(Apply, AddsUpWhatRowsDo) {
   EXPECT_DOUBLE_EQ((*answer.parameters[0].interval95)[1], 6 + 0.25 + 1);
   // 1 and 1, and 1.96 of what findings scatter
   EXPECT_DOUBLE_EQ((*answer.parameters[1].interval95)[0], 13 - 3.96);
-  EXPECT_DOUBLE_EQ(answer.parameters[1].widened, 3.96);
+  EXPECT_DOUBLE_EQ((*answer.parameters[1].interval95)[1], 17 + 3.96);
 }
 
 TEST(Apply, CountsTheWorstOfTheRowsOfOneSource) {
@@ -174,7 +174,7 @@ struct Judged {
     fit.parameters = LawParameters(*FindLaw(law), x, {});
     inference.message = "fitted";
     for (const double value : values) {
-      inference.parameters.push_back({value, 0.05, {{value - 0.1, value + 0.1}}, 0});
+      inference.parameters.push_back({value, 0.05, {{value - 0.1, value + 0.1}}});
     }
   }
 
