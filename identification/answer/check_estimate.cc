@@ -26,9 +26,10 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   fit.friction = *estimate.friction;
   fit.gravity = estimate.gravity;
 
-  // the rows that a fit of that law would have
+  // the rows that a fit of that law would have, of which that of the load needs a load
   std::vector<double> values = LawValues(fit.friction);
-  if (estimate.Find(NameOf(Role::load))) values.push_back(fit.friction.load_gain);
+  const bool carries = m.load || estimate.gravity;
+  if (carries && estimate.Find(NameOf(Role::load))) values.push_back(fit.friction.load_gain);
   const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
 
@@ -146,8 +147,7 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
     return;
   }
   const Fit fit = FitOf(estimate, given.measurements);
-  const auto followed =
-      Followed(given.measurements, given.selection, {fit.friction, fit.gravity, {}});
+  const auto followed = Followed(given.measurements, given.selection, PartsOf(fit));
   const IdentifierInput input = followed ? given.On(*followed) : given;
   const Inference claimed = InferenceOf(estimate, fit);
   // the lack of fit of the law, and whether the same law with other parameters could follow the log better

@@ -205,8 +205,7 @@ std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierIn
 
 /// The motion that a fit's torque follows, where that is not the input's.
 std::optional<LogView> FollowedOf(const Fit& fit, const IdentifierInput& input) {
-  return Followed(input.measurements, input.selection,
-                  {fit.friction, fit.gravity, fit.torque_delay});
+  return Followed(input.measurements, input.selection, PartsOf(fit));
 }
 
 /// The causes that log and fit give, and the tests as data. Enters the friction at speeds with its intervals by noise.

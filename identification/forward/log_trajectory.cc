@@ -21,14 +21,19 @@ JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle) {
   return trajectory;
 }
 
+FollowedBy PartsOf(const Fit& fit) {
+  const bool grows = fit.RowOf(Role::load) && fit.gravity;
+  return {grows ? &*fit.gravity : nullptr, fit.torque_delay};
+}
+
 std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked,
                                 const FollowedBy& model) {
   const bool is_late = model.delay && logged.acceleration;
-  const bool is_loaded = model.friction.load_gain != 0 && model.gravity && !logged.load;
+  const bool is_loaded = model.load && !logged.load;
   if (!is_late && !is_loaded) return std::nullopt;
   LogView view = is_late ? Delayed({logged, asked}, *model.delay) : LogView{logged, asked};
   LogSamples& m = view.measurements;
-  if (is_loaded) m.load = model.gravity->Torque(m.position);
+  if (is_loaded) m.load = model.load->Torque(m.position);
   return view;
 }
 

@@ -23,10 +23,13 @@ JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle = Brist
 
 /// The parts of a model that determine which motion its torque follows.
 struct FollowedBy {
-  const Friction& friction;
-  const std::optional<GravityModel>& gravity;
-  std::optional<double> delay{};  // s, by which the torque is late
+  const GravityModel* load = nullptr;  // gravity with which its friction grows; nullptr: with none
+  std::optional<double> delay{};       // s, by which the torque is late
 };
+
+/// The parts of a fit. Its friction grows with the load where the table has a row for that, whatever the value: derivatives by
+/// that row need the load of a gain of 0, too.
+FollowedBy PartsOf(const Fit& fit);
 
 /// The motion that a model's torque follows, where that is not the log's own: the earlier motion, where the torque is late
 /// relative to motion of any kind (Delayed), and under the load that its gravity gives, where friction grows with the load and

@@ -145,7 +145,8 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logged, Selection asked,
                                const ThermalStart& start) {
   // a torque that is late, or under a load that the log lacks
-  if (auto other = Followed(logged, asked, {model.friction, model.gravity, model.delay})) {
+  const bool grows = model.friction.load_gain != 0 && model.gravity;
+  if (auto other = Followed(logged, asked, {grows ? &*model.gravity : nullptr, model.delay})) {
     TorqueModel in_time = model;
     in_time.delay.reset();
     return PredictTorque(in_time, other->measurements, std::move(other->selection), start);

@@ -43,7 +43,7 @@ bool RisesFromRest(const Friction& friction) {
 
 /// F + G + M a of a fit along the motion of a log. [N] N.m or N
 Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
-  const auto followed = Followed(logged, fit.used, {fit.friction, fit.gravity, fit.torque_delay});
+  const auto followed = Followed(logged, fit.used, PartsOf(fit));
   return TorqueAlong(fit, followed ? followed->measurements : logged);
 }
 

@@ -1,6 +1,7 @@
 #include "identification/linear/linear_laws.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -68,6 +69,7 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
 Eigen::MatrixXd WithLoad(Eigen::MatrixXd of_law, PartFit load, const Eigen::VectorXd& velocity,
                          const std::optional<Eigen::VectorXd>& carried) {
   if (load == PartFit::none) return of_law;
+  assert(carried);
   of_law.conservativeResize(Eigen::NoChange, of_law.cols() + 1);
   of_law.rightCols(1) = carried->cwiseAbs().cwiseProduct(velocity.cwiseSign());
   return of_law;

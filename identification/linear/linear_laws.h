@@ -54,7 +54,8 @@ struct LoadOption {
   }
 };
 
-/// Columns of a law over samples, [N x d], and where it is estimated that of load_gain after them, |load| sign(v). carried: [N] load
+/// Columns of a law over samples, [N x d], and where it is estimated that of load_gain after them, |load| sign(v). carried: [N] load,
+/// without which load_gain cannot be estimated
 Eigen::MatrixXd WithLoad(Eigen::MatrixXd of_law, PartFit load, const Eigen::VectorXd& velocity,
                          const std::optional<Eigen::VectorXd>& carried);
 
