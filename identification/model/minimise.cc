@@ -79,6 +79,11 @@ VectorXd Within(const SquaresProblem& problem, const VectorXd& x) {
   return x.cwiseMax(problem.lower).cwiseMin(problem.upper);
 }
 
+/// Whether steps and their promises can be computed.
+bool IsFinite(const RowSums& sums) {
+  return std::isfinite(sums.squares) && sums.product.allFinite() && sums.gram.allFinite();
+}
+
 }  // namespace
 
 Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
@@ -88,7 +93,7 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
   Damping damping;
   bool stuck = false;
   for (int i = 0; i < problem.most_iterations && !found.converged && !stuck; ++i) {
-    if (!std::isfinite(found.sums.squares) || !found.sums.gram.allFinite()) break;
+    if (!IsFinite(found.sums)) break;
     found.converged = found.sums.squares <= problem.least;
     if (found.converged) break;
     found.at_bound = PushedOut(problem, x, found.sums.product);
@@ -102,12 +107,15 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
           Within(problem, x + StepOf(problem, x, found.sums, damping.share(), fixed));
       const VectorXd step = next - x;
       const double promised = step.dot(2 * found.sums.product - found.sums.gram * step);
+      // a step that is no number promises nothing, however much it is damped
+      stuck = !std::isfinite(promised);
+      if (stuck) break;
       RowSums there = problem.sums(next);
       // at a minimum no fall is predicted; where only damping makes the predicted fall that small, the squares do not fall as predicted
       const bool promises = std::abs(promised) > (damping.IsLight() ? rests : problem.rests);
       found.converged = !promises && damping.IsLight();
       stuck = !promises && !damping.IsLight();
-      fell = there.squares < found.sums.squares;
+      fell = there.squares < found.sums.squares && IsFinite(there);
       if (!fell) {
         damping.AfterRise();
         continue;

@@ -45,8 +45,8 @@ struct Minimum {
 };
 
 /// From x on by Gauss-Newton's steps, damped as Levenberg and Marquardt do (SIAM J. Appl. Math. 11, 1963) where one does not
-/// lower the squares. Unknowns at a bound that the squares push outwards stay there. It has not converged where the squares are
-/// not finite, or do not fall although the steps predict it.
+/// lower the squares. Unknowns at a bound that the squares push outwards stay there. It has not converged where squares,
+/// gram, product or step are not finite, or where the squares do not fall although the steps predict it.
 Minimum Minimise(const SquaresProblem& problem, Eigen::VectorXd x);
 
 }  // namespace warmjoint

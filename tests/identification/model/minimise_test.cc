@@ -1,0 +1,75 @@
+// The solver: what it does where squares, product or steps are no numbers.
+#include "identification/model/minimise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace warmjoint {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// (x - 3)^2 + (y + 1)^2, with what `spoil` makes of its sums.
+template <class Spoil>
+SquaresProblem Bowl(Spoil spoil) {
+  return {.sums = [=](const VectorXd& x) {
+    const VectorXd rest = Eigen::Vector2d(3, -1) - x;
+    RowSums sums{MatrixXd::Identity(2, 2), rest, rest.squaredNorm()};
+    spoil(x, sums);
+    return sums;
+  }};
+}
+
+TEST(Minimise, ArrivesWhereAllIsFinite) {
+  const Minimum found = Minimise(Bowl([](const VectorXd&, RowSums&) {}), VectorXd::Zero(2));
+  EXPECT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 3, 1e-9);
+}
+
+TEST(Minimise, HasNotConvergedOnWhatIsNoNumber) {
+  const auto ends = [](auto spoil) {
+    for (const double start : {0.0, 3.0}) {
+      SquaresProblem problem = Bowl(spoil);
+      EXPECT_FALSE(Minimise(problem, Eigen::Vector2d(start, -1)).converged) << start;
+      // nor where limits would make a number of a step that is none, or the squares are as small as rounding
+      problem.largest_step = VectorXd::Ones(2);
+      problem.lower = VectorXd::Constant(2, -10);
+      problem.upper = VectorXd::Constant(2, 10);
+      problem.least = 100;
+      EXPECT_FALSE(Minimise(problem, Eigen::Vector2d(start, -1)).converged) << start;
+    }
+  };
+  ends([](const VectorXd&, RowSums& sums) { sums.product[0] = kNaN; });
+  ends([](const VectorXd&, RowSums& sums) { sums.gram(1, 1) = kNaN; });
+  ends([](const VectorXd&, RowSums& sums) { sums.squares = kNaN; });
+}
+
+TEST(Minimise, TakesNoPointWithoutANumber) {
+  // the derivatives end at x = 2, the squares go on
+  const auto ends = [](const VectorXd& x, RowSums& sums) {
+    if (x[0] > 2) sums.product[0] = kNaN;
+  };
+  const Minimum found = Minimise(Bowl(ends), VectorXd::Zero(2));
+  EXPECT_FALSE(found.converged);
+  EXPECT_TRUE(found.x.allFinite());
+  EXPECT_TRUE(found.sums.product.allFinite());
+  EXPECT_LT(found.sums.squares, 10);
+}
+
+TEST(Minimise, EndsWhereAStepIsNoNumber) {
+  SquaresProblem problem = Bowl([](const VectorXd&, RowSums&) {});
+  problem.step = [](const MatrixXd&, const VectorXd&, const VectorXd&) {
+    return VectorXd::Constant(2, kNaN);
+  };
+  const Minimum found = Minimise(problem, VectorXd::Zero(2));
+  EXPECT_FALSE(found.converged);
+  EXPECT_EQ(found.x, VectorXd::Zero(2));
+}
+
+}  // namespace
+}  // namespace warmjoint
