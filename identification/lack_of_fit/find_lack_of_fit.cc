@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "identification/lack_of_fit/examine.h"
@@ -36,7 +37,8 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
       one.reason = finding.reason;
       continue;
     }
-    one.statistic = ZOf(finding.p);
+    // of a p below all numbers: that of the smallest, so that a file holds a number
+    one.statistic = ZOf(std::max(finding.p, std::numeric_limits<double>::min()));
     one.p = finding.p;
     one.p_adjusted = finding.p_adjusted;
     one.rejected = finding.rejected;

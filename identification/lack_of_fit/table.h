@@ -53,10 +53,14 @@ enum class Impact { of_moves, of_effect, of_effect_twice, of_direction, of_eithe
 /// The quantity over which residuals show what a test looks for.
 enum class SeenOver { time, position, velocity, energy, motor_angle };
 
-/// One row of the table.
+/// One row of the table. It has features, or is made at samples.
 struct LackOfFitTest {
   std::string_view name;  // in estimate.json
   TestWords words;
+  /// What the residual depends on, in a message. A reference, as is `remedy`, so that no row goes without.
+  std::string (&quantity)(const Finding& finding, const LogSamples& measurements);
+  /// The law, identifier or recording that helps; it names only what exists.
+  Remedy (&remedy)(const Advice& advice);
   Stage stage = Stage::first;
   HeatRelation warming = HeatRelation::independent;
   Impact harm = Impact::of_moves;
@@ -65,10 +69,6 @@ struct LackOfFitTest {
   /// at samples: none.
   Features (*features)(const Bins& bins, const Circumstances& circumstances,
                        const GrowingFit& fit) = nullptr;
-  /// What the residual depends on, in a message.
-  std::string (*quantity)(const Finding& finding, const LogSamples& measurements) = nullptr;
-  /// The law, identifier or recording that helps; it names only what exists.
-  Remedy (*remedy)(const Advice& advice) = nullptr;
   /// The finding of a test that looks at samples (lag.h, ripple.h); nothing where it is not made.
   /// residual: [N] tau - F; what is found is subtracted from it.
   std::optional<Finding> (*at_samples)(const LackOfFitTest& test, const FittedModel& model,
