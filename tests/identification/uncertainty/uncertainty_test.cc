@@ -178,6 +178,21 @@ TEST(NoiseModel, TakesWhiteNoiseForWhite) {
   EXPECT_GE(white, 92);
 }
 
+TEST(NoiseModel, ScattersWhiteNoiseWithoutColour) {
+  // by blocks of rows, of samples with a gap
+  Selection selection = Keep(700, 0);
+  selection.keep.segment(100, 50) = false;
+  const Eigen::Index n = selection.count();
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, 3);
+  NoiseModel white;
+  white.variance = white.innovation = 0.7;
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
+    return A.middleRows(first, last - first);
+  };
+  const Eigen::MatrixXd expected = 0.7 * A.transpose() * A;
+  EXPECT_TRUE(ScatterThrough(white, rows, 3, selection).isApprox(expected, 1e-12));
+}
+
 TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
   for (Eigen::Index gap : {0, 300}) {
     const Selection selection = Keep(20000, gap);
