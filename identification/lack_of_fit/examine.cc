@@ -261,8 +261,18 @@ BoundedMoves Bounded(const Finding& finding, const FrictionChange& change,
 void SumBiases(const OverBins& over, Examination& examination) {
   if (examination.Found().empty()) return;
   const FrictionChange change(over, examination.friction);
+  double drifts = 0;  // share of the friction
   for (Finding& finding : examination.findings) {
-    if (finding.rejected) finding.harm = HarmOf(finding, change, examination);
+    if (!finding.rejected) continue;
+    finding.harm = HarmOf(finding, change, examination);
+    if (finding.test->harm != Impact::of_drift) continue;
+    drifts = std::hypot(drifts, MostChange(finding, change, examination));
+  }
+  // where the law has no heat, what is open of a drift changes the friction by no more than what was found of it may; with heat
+  // that has no limit, since the warming may have taken up the rest
+  for (Cause& open : examination.causes) {
+    if (open.source != Source::open_drift || drifts == 0) continue;
+    open.bias *= std::min(1.0, drifts / change.By(open.bias));
   }
   const Index p = std::ssize(examination.rows);
   for (const About about : {About::parameters, About::friction}) {
