@@ -22,8 +22,13 @@ namespace {
 
 constexpr double kLargest = 1e30;       // of any value; beyond it squares and products overflow
 constexpr double kShortestStep = 1e-9;  // s, on average
-constexpr double kFast =
-    30;  // rad/s on average: no joint of a robot turns so fast, in degrees many do
+// rad; why: a joint with stops turns twice each way, 25 rad from one end to the other, and in degrees a stroke of 1.75 rad is longer
+constexpr double kFar = 100;
+// rad/s; why: the fastest joints of robots reach 1,200 deg/s, 21 rad/s, and in degrees 1.05 rad/s, which most reach, is faster
+constexpr double kFast = 60;
+constexpr double kSpan = 0.1;        // s; why: noise of a position would have to be that of 6 rad
+constexpr double kMostOften = 0.98;  // of the spans; why: a few spikes of a sensor are no motion
+constexpr double kTurnsBack = 0.01;  // of the range; why: noise is less, a stroke is more
 
 constexpr const char* kOfVoltage =
     "torque is a voltage, which drives the motor against its back-EMF, too: viscous holds that";
@@ -72,18 +77,49 @@ void CheckTime(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
       step);
 }
 
-/// Says that a joint turns as one does whose degrees were taken for radians.
-void NoteSpeed(Measurements& measurements) {
-  const Eigen::VectorXd &time = measurements.time, &position = measurements.position;
-  const Eigen::Index n = time.size();
-  const double travelled = (position.tail(n - 1) - position.head(n - 1)).cwiseAbs().sum();
-  const double speed = travelled / (time[n - 1] - time[0]);
-  if (speed <= kFast) return;
+/// The longest way in one direction, rad: a stroke ends where the joint turns back by kTurnsBack of its range.
+double LongestStroke(const Eigen::VectorXd& position) {
+  const double back = kTurnsBack * (position.maxCoeff() - position.minCoeff());
+  double longest = 0;
+  // both directions: forwards from the lowest place since the last turn, and backwards from the highest
+  for (const double sign : {1.0, -1.0}) {
+    double start = sign * position[0], end = start;
+    for (const double p : position) {
+      const double at = sign * p;
+      if (at < end - back || at < start) start = end = at;
+      end = std::max(end, at);
+      longest = std::max(longest, end - start);
+    }
+  }
+  return longest;
+}
+
+/// The speed that nearly all spans of kSpan, or of one sample where that is longer, stay below, rad/s.
+double FastestTurning(const Eigen::VectorXd& time, const Eigen::VectorXd& position) {
+  const auto samples = static_cast<Eigen::Index>(kSpan / MedianStep(time));
+  const Eigen::Index count = time.size() - std::clamp<Eigen::Index>(samples, 1, time.size() - 1);
+  Eigen::VectorXd speeds = (position.tail(count) - position.head(count)).cwiseAbs();
+  speeds.array() /= (time.tail(count) - time.head(count)).array();
+  return QuantileInPlace(speeds, kMostOften);
+}
+
+/// Asks for the unit where a joint moves as one does whose degrees were taken for radians, unless somebody says the unit of
+/// `column`, from which its positions come, or the gear of a motor, which may move so.
+void AskForAngles(const ColumnSource& column, const ReadSettings& layout,
+                  Measurements& measurements) {
+  const auto scale = layout.scale.find(column.column->name);
+  const bool is_scaled = scale != layout.scale.end() && std::abs(scale->second) != 1;
+  const bool is_said = column.unit_from != UnitFrom::nobody || is_scaled || measurements.gear != 1;
+  if (is_said || layout.joint != JointKind::rotary) return;
+  const double stroke = LongestStroke(measurements.position);
+  const double fastest = FastestTurning(measurements.time, measurements.position);
+  if (stroke <= kFar && fastest <= kFast) return;
   AddDoubt(
-      fmt::format(
-          "the joint turns at {:.4g} rev/min on average; if positions are in degrees give --unit "
-          "position=deg,velocity=deg/s",
-          speed * 30 / std::numbers::pi),
+      fmt::format("the joint travels {:.4g} rad in one direction and turns at {:.4g} rev/min, and "
+                  "no unit is given: "
+                  "if these are degrees give --unit position=deg,velocity=deg/s, else "
+                  "--unit position=rad or --gear",
+                  stroke, fastest * 30 / std::numbers::pi),
       measurements);
 }
 
@@ -325,11 +361,11 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
   }
   if (measurements.position.size() == 0) {
     IntegrateVelocity(measurements);
-    return measurements;
+  } else {
+    Unwrap(range, measurements);
   }
-  Unwrap(range, measurements);
-  const bool is_usual = SourceOf(raw, "position")->unit_from == UnitFrom::nobody;
-  if (is_usual && layout.joint == JointKind::rotary) NoteSpeed(measurements);
+  const char* const of_motion = measurements.position_integrated ? "velocity" : "position";
+  AskForAngles(*SourceOf(raw, of_motion), layout, measurements);
   return measurements;
 }
 

@@ -128,6 +128,7 @@ const std::vector<Unit>& Units() {
       {"counts", "m"},
       // speed
       {"rad/s", "rad/s"},
+      {"mrad/s", "rad/s", 1e-3},
       {"deg/s", "rad/s", turn / 360},
       {"turn/s", "rad/s", turn},
       {"rpm", "rad/s", turn / 60},
