@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "identification/preparation/position_noise.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 constexpr Index kFewSamples = 4;  // samples; why 4: a middle, and neighbours to each side of it
 constexpr Index kEnoughStretches =
@@ -22,18 +24,41 @@ constexpr double kOneSided =
 constexpr double kOfTheTypical = 0.01;  // of a change; why: less is a creep at rest
 // why: longer stretches leave out the samples around turning points
 constexpr double kNearlyAll = 0.8;
+constexpr double kTurn = 2 * std::numbers::pi, kSlack = 1e-3 * kTurn;  // rad
+constexpr double kHidden =
+    kTurn / 8;  // rad; why: half of the median of what chance leaves of whole turns
+
+/// Samples within whose step the velocity passes half a turn. [N]
+SampleMask PassesHalfATurn(const Measurements& m) {
+  SampleMask passes = SampleMask::Constant(m.size(), false);
+  const Index n = m.size() - 1;
+  const VectorXd steps = m.time.tail(n) - m.time.head(n);
+  passes.tail(n) = m.velocity.tail(n).array().abs() * steps.array() > kTurn / 2;
+  return passes;
+}
+
+/// Whether a sensor that starts its turn again may hide turns within these steps: then the positions change as the velocity says, but
+/// for whole turns, or anyhow. A velocity in another unit passes half a turn as well, while the positions change little.
+bool MayHideTurns(const Measurements& m, const SampleMask& passes) {
+  const bool one_turn = m.position.maxCoeff() - m.position.minCoeff() <= kTurn + kSlack;
+  if (m.joint != JointKind::rotary || !one_turn || !passes.any()) return false;
+  VectorXd moved = VectorXd::Zero(m.size()), left = moved;
+  for (Index i = 1; i < m.size(); ++i) {
+    const double way = 0.5 * (m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
+    moved[i] = std::abs(m.position[i] - m.position[i - 1]);
+    left[i] = std::abs(std::remainder(way - (m.position[i] - m.position[i - 1]), kTurn));
+  }
+  return MedianOf(Chosen(moved, passes)) > kHidden || MedianOf(Chosen(left, passes)) < kHidden;
+}
 
 /// The pieces of a log between its gaps, and between steps within which a sensor that starts its turn again may hide turns.
 std::vector<SampleRange> UnbrokenPieces(const Measurements& m) {
-  constexpr double turn = 2 * std::numbers::pi, slack = 1e-3 * turn;  // rad
   const double longest = LongestStep(m.time);
-  const bool one_turn =
-      m.joint == JointKind::rotary && m.position.maxCoeff() - m.position.minCoeff() <= turn + slack;
+  const SampleMask passes = PassesHalfATurn(m);
+  const bool hides = MayHideTurns(m, passes);
   std::vector<Index> starts;
   for (Index i = 1; i < m.size(); ++i) {
-    const double step = m.time[i] - m.time[i - 1];
-    const bool is_hidden = one_turn && std::abs(m.velocity[i]) * step > turn / 2;
-    if (step > longest || is_hidden) starts.push_back(i);
+    if (m.time[i] - m.time[i - 1] > longest || (hides && passes[i])) starts.push_back(i);
   }
   return CutAt(starts, m.size());
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,13 +29,20 @@ constexpr double kMostChange =
     3;  // why: fast stretches determine a factor best, but a few that are wrong must not decide
 constexpr std::size_t kRow = 3;       // stretches; why: a turn spoils one or two
 constexpr double kSameFactor = 0.03;  // between a ratio and the factor of a unit
-constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
+constexpr double kMostRounded =
+    0.1;  // of a factor; why: coarser columns are in no unit that could be named
+constexpr double kNormal = 0.6745;  // why: median |z| of a standard normal
+constexpr double kWhole = 0.05;     // of a step; why: as Resolution allows
+constexpr double kFewSteps = 2;     // why: the error of a step is half or more of what shows fewer
+constexpr double kRoundsDown = 1,
+                 kRoundsUp = 0.5;  // steps; why: the most that cutting off and rounding change
 
 /// Velocity over change of position along stretches.
 struct Factor {
   double times = 1;                       // where the velocity does not change
   double error = 0;                       // standard error
   double allowed = 0;                     // error that a correct column may have
+  double rounded = 0;                     // share of itself that rounding to steps may change
   double by_column = 0, by_position = 0;  // median velocities, rad/s or m/s
   std::vector<Stretch> others;            // three or more in a row with another factor
 
@@ -65,6 +73,37 @@ double Integral(const Measurements& m, const Stretch& one) {
     integral += 0.5 * (m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
   }
   return integral;
+}
+
+/// Step of a column of whole steps, in its own unit, by all of its values; 0 of any other: exact speeds may differ by multiples of one
+/// that they are none of.
+double WholeStep(VectorXd velocity) {
+  std::ranges::sort(velocity);
+  const double step = Resolution(velocity);
+  if (step == 0) return 0;
+  const ArrayXd counts = velocity.array() / step;
+  return ((counts - counts.round()).abs() <= kWhole).all() ? step : 0;
+}
+
+/// Whether a right column may say this of a stretch because it comes in steps: it shows fewer than kFewSteps, and the position
+/// changes by no more than one step less or more. Both are counted in steps of the column.
+bool IsHiddenByStep(const Measurements& m, const Stretch& one, double step) {
+  const double one_step = std::copysign(step * one.duration, one.change);
+  const double shown = Integral(m, one) / one_step, moved = one.change / one_step;
+  return shown < kFewSteps && shown > moved - kRoundsDown && shown < moved + kRoundsUp;
+}
+
+/// Share of the rows that are 0 among those between others, over stretches in which the joint moves.
+double ShareOfZeros(const Measurements& m, const std::vector<Stretch>& stretches) {
+  Index zeros = 0, rows = 0;
+  for (const Stretch& one : stretches) {
+    Index first = one.first, last = one.last;
+    while (first < last && m.velocity[first] == 0) ++first;
+    while (last > first && m.velocity[last] == 0) --last;
+    zeros += (m.velocity.segment(first, last - first).array() == 0).count();
+    rows += last - first;
+  }
+  return rows > 0 ? static_cast<double>(zeros) / static_cast<double>(rows) : 0;
 }
 
 /// The error of a ratio by a jump of speed within a step, half of the largest change of velocity times the step over
@@ -104,8 +143,8 @@ double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
 /// position: `times` from the half of the stretches with the least bend, c from the others. A filter
 /// with that c passes (c bend)^2 less, a delay half of it, and trapezoids of a step h have an error of
 /// (h bend)^2 / 12. A column in coarse steps may have an error of one step, as far as the
-/// ratios scatter by it.
-Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
+/// ratios scatter by it. whole_step: WholeStep
+Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches, double whole_step) {
   const auto n = static_cast<Index>(stretches.size());
   ArrayXd integral(n), change(n), bend(n), duration(n), unsure(n);
   for (Index k = 0; k < n; ++k) {
@@ -135,43 +174,83 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   // the error of a correct column by a lag, long steps and coarse values
   const SampleMask bent = bend.abs() >= typical && bend != 0;
   const double lag = MedianOf(Chosen((ratio - factor.times) / bend, bent));
+  // how much a right column bends, where this one is in a larger unit
+  const double bends = typical / std::max(1.0, std::abs(factor.times));
   const double step = MedianStep(m.time);
   const double coarse = MedianOf(Resolution(m.velocity) * duration / change.abs());
-  factor.allowed = (lag * lag + step * step / 12) * typical * typical +
+  factor.rounded = std::min(kMostRounded, MedianOf(0.5 * whole_step * duration / integral.abs()));
+  factor.allowed = (lag * lag + step * step / 12) * typical * bends +
                    std::min(coarse, kCertain * scatter) + MedianOf(unsure) +
                    Staleness(m, stretches);
   return factor;
 }
 
-/// The unit that explains a velocity of `times` the change of position over time, as a question.
-std::string Suspect(const Measurements& m, double times) {
+/// The units that explain a velocity of so many times the change of position over time, as questions. tolerance: of that factor
+std::vector<std::string> UnitsNear(const Measurements& m, double times, double tolerance) {
   const auto is_near = [&](double factor) {
-    return std::abs(std::abs(times) / factor - 1) < kSameFactor;
+    return std::abs(std::abs(times) / factor - 1) < tolerance;
   };
-  if (is_near(1)) return "has it the wrong sign (--scale velocity=-1)";
   const bool rotary = m.joint == JointKind::rotary;
+  std::vector<std::string> questions;
   // velocity, position or time may be in another unit of the table
   for (const Unit& unit : Units()) {
     if (unit.factor == 1) continue;
     const std::string_view name = unit.name;
     if (unit.base == (rotary ? "rad/s" : "m/s") && is_near(1 / unit.factor)) {
-      return fmt::format("is it in {} (--unit velocity={})", name, name);
+      questions.push_back(fmt::format("is it in {} (--unit velocity={})", name, name));
     }
     if (unit.base == (rotary ? "rad" : "m") && is_near(unit.factor)) {
-      return fmt::format("is the position in {} (--unit position={})", name, name);
+      questions.push_back(fmt::format("is the position in {} (--unit position={})", name, name));
     }
     if (unit.base == "s" && is_near(1 / unit.factor)) {
-      return fmt::format("is time in {} (--unit time={})", name, name);
+      questions.push_back(fmt::format("is time in {} (--unit time={})", name, name));
     }
   }
-  const std::string scale = fmt::format("--scale velocity={:.4g}", 1 / times);
-  if (m.gear != 1 && is_near(std::abs(m.gear)))
-    return fmt::format("is it that of the motor ({})", scale);
+  if (m.gear != 1 && is_near(std::abs(m.gear))) {
+    questions.push_back(
+        fmt::format("is it that of the motor (--scale velocity={:.4g})", 1 / m.gear));
+  }
+  return questions;
+}
+
+/// What may explain a velocity of so many times the change of position over time, as a question. times: other than 1; rounded: share
+/// of it that rounding may change
+std::string Suspect(const Measurements& m, double times, double rounded) {
+  if (std::abs(times + 1) < kSameFactor) return "has it the wrong sign (--scale velocity=-1)";
+  std::vector<std::string> questions = UnitsNear(m, times, kSameFactor);
+  // a column of few steps may be in a unit that its factor misses, or in none
+  if (questions.empty()) {
+    questions = UnitsNear(m, times, kSameFactor + rounded);
+    questions.push_back(
+        fmt::format("is it that of the motor, or scaled (--scale velocity={:.4g}), are other units "
+                    "wrong (--unit position=..., time=...), or is the clock (--scale time={:.4g})",
+                    1 / times, times));
+  }
+  return fmt::format("{}", fmt::join(questions, ", or "));
+}
+
+/// The sentence about a velocity that is off throughout. remedy: where no factor explains it
+std::string ExplainFactor(const Measurements& m, const std::vector<Stretch>& stretches,
+                          const Factor& factor, std::string_view remedy) {
+  if (factor.times == 0) {
+    return fmt::format("velocity is 0 where the positions change (along {} stretches): {}",
+                       stretches.size(), remedy);
+  }
+  // rows that hold no velocity, and what the others say
+  const double zeros = ShareOfZeros(m, stretches), others = factor.times / (1 - zeros);
+  if (zeros > kTolerance) {
+    const bool is_right = std::abs(others - 1) <= kTolerance + factor.allowed;
+    return fmt::format(
+        "velocity is 0 in {:.0f} % of the rows at which the positions change, and {:.4g} times "
+        "their change over time in the others{}; {}",
+        100 * zeros, others,
+        is_right ? "" : fmt::format(": {}?", Suspect(m, others, factor.rounded)), remedy);
+  }
   return fmt::format(
-      "are the units right (--unit velocity=..., position=..., time=...), or is the velocity "
-      "scaled ({}) or the clock "
-      "(--scale time={:.4g})",
-      scale, times);
+      "velocity is {:.4g} times the change of position over time (along {} stretches, at least "
+      "{:.0f} % apart), so that one of the two is off: {}? Else {}",
+      factor.times, stretches.size(), 100 * kTolerance, Suspect(m, factor.times, factor.rounded),
+      remedy);
 }
 
 }  // namespace
@@ -180,9 +259,10 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
                                                    const Selection&) {
   // a column in coarse steps does not show speeds of a step or two
   std::vector<Stretch> all = FindStretches(measurements);
-  const double least = 2 * Resolution(measurements.velocity);
-  std::erase_if(all,
-                [&](const Stretch& one) { return std::abs(one.change) < least * one.duration; });
+  const double step = WholeStep(measurements.velocity);
+  if (step > 0) {
+    std::erase_if(all, [&](const Stretch& one) { return IsHiddenByStep(measurements, one, step); });
+  }
   if (all.size() < kFewest) return std::nullopt;
   std::vector<Stretch> forwards, backwards;
   for (const Stretch& one : all) (one.change > 0 ? forwards : backwards).push_back(one);
@@ -192,7 +272,8 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
 
   // one direction may be wrong by itself
   if (std::min(forwards.size(), backwards.size()) >= kFewest) {
-    const Factor ahead = FactorOf(measurements, forwards), back = FactorOf(measurements, backwards);
+    const Factor ahead = FactorOf(measurements, forwards, step),
+                 back = FactorOf(measurements, backwards, step);
     const bool is_ahead = ahead.IsOff(kOneDirection);
     const Factor& off = is_ahead ? ahead : back;
     const bool lost = std::abs(ahead.times + back.times) < kOneDirection * std::abs(off.times);
@@ -209,13 +290,8 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
   }
 
   // both by the same factor, or a part of the log
-  const Factor both = FactorOf(measurements, all);
-  if (both.IsOff(kTolerance)) {
-    return fmt::format(
-        "velocity is {:.4g} times the change of position over time (along {} stretches, at least "
-        "{:.0f} % apart), so that one of the two is off: {}? Else {}",
-        both.times, all.size(), 100 * kTolerance, Suspect(measurements, both.times), remedy);
-  }
+  const Factor both = FactorOf(measurements, all, step);
+  if (both.IsOff(kTolerance)) return ExplainFactor(measurements, all, both, remedy);
   if (both.others.empty()) return std::nullopt;
   const Stretch& typical = both.others[both.others.size() / 2];
   return fmt::format(
