@@ -18,11 +18,11 @@ std::string ExplainTradeOff(std::string_view known) {
 
 }  // namespace
 
-std::string ExplainColdStart(const MovedParameter& moved, double begins, std::string_view remedy) {
+std::string ExplainColdStart(const MovedParameter& moved, std::optional<double> begins,
+                             std::string_view remedy) {
   const std::string clock =
-      begins == 0
-          ? ""
-          : fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", begins);
+      begins ? fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", *begins)
+             : "";
   return fmt::format(
       "this assumes a cold start{}: had the joint been 10 % warmed up, {} would be {:.2g} {} {}; "
       "{}",

@@ -4,6 +4,7 @@
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,10 @@ inline constexpr const char* kOthersBeginCold =
 /// The clause about a start that is not known.
 inline constexpr const char* kCoversWarmStart =
     "the intervals also cover a start at a tenth of the warmth that the joint reaches";
-/// The sentence about a start that was taken to be cold: what a warm one would change. begins: first time of the log, s
-std::string ExplainColdStart(const MovedParameter& moved, double begins, std::string_view remedy);
+/// The sentence about a start that was taken to be cold: what a warm one would change. begins: first time of a log whose clock ran
+/// before, s
+std::string ExplainColdStart(const MovedParameter& moved, std::optional<double> begins,
+                             std::string_view remedy);
 /// The sentence about a log that contradicts the expected E(0). All in N.m or N; deviation: the standard deviation of the expectation
 std::string ExplainUnexpectedStart(double found, double expected, double deviation);
 
