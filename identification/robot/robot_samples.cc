@@ -117,7 +117,8 @@ RobotSamples PrepareRobot(const RobotMotionLog& log, const MatrixXd& coupling,
     const double bend = std::max(kSlowShare * samples.top[j], 1e-12);
     const VectorXd slow = (-(u / bend).array().square()).exp() * (forwards - backwards).array();
     samples.slow.col(j) = low_pass.Of(slow)(thin);
-    const auto moving = (u.array().abs() > std::max(kAtRest * samples.top[j], 1e-9)) && log.logged;
+    const auto moving =
+        (u.array().abs() > std::max(kAtRest * samples.top[j], 1e-9)) && log.logged.col(j);
     samples.keep.col(j) = AllWithin(moving, static_cast<Index>(rate / filter.cutoff))(thin);
 
     MatrixXd& ripple = samples.ripple.emplace_back(count, gears[j] != 0 ? 4 * filter.harmonics : 0);

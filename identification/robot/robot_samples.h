@@ -33,11 +33,11 @@ struct RobotSamples {
 
 /// A recording with even steps of time.
 struct RobotMotionLog {
-  double step = 0;                               // s
-  Eigen::VectorXd time;                          // [M]
-  Eigen::MatrixXd position;                      // [M x n] of the joints, rad or m
-  Eigen::MatrixXd torque;                        // [M x n] of the motors
-  Eigen::Array<bool, Eigen::Dynamic, 1> logged;  // [M]
+  double step = 0;                                            // s
+  Eigen::VectorXd time;                                       // [M]
+  Eigen::MatrixXd position;                                   // [M x n] of the joints, rad or m
+  Eigen::MatrixXd torque;                                     // [M x n] of the motors
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> logged;  // [M x n]
 };
 
 /// coupling: [n x n] C, the motors turn by C q. gears: [n] motor turns for each turn of what it drives; 0: no ripple is looked for.

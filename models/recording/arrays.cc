@@ -46,7 +46,7 @@ std::string Listing(const std::vector<FileObject>& objects, const Place& place) 
 }  // namespace
 
 FileContent TakeColumns(FileContent content, const std::vector<FileObject>& objects,
-                        const ReadSettings& layout, const Place& place) {
+                        const WantedColumns& wanted, const Place& place) {
   std::set<Index> lengths;  // of vectors
   for (const FileObject& object : objects) {
     const auto dimensions = LongDimensions(object);
@@ -74,11 +74,9 @@ FileContent TakeColumns(FileContent content, const std::vector<FileObject>& obje
   }
 
   // values of those that are asked for
-  const ReadSettings asked = WithClock(content.columns, WithJointOf(content, layout), place);
-  for (const ColumnSource& source :
-       FindColumns(content.columns, asked, place, Listing(objects, place))) {
-    const auto& [object, column] = arrays[source.index];
-    FileColumn& into = content.columns[source.index];
+  for (const WantedColumn& one : wanted(content, place, Listing(objects, place))) {
+    const auto& [object, column] = arrays[one.index];
+    FileColumn& into = content.columns[one.index];
     if (column.count > kMostSamples) {
       Refuse(place, "{} states {} samples; {} at most are read", Excerpt(into.name), column.count,
              kMostSamples);

@@ -29,10 +29,10 @@ struct FileObject {
   std::string unit{};  // as the file says; empty where it does not
 };
 
-/// Reads the columns that the layout asks for, and these alone, into what the file says of itself. A column's name is the path
+/// Reads the columns that are wanted, and these alone, into what the file says of itself. A column's name is the path
 /// of a vector (N, N x 1, 1 x N), or "path[3]" of a matrix, counted from 0. A matrix is N x k or k x N by the length of a vector
 /// of the file, else by the larger. Throws BadInput where a column is not there, with all that is, and where one is damaged.
 FileContent TakeColumns(FileContent content, const std::vector<FileObject>& objects,
-                        const ReadSettings& layout, const Place& place);
+                        const WantedColumns& wanted, const Place& place);
 
 }  // namespace warmjoint

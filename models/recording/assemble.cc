@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -30,8 +31,16 @@ constexpr double kSpan = 0.1;        // s; why: noise of a position would have t
 constexpr double kMostOften = 0.98;  // of the spans; why: a few spikes of a sensor are no motion
 constexpr double kTurnsBack = 0.01;  // of the range; why: noise is less, a stroke is more
 
+constexpr const char* kOfStamps =
+    ", and no stamp as 2024-03-01T12:00:00.5, 12:00:00.5 or '0.5 s'; give one of these, or --rate "
+    "HZ";
 constexpr const char* kOfVoltage =
     "torque is a voltage, which drives the motor against its back-EMF, too: viscous holds that";
+
+/// What messages call a column.
+const std::string& NameOf(const ColumnSource& source) {
+  return source.label.empty() ? source.column->name : source.label;
+}
 
 void CheckValues(const RawColumns& raw) {
   for (const ColumnSource& one : raw.columns) {
@@ -42,16 +51,13 @@ void CheckValues(const RawColumns& raw) {
           raw.At(i),
           "{} of sample {} is {}; it must be a finite number of size {} at most. Cut the log there "
           "or repair it",
-          one.column->name, i + 1, one.values[i], kLargest);
+          NameOf(one), i + 1, one.values[i], kLargest);
     }
   }
 }
 
-/// assumed: where nobody says the unit of time
-void CheckTime(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
-               Measurements& measurements) {
-  const Eigen::VectorXd& time = measurements.time;
-  // stamps increase from sample to sample
+/// Throws BadInput where time does not increase from sample to sample.
+void CheckOrder(const RawColumns& raw, const Eigen::VectorXd& time) {
   for (Eigen::Index i = 1; i < time.size(); ++i) {
     if (time[i] > time[i - 1]) continue;
     if (time[i] == time[i - 1]) {
@@ -66,8 +72,14 @@ void CheckTime(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
            "it by time",
            i + 1, time[i], time[i - 1]);
   }
+}
+
+/// assumed: where nobody says the unit of time
+void CheckUnitOfTime(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
+                     Measurements& measurements) {
   if (assumed) return CheckAssumedUnit(*assumed, {raw.file}, measurements);
   // steps that are far too short tell of another unit
+  const Eigen::VectorXd& time = measurements.time;
   const Eigen::Index n = time.size();
   const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
   if (step >= kShortestStep) return;
@@ -105,11 +117,11 @@ double FastestTurning(const Eigen::VectorXd& time, const Eigen::VectorXd& positi
 
 /// Asks for the unit where a joint moves as one does whose degrees were taken for radians, unless somebody says the unit of
 /// `column`, from which its positions come, or the gear of a motor, which may move so.
-void AskForAngles(const ColumnSource& column, const ReadSettings& layout,
+void AskForAngles(const std::string& column, UnitFrom unit_from, const ReadSettings& layout,
                   Measurements& measurements) {
-  const auto scale = layout.scale.find(column.column->name);
+  const auto scale = layout.scale.find(column);
   const bool is_scaled = scale != layout.scale.end() && std::abs(scale->second) != 1;
-  const bool is_said = column.unit_from != UnitFrom::nobody || is_scaled || measurements.gear != 1;
+  const bool is_said = unit_from != UnitFrom::nobody || is_scaled || measurements.gear != 1;
   if (is_said || layout.joint != JointKind::rotary) return;
   const double stroke = LongestStroke(measurements.position);
   const double fastest = FastestTurning(measurements.time, measurements.position);
@@ -123,17 +135,15 @@ void AskForAngles(const ColumnSource& column, const ReadSettings& layout,
       measurements);
 }
 
-void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
+void CheckTorque(const RawColumns& raw, const std::string& name, const Measurements& measurements) {
   const Eigen::VectorXd& torque = measurements.torque;
-  if (torque.maxCoeff() > torque.minCoeff()) return;
-  Refuse({raw.file},
-         "torque is {} {} in all {} samples; is it the right column (--map torque=NAME)?",
-         torque[0], measurements.torque_unit, torque.size());
+  if (torque.size() == 0 || torque.maxCoeff() > torque.minCoeff()) return;
+  Refuse({raw.file}, "{} is {} {} in all {} samples; is it the right column (--map torque=NAME)?",
+         name, torque[0], measurements.torque_unit, torque.size());
 }
 
-/// Number of samples, time and torque. assumed: where nobody says the unit of time
-void CheckSamples(const RawColumns& raw, const std::optional<AssumedUnit>& assumed,
-                  Measurements& measurements) {
+/// Number of samples.
+void CheckCount(const RawColumns& raw, const Measurements& measurements) {
   const Eigen::Index n = measurements.size();
   if (n < 3) {
     const std::string left_out = fmt::format("{}", fmt::join(measurements.notes, "; "));
@@ -144,8 +154,6 @@ void CheckSamples(const RawColumns& raw, const std::optional<AssumedUnit>& assum
     Refuse({raw.file}, "has {} samples; {} at most are read: cut it, or lower its rate", n,
            kMostSamples);
   }
-  CheckTime(raw, assumed, measurements);
-  CheckTorque(raw, measurements);
 }
 
 /// The integral of the velocity from 0, straight between samples.
@@ -206,13 +214,13 @@ void LeaveOutColumns(RawColumns& raw) {
   });
 }
 
-/// Leaves out the samples that lack a number.
-void LeaveOutRows(RawColumns& raw) {
+/// Leaves out the samples that lack a number in one of the first `count` columns.
+void LeaveOutRows(std::size_t count, RawColumns& raw) {
   std::vector<bool> keep(static_cast<std::size_t>(raw.columns.front().values.size()), true);
   std::vector<std::string> lacking;
-  for (const ColumnSource& one : raw.columns) {
+  for (const ColumnSource& one : std::span(raw.columns).first(count)) {
     if (!one.values.array().isNaN().any()) continue;
-    lacking.push_back(one.column->name);
+    lacking.push_back(NameOf(one));
     for (Eigen::Index i = 0; i < one.values.size(); ++i) {
       if (std::isnan(one.values[i])) keep[static_cast<std::size_t>(i)] = false;
     }
@@ -235,12 +243,12 @@ void LeaveOutRows(RawColumns& raw) {
 void AddSecond(RawColumns& raw) {
   ColumnSource& first = raw.columns.front();
   const auto second = raw.columns.begin() + 1;
-  if (second->unit_from == UnitFrom::nobody && !raw.stamps) {
+  if (second->unit_from == UnitFrom::nobody && !second->in_words) {
     Refuse(
         {raw.file},
         "--map time=A+B: the name of the second column must tell its unit, as nsecs or stamp_ns");
   }
-  const auto factor = [&](const ColumnSource& one) { return raw.stamps ? 1 : one.unit.factor; };
+  const auto factor = [](const ColumnSource& one) { return one.in_words ? 1 : one.unit.factor; };
   first.values = factor(first) * first.values + factor(*second) * second->values;
   first.unit = *MeantUnit("s");
   raw.columns.erase(second);
@@ -262,26 +270,27 @@ void LeaveOutStrayRows(RawColumns& raw) {
 std::optional<AssumedUnit> TakeTime(const ReadSettings& layout, RawColumns& raw) {
   ColumnSource& first = raw.columns.front();
   const bool is_sum = raw.columns[1].is_added;
-  const bool is_assumed = first.unit_from == UnitFrom::nobody && !raw.stamps && !is_sum &&
-                          !layout.scale.contains("time");
+  const bool is_stamp = first.in_words;
+  const bool is_assumed =
+      first.unit_from == UnitFrom::nobody && !is_stamp && !is_sum && !layout.scale.contains("time");
   // a clock that goes on, and what is on it
   if (is_sum) AddSecond(raw);
-  const std::string restarts = raw.stamps || is_sum ? std::string() : UndoRestarts(first.values);
+  const std::string restarts = is_stamp || is_sum ? std::string() : UndoRestarts(first.values);
   if (!restarts.empty()) raw.notes.push_back(restarts);
-  if (raw.stamps) GoOnAtMidnight(first.values);
+  if (is_stamp) GoOnAtMidnight(first.values);
   LeaveOutStrayRows(raw);
 
   // stamps were read as s
   std::optional<AssumedUnit> assumed;
   if (is_assumed) assumed = AssumeUnit(first.values);
   if (assumed) first.unit = assumed->unit;
-  if (!raw.stamps) first.values *= first.unit.factor;
+  if (!is_stamp) first.values *= first.unit.factor;
   first.unit = *MeantUnit("s");
   return assumed;
 }
 
 /// Makes time increase where the clock is coarse or made a slip.
-void TakeClock(RawColumns& raw) {
+void MendTicks(RawColumns& raw) {
   const ColumnSource* const position = SourceOf(raw, "position");
   const MendedClock mended =
       MendClock(position ? position->values : Eigen::VectorXd(), raw.columns.front().values);
@@ -289,7 +298,17 @@ void TakeClock(RawColumns& raw) {
   if (!mended.keep.empty()) Keep(mended.keep, raw);
 }
 
-/// Says which units the file tells: those that are not the usual ones, and all of a row of units.
+/// The time of a rate, in front of the other columns.
+void AddTime(double rate, RawColumns& raw) {
+  const Eigen::Index n = raw.columns.front().values.size();
+  ColumnSource time{.column = &RecordingColumns().front(), .unit_from = UnitFrom::option};
+  time.unit = *MeantUnit("s");
+  time.values = Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1)) / rate;
+  raw.columns.insert(raw.columns.begin(), std::move(time));
+}
+
+}  // namespace
+
 void NoteUnits(const ReadSettings& layout, RawColumns& raw) {
   std::vector<std::string> told;
   for (const ColumnSource& one : raw.columns) {
@@ -297,39 +316,62 @@ void NoteUnits(const ReadSettings& layout, RawColumns& raw) {
     const bool is_row = one.unit_from == UnitFrom::file && !raw.line.empty();
     const bool is_usual = one.unit.name == one.column->Units(layout.joint).front();
     const bool is_said = layout.unit.contains(name) || one.is_added || !one.found_as.empty();
-    if ((is_row || !is_usual) && !is_said)
-      told.push_back(fmt::format("{} {}", name, one.unit.name));
+    const std::string words = fmt::format("{} {}", name, one.unit.name);
+    const bool is_new = std::ranges::find(told, words) == told.end();
+    if ((is_row || !is_usual) && !is_said && is_new) told.push_back(words);
   }
   if (!told.empty()) {
     raw.notes.push_back(fmt::format("units of the file: {}", fmt::join(told, ", ")));
   }
 }
 
-}  // namespace
-
 Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
-  // what is known beside the columns
   CheckReadSettings(layout);
-  Measurements measurements;
-  measurements.joint = layout.joint;
-  measurements.gear = layout.gear;
-  measurements.source = raw.file;
-
   // the samples that have all numbers, and their time
   NoteUnits(layout, raw);
   JoinRows(raw);
   LeaveOutColumns(raw);
-  if (layout.rate > 0) {
-    const Eigen::Index n = raw.columns.front().values.size();
-    ColumnSource time{.column = &RecordingColumns().front(), .unit_from = UnitFrom::option};
-    time.unit = *MeantUnit("s");
-    time.values = Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1)) / layout.rate;
-    raw.columns.insert(raw.columns.begin(), std::move(time));
-  }
-  LeaveOutRows(raw);
+  if (layout.rate > 0) AddTime(layout.rate, raw);
+  LeaveOutRows(raw.columns.size(), raw);
   CheckValues(raw);
   const std::optional<AssumedUnit> assumed = TakeTime(layout, raw);
-  TakeClock(raw);
+  MendTicks(raw);
+  const ColumnSource* const velocity = SourceOf(raw, "velocity");
+  const UnitFrom of_velocity = velocity ? velocity->unit_from : UnitFrom::nobody;
+  Measurements measurements = AssembleOnClock(std::move(raw), assumed, layout);
+  if (measurements.position.size() == 0 && measurements.velocity.size() == 0) {
+    Refuse({measurements.source},
+           "has neither a position nor a velocity with numbers; one is needed");
+  }
+  if (measurements.position.size() == 0) {
+    IntegrateVelocity(measurements);
+    AskForAngles("velocity", of_velocity, layout, measurements);
+  }
+  return measurements;
+}
+
+std::optional<AssumedUnit> TakeClock(const ReadSettings& layout, RawColumns& raw) {
+  CheckReadSettings(layout);
+  if (layout.rate > 0) AddTime(layout.rate, raw);
+  // the clock's own columns alone: others lack numbers where they like
+  const std::size_t of_time = raw.columns[1].is_added ? 2 : 1;
+  LeaveOutRows(of_time, raw);
+  RawColumns clock{raw.file, {raw.columns.begin(), raw.columns.begin() + of_time}, raw.line};
+  CheckValues(clock);
+  const std::optional<AssumedUnit> assumed = TakeTime(layout, raw);
+  MendTicks(raw);
+  CheckOrder(raw, raw.columns.front().values);
+  return assumed;
+}
+
+Measurements AssembleOnClock(RawColumns raw, const std::optional<AssumedUnit>& assumed,
+                             const ReadSettings& layout) {
+  Measurements measurements;
+  measurements.joint = layout.joint;
+  measurements.gear = layout.gear;
+  measurements.source = raw.file;
+  LeaveOutRows(raw.columns.size(), raw);
+  CheckValues(raw);
 
   // to SI
   double range = 0;  // after which the position sensor starts again, rad or m
@@ -351,21 +393,20 @@ Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout) {
     }
   }
 
-  // all of it at once: at least three samples, in order, with a torque that changes
+  // all of it at once: at least three samples, in a unit of time that can be, with a torque that changes
   std::ranges::move(raw.notes, std::back_inserter(measurements.notes));
   std::ranges::move(raw.doubts, std::back_inserter(measurements.doubts));
-  CheckSamples(raw, assumed, measurements);
+  CheckCount(raw, measurements);
+  CheckOrder(raw, measurements.time);
+  CheckUnitOfTime(raw, assumed, measurements);
+  if (const ColumnSource* const torque = SourceOf(raw, "torque")) {
+    CheckTorque(raw, NameOf(*torque), measurements);
+  }
   if (measurements.torque_unit == "V") measurements.notes.emplace_back(kOfVoltage);
-  if (measurements.position.size() == 0 && measurements.velocity.size() == 0) {
-    Refuse({raw.file}, "has neither a position nor a velocity with numbers; one is needed");
-  }
-  if (measurements.position.size() == 0) {
-    IntegrateVelocity(measurements);
-  } else {
-    Unwrap(range, measurements);
-  }
-  const char* const of_motion = measurements.position_integrated ? "velocity" : "position";
-  AskForAngles(*SourceOf(raw, of_motion), layout, measurements);
+  if (measurements.position.size() == 0) return measurements;
+  Unwrap(range, measurements);
+  const ColumnSource& position = *SourceOf(raw, "position");
+  AskForAngles("position", position.unit_from, layout, measurements);
   return measurements;
 }
 
@@ -417,20 +458,43 @@ std::vector<Measurements> AssembleRecordings(RawColumns raw, const std::vector<F
 std::vector<Measurements> AssembleContent(FileContent content, const std::string& path,
                                           const ReadSettings& given) {
   const ReadSettings layout = WithJointOf(content, given);
-  // the columns that are asked for, all of one length
   RawColumns raw{path,
                  FindColumns(content.columns, WithClock(content.columns, layout, {path}), {path})};
+  TakeValues(content, path, raw.columns);
+  raw.line = std::move(content.line);
   raw.notes = content.notes;
   raw.doubts = content.doubts;
-  const auto& first = content.columns[raw.columns.front().index];
-  for (ColumnSource& one : raw.columns) {
-    const auto& [name, unit, values] = content.columns[one.index];
-    one.values = values;
-    if (values.size() == first.values.size()) continue;
-    Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length", name,
-           values.size(), first.name, first.values.size());
-  }
   return AssembleRecordings(std::move(raw), content.columns, layout);
+}
+
+WantedColumns ColumnsOfJoint(const ReadSettings& layout) {
+  return [layout](const FileContent& content, const Place& header, const std::string& there) {
+    const ReadSettings asked = WithClock(content.columns, WithJointOf(content, layout), header);
+    std::vector<WantedColumn> wanted;
+    for (const ColumnSource& one : FindColumns(content.columns, asked, header, there)) {
+      wanted.push_back({one.index, one.column == &RecordingColumns().front()});
+    }
+    return wanted;
+  };
+}
+
+void TakeValues(FileContent& content, const std::string& path, std::vector<ColumnSource>& found) {
+  const FileColumn* first = nullptr;
+  Eigen::Index samples = 0;
+  for (ColumnSource& one : found) {
+    FileColumn& column = content.columns[one.index];
+    const bool is_time = one.column == &RecordingColumns().front();
+    if (!column.refusal.empty()) {
+      throw BadInput(column.refusal + (is_time ? kOfStamps : ""));
+    }
+    if (!first) first = &column, samples = column.values.size();
+    if (column.values.size() != samples) {
+      Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length",
+             Excerpt(column.name), column.values.size(), Excerpt(first->name), samples);
+    }
+    one.in_words = column.in_words;
+    one.values = std::move(column.values);
+  }
 }
 
 }  // namespace warmjoint

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "models/recording/clock.h"
 #include "models/recording/recording_columns.h"
 
 namespace warmjoint {
@@ -15,7 +17,6 @@ struct RawColumns {
   std::string file;
   std::vector<ColumnSource> columns;  // with their values, all of one length
   std::vector<int> line{};            // [N] of each sample; empty for files without lines
-  bool stamps = false;                // time stands in words, which were read as s
   std::vector<std::string> notes{};   // what reading made of the file
   std::vector<std::string> doubts{};  // what the file itself says of its units
 
@@ -31,13 +32,39 @@ struct RawColumns {
 /// does not increase or is clearly in another unit, and a torque that never changes.
 Measurements AssembleMeasurements(RawColumns raw, const ReadSettings& layout);
 
-/// What a file without lines says.
+/// Makes the first column the time in s, of the layout's rate, of one column, or of the sum of two; all columns lose the rows that
+/// have no time or are not on the clock, and notes say so. The unit, where nobody says that: for AssembleOnClock. Throws BadInput
+/// where time does not increase.
+std::optional<AssumedUnit> TakeClock(const ReadSettings& layout, RawColumns& raw);
+
+/// The last part of AssembleMeasurements: of columns behind their clock, whichever there are besides it. assumed: of TakeClock, where its
+/// unit shall be checked against what moves.
+Measurements AssembleOnClock(RawColumns raw, const std::optional<AssumedUnit>& assumed,
+                             const ReadSettings& layout);
+
+/// Adds the units that the file tells to the notes: those that are not the usual ones, and all of a row of units.
+void NoteUnits(const ReadSettings& layout, RawColumns& raw);
+
+/// What a file holds.
 struct FileContent {
   std::string joint{};           // "rotary" or "linear"; empty where the file does not say
   std::optional<double> gear{};  // the same
   std::vector<std::string> notes{}, doubts{};  // what was made of it when it was written
   std::vector<FileColumn> columns{};
+  std::vector<int> line{};  // [N] of each sample; empty for files without lines
 };
+
+/// Which columns are wanted of a file, by its columns without values. header: where those stand; there: what the file has, for
+/// messages. Throws BadInput where they are not there.
+using WantedColumns = std::function<std::vector<WantedColumn>(
+    const FileContent& content, const Place& header, const std::string& there)>;
+
+/// Those that the layout of one joint asks for (FindColumns).
+WantedColumns ColumnsOfJoint(const ReadSettings& layout);
+
+/// All columns of a file as sources without values, in the order of `found`; takes their values. Throws BadInput for one that holds no
+/// numbers, and for columns of different lengths.
+void TakeValues(FileContent& content, const std::string& path, std::vector<ColumnSource>& found);
 
 /// The layout, completed by what the file says of the joint where nobody says otherwise.
 ReadSettings WithJointOf(const FileContent& content, ReadSettings layout);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
@@ -14,64 +15,90 @@
 namespace warmjoint {
 namespace {
 
-[[noreturn]] void RefuseText(const Place& place, const ColumnSource& source,
-                             const std::string& name, std::string_view text) {
-  if (source.column->name == "time") {
-    Refuse(
-        place,
-        "{} is '{}', which is neither a number nor a stamp as 2024-03-01T12:00:00.5, 12:00:00.5 or "
-        "'0.5 s'; give one of these, or --rate HZ",
-        Excerpt(name), Excerpt(text));
-  }
+/// Why a cell of a column of numbers cannot be read.
+std::string RefusalOf(const Place& place, const std::string& name, std::string_view text) {
   const bool has_comma = text.find(',') != std::string_view::npos;
-  Refuse(place, "{} is '{}', which is not a number{}", Excerpt(name), Excerpt(text),
-         has_comma ? "; write decimals with a point and thousands without a mark" : "");
+  return fmt::format("{}:{}: {} is '{}', which is not a number{}", place.file, place.line,
+                     Excerpt(name), Excerpt(text),
+                     has_comma ? "; write decimals with a point and thousands without a mark" : "");
 }
 
-/// Reads rows into the sources of `raw`.
+/// Reads rows into the wanted columns of a file.
 class TableReader {
  public:
-  TableReader(const TableFormat& table, RawColumns& raw) : table_(table), raw_(raw) {}
+  TableReader(const TableFormat& table, const std::string& file,
+              const std::vector<WantedColumn>& wanted, FileContent& content)
+      : table_(table), file_(file), content_(content) {
+    for (const WantedColumn& one : wanted) columns_.push_back({one});
+  }
 
-  /// NaN where a field holds no number; other columns may hold anything. Leaves out headers that stand again among the rows,
-  /// and a last row that was cut. Throws BadInput for other rows that lack fields or have too many, and for text in a number.
+  /// NaN where a field holds no number; columns that are not wanted may hold anything. Leaves out headers that stand again among the
+  /// rows, and a last row that was cut. A column with a text in place of a number gets its refusal. Throws BadInput for other rows that
+  /// lack fields or have too many.
   void Read(std::string_view rows);
 
  private:
-  /// Reads the fields of one row into sample `sample`; the source whose field holds no number, or nullptr.
-  const ColumnSource* ReadRow(Eigen::Index sample);
+  struct Wanted {
+    WantedColumn of;
+    std::optional<bool> in_words{};  // whether times are stamps, once one was read
+  };
 
-  const RecordingColumn* const time_ = &RecordingColumns().front();
+  /// The number, or the stamp, in a field of the row that was split last.
+  std::optional<double> ReadField(Wanted& column) const;
+  /// Reads the fields of that row; false where one of a column that held numbers so far holds none.
+  bool ReadRow();
+  /// Gives those columns their refusal.
+  void RefuseTexts(int line);
+
   const TableFormat& table_;
-  RawColumns& raw_;
-  std::optional<bool> in_words_;  // whether times are stamps, once one was read
+  const std::string& file_;
+  FileContent& content_;
+  std::vector<Wanted> columns_;
+  std::vector<std::optional<double>> row_;
   std::vector<std::string_view> fields_;
 };
 
-const ColumnSource* TableReader::ReadRow(Eigen::Index sample) {
-  for (ColumnSource& source : raw_.columns) {
-    const std::string_view field = fields_[source.index];
-    std::optional<double> value = ReadCell(field, table_.decimal_mark);
-    if (source.column == time_ && !(value && std::isnan(*value))) {
-      // stamps in words are no numbers, all of them or none
-      const bool is_stamp = !value;
-      if (is_stamp) value = ReadStamp(field);
-      if (in_words_.value_or(is_stamp) != is_stamp) value.reset();
-      if (value) in_words_ = is_stamp;
-    }
-    if (!value) return &source;
-    source.values[sample] = *value;
+std::optional<double> TableReader::ReadField(Wanted& column) const {
+  const std::string_view field = fields_[column.of.index];
+  std::optional<double> value = ReadCell(field, table_.decimal_mark);
+  if (!column.of.is_time || (value && std::isnan(*value))) return value;
+  // stamps in words are no numbers, all of them or none
+  const bool is_stamp = !value;
+  if (is_stamp) value = ReadStamp(field);
+  if (column.in_words.value_or(is_stamp) != is_stamp) value.reset();
+  if (value) column.in_words = is_stamp;
+  return value;
+}
+
+bool TableReader::ReadRow() {
+  row_.clear();
+  bool is_whole = true;
+  for (Wanted& column : columns_) {
+    row_.push_back(ReadField(column));
+    is_whole = is_whole && (row_.back() || !content_.columns[column.of.index].refusal.empty());
   }
-  return nullptr;
+  return is_whole;
+}
+
+void TableReader::RefuseTexts(int line) {
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    FileColumn& column = content_.columns[columns_[k].of.index];
+    if (row_[k] || !column.refusal.empty()) continue;
+    column.refusal = RefusalOf({file_, line}, column.name, fields_[columns_[k].of.index]);
+  }
 }
 
 void TableReader::Read(std::string_view rows) {
   // a row has a separator or an end for each field, and digits for each that is read: blank lines take no room
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   const auto lines = static_cast<std::size_t>(1 + std::count(rows.begin(), rows.end(), '\n'));
-  const auto most = static_cast<Eigen::Index>(
-      std::min(lines, 1 + rows.size() / (table_.columns + raw_.columns.size())));
-  for (ColumnSource& source : raw_.columns) source.values.resize(most);
-  raw_.line.reserve(static_cast<std::size_t>(most));
+  const std::size_t most = std::min(lines, 1 + rows.size() / (table_.columns + columns_.size()));
+  const auto values = [this](std::size_t k) -> Eigen::VectorXd& {
+    return content_.columns[columns_[k].of.index].values;
+  };
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    values(k).resize(static_cast<Eigen::Index>(most));
+  content_.line.reserve(most);
 
   // one sample for each row
   int repeated = 0;  // headers among the rows
@@ -83,42 +110,48 @@ void TableReader::Read(std::string_view rows) {
     const bool has_more = count == table_.columns + 1 && fields_.back().empty();
     const bool has_less = count + 1 == table_.columns && table_.names.back().empty();
     const bool fits = count == table_.columns || has_more || has_less;
-    const auto sample = static_cast<Eigen::Index>(raw_.line.size());
-    const ColumnSource* const bad = fits ? ReadRow(sample) : nullptr;
-    if (fits && !bad) {
-      raw_.line.push_back(line);
-    } else if (row == table_.header) {
+    const bool is_whole = fits && ReadRow();
+    const bool is_last = !content_.line.empty() && rows.find_first_not_of(std::string_view(
+                                                       " \t\r\n\0", 5)) == std::string_view::npos;
+    if (!is_whole && row == table_.header) {
       ++repeated;
-    } else if (sample > 0 &&
-               rows.find_first_not_of(std::string_view(" \t\r\n\0", 5)) == std::string_view::npos) {
-      raw_.notes.push_back(fmt::format("line {}, the last, is no whole row and is left out", line));
+      continue;
+    }
+    if (!is_whole && is_last) {
+      content_.notes.push_back(
+          fmt::format("line {}, the last, is no whole row and is left out", line));
       break;
-    } else if (bad) {
-      RefuseText({raw_.file, line}, *bad, table_.names[bad->index], fields_[bad->index]);
-    } else {
-      Refuse({raw_.file, line}, "has {} fields where the {} {}; complete or drop the row", count,
+    }
+    if (!fits) {
+      Refuse({file_, line}, "has {} fields where the {} {}; complete or drop the row", count,
              table_.header_line > 0 ? "header has" : "rows before have", table_.columns);
+    }
+    if (!is_whole) RefuseTexts(line);
+    const auto sample = static_cast<Eigen::Index>(content_.line.size());
+    content_.line.push_back(line);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      values(k)[sample] = row_[k].value_or(nothing);
     }
   }
   if (repeated > 0) {
-    raw_.notes.push_back(fmt::format("{} more headers among the rows are left out", repeated));
+    content_.notes.push_back(fmt::format("{} more headers among the rows are left out", repeated));
   }
-
-  raw_.stamps = in_words_.value_or(false);
   // no longer than the rows that were there
-  for (ColumnSource& source : raw_.columns) {
-    source.values.conservativeResize(static_cast<Eigen::Index>(raw_.line.size()));
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    values(k).conservativeResize(static_cast<Eigen::Index>(content_.line.size()));
+    content_.columns[columns_[k].of.index].in_words = columns_[k].in_words.value_or(false);
   }
 }
 
-/// The names that are given, one for each column.
-void TakeNames(const std::vector<std::string>& given, const std::string& file, TableFormat& table) {
+/// The names that are given, one for each column; one that is empty in every row, behind a separator at its end, needs none.
+void TakeNames(std::vector<std::string> given, const std::string& file, TableFormat& table) {
   if (given.empty()) return;
+  if (given.size() + 1 == table.columns && table.rows_end_empty) given.emplace_back();
   if (given.size() != table.columns) {
     Refuse({file, table.data_line}, "has {} columns where --columns names {}; a name may be empty",
            table.columns, given.size());
   }
-  table.names = given;
+  table.names = std::move(given);
 }
 
 constexpr std::string_view kNote = "# note: ", kDoubt = "# doubt: ";  // lines above a table
@@ -151,48 +184,28 @@ std::vector<FileColumn> ColumnsOf(const TableFormat& table) {
   return columns;
 }
 
-/// The first text of each column that is neither a number nor a stamp, with its line; columns without one have none.
-std::vector<std::pair<int, std::string>> TextsOf(const TableFormat& table, std::string_view rows) {
-  std::vector<std::pair<int, std::string>> texts(table.columns);
-  std::vector<std::string_view> fields;
-  for (int line = table.data_line; !rows.empty(); ++line) {
-    const std::string_view row = TakeLine(rows);
-    if (IsBlankLine(row) || row == table.header) continue;
-    SplitLine(row, table.separator, fields);
-    for (std::size_t k = 0; k < std::min(fields.size(), table.columns); ++k) {
-      const bool is_read = !texts[k].second.empty() || ReadCell(fields[k], table.decimal_mark) ||
-                           ReadStamp(fields[k]);
-      if (!is_read) texts[k] = {line, std::string(fields[k])};
-    }
-  }
-  return texts;
-}
-
-/// All columns of numbers or stamps by their own names. Those that hold texts are left out, and notes say which.
+/// All columns of numbers or stamps by their own names.
 FileContent ReadAllColumns(const TableFormat& table, std::string_view text,
                            const std::string& file) {
-  const std::string_view rows = text.substr(table.data);
-  const auto texts = TextsOf(table, rows);
-  std::vector<FileColumn> columns = ColumnsOf(table);
-  // stamps may stand in any column, as times do
-  const RecordingColumn* const time = &RecordingColumns().front();
   FileContent content;
-  for (std::size_t k = 0; k < table.columns; ++k) {
-    if (!texts[k].second.empty()) {
-      content.notes.push_back(fmt::format("column '{}' is left out: line {} holds the text '{}'",
-                                          Excerpt(columns[k].name), texts[k].first,
-                                          Excerpt(texts[k].second)));
-      continue;
-    }
-    RawColumns one{file, {{.column = time, .index = k}}};
-    TableReader(table, one).Read(rows);
-    if (one.stamps) columns[k].unit = "s";
-    columns[k].values = std::move(one.columns.front().values);
-    content.columns.push_back(std::move(columns[k]));
-    if (content.columns.size() == 1) {
-      std::ranges::move(one.notes, std::back_inserter(content.notes));
-    }
+  content.columns = ColumnsOf(table);
+  std::vector<WantedColumn> all;
+  for (std::size_t k = 0; k < table.columns; ++k) all.push_back({k, true});
+  TableReader(table, file, all, content).Read(text.substr(table.data));
+  for (FileColumn& column : content.columns) {
+    if (column.in_words) column.unit = "s";
   }
+  return content;
+}
+
+/// Without the columns that hold texts, and notes say which.
+FileContent WithoutTexts(FileContent content) {
+  std::erase_if(content.columns, [&](const FileColumn& column) {
+    if (column.refusal.empty()) return false;
+    content.notes.push_back(
+        fmt::format("column '{}' is left out: {}", Excerpt(column.name), column.refusal));
+    return true;
+  });
   return content;
 }
 
@@ -222,25 +235,26 @@ Measurements ReadCsv(const std::string& path, const ReadSettings& layout) {
   return ParseCsv(ReadWholeFile(path), InputName(path), layout);
 }
 
-std::vector<Measurements> ParseRecordings(std::string_view text, const std::string& name,
-                                          const ReadSettings& layout) {
+FileContent ParseColumns(std::string_view text, const std::string& name, const ReadSettings& layout,
+                         const WantedColumns& wanted) {
   const std::optional<std::string> utf8 = FromUtf16(text);
   if (utf8) text = *utf8;
-  const WhatIsSaid said = TakeSaid(text);
   TableFormat table = FindTable(text, name, !layout.columns.empty());
   TakeNames(layout.columns, name, table);
   const bool is_timed = layout.rate > 0 || layout.map.contains("time");
   if (!is_timed && HasSeveralClocks(table.names)) {
-    return AssembleContent(OnOneClock(ReadAllColumns(table, text, name)), name, layout);
+    return OnOneClock(WithoutTexts(ReadAllColumns(table, text, name)));
   }
+  const WhatIsSaid said = TakeSaid(text);
+  FileContent content{.notes = said.notes, .doubts = said.doubts, .columns = ColumnsOf(table)};
+  const auto columns = wanted(content, {name, std::max(1, table.header_line)}, "");
+  TableReader(table, name, columns, content).Read(text.substr(table.data));
+  return content;
+}
 
-  const std::vector<FileColumn> columns = ColumnsOf(table);
-  const Place place{name, std::max(1, table.header_line)};
-  RawColumns raw{name, FindColumns(columns, WithClock(columns, layout, place), place)};
-  raw.notes = said.notes;
-  raw.doubts = said.doubts;
-  TableReader(table, raw).Read(text.substr(table.data));
-  return AssembleRecordings(std::move(raw), columns, layout);
+std::vector<Measurements> ParseRecordings(std::string_view text, const std::string& name,
+                                          const ReadSettings& layout) {
+  return AssembleContent(ParseColumns(text, name, layout, ColumnsOfJoint(layout)), name, layout);
 }
 
 Measurements ParseCsv(std::string_view text, const std::string& name, const ReadSettings& layout) {
@@ -253,7 +267,7 @@ FileContent ParseTable(std::string_view text, const std::string& name,
   if (utf8) text = *utf8;
   TableFormat table = FindTable(text, name, !names.empty());
   TakeNames(names, name, table);
-  FileContent content = ReadAllColumns(table, text, name);
+  FileContent content = WithoutTexts(ReadAllColumns(table, text, name));
   return HasSeveralClocks(table.names) ? OnOneClock(std::move(content)) : content;
 }
 

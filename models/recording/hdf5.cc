@@ -235,7 +235,7 @@ void RefuseOtherFiles(const std::string& path) {
          other.what);
 }
 
-FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout) {
+FileContent ReadHdf5Content(const std::string& path, const WantedColumns& wanted) {
   RefuseOtherFiles(path);
   H5::Exception::dontPrint();
   try {
@@ -251,7 +251,7 @@ FileContent ReadHdf5Content(const std::string& path, const ReadSettings& layout)
     std::vector<FileObject> objects;
     std::size_t left = kMostObjects;
     AddGroup(root, "", {}, left, objects);
-    return TakeColumns(std::move(content), objects, layout, {path});
+    return TakeColumns(std::move(content), objects, wanted, {path});
   } catch (const H5::Exception& error) {
     Refuse({path}, "cannot be read as HDF5: {}", Excerpt(error.getDetailMsg(), kLongestComplaint));
   }

@@ -139,7 +139,7 @@ void TakeUnits(mat_t* file, std::vector<FileObject>& objects) {
 
 }  // namespace
 
-FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout) {
+FileContent ReadMatlabContent(const std::string& path, const WantedColumns& wanted) {
   // those of version 7.3 are HDF5
   if (H5Fis_hdf5(path.c_str()) > 0) RefuseOtherFiles(path);
   const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
@@ -164,7 +164,7 @@ FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layou
     const Eigen::VectorXd values = ValuesOf(*gear, {.count = 1});
     if (values.size() == 1) content.gear = values[0];
   }
-  return TakeColumns(std::move(content), objects, layout, {path});
+  return TakeColumns(std::move(content), objects, wanted, {path});
 }
 
 }  // namespace warmjoint

@@ -268,7 +268,8 @@ std::vector<RawColumns> Episodes(RawColumns raw, const std::vector<FileColumn>& 
   });
   const bool is_timed = raw.columns.front().column->name == RecordingColumns().front().name;
   std::vector<std::size_t> starts{0};
-  if (has_episodes && is_timed && !raw.stamps) starts = StartsAgain(raw.columns.front().values);
+  if (has_episodes && is_timed && !raw.columns.front().in_words)
+    starts = StartsAgain(raw.columns.front().values);
   std::vector<RawColumns> episodes;
   if (starts.size() == 1) {
     episodes.push_back(std::move(raw));

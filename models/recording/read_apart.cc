@@ -115,7 +115,7 @@ void Limit(int resource, rlim_t value) {
 
 /// The child's whole life: reads within its limits, answers, and ends without its parent's farewells.
 [[noreturn]] void ReadInChild(const FileFormat& format, const std::string& path,
-                              const ReadSettings& layout, double seconds, int out) {
+                              const WantedColumns& wanted, double seconds, int out) {
   // limits on memory and time, and no core file
   Limit(RLIMIT_AS, OwnMemory() + kMemory);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)));
@@ -127,7 +127,7 @@ void Limit(int resource, rlim_t value) {
   // what was read, or why nothing was
   std::string answer;
   try {
-    FileContent content = format.read(path, layout);
+    FileContent content = format.read(path, wanted);
     Packer packer{std::string(1, kContent)};
     Exchange(packer, content);
     answer = std::move(packer.bytes);
@@ -167,8 +167,8 @@ bool ReadAll(int in, double seconds, std::string& bytes) {
 
 }  // namespace
 
-FileContent ReadApart(const FileFormat& format, const std::string& path, const ReadSettings& layout,
-                      double patience) {
+FileContent ReadApart(const FileFormat& format, const std::string& path,
+                      const WantedColumns& wanted, double patience) {
   // larger files may take longer
   std::error_code absent;
   const auto size = std::filesystem::file_size(path, absent);
@@ -177,7 +177,7 @@ FileContent ReadApart(const FileFormat& format, const std::string& path, const R
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   const pid_t child = fork();
-  if (child == 0) ReadInChild(format, path, layout, seconds, ends[1]);
+  if (child == 0) ReadInChild(format, path, wanted, seconds, ends[1]);
   close(ends[1]);
   std::string bytes;
   const bool whole = child > 0 && ReadAll(ends[0], std::min(2 * seconds, seconds + 5), bytes);

@@ -14,14 +14,16 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/recording/assemble.h"
+#include "models/recording/log_formats.h"
+#include "models/recording/table_format.h"
 
 namespace warmjoint {
 namespace {
 
-/// A format of recordings.
+/// How the files of an ending are read and written.
 struct Format {
-  std::string_view extension;
-  FileFormat library;  // that reads it; CSV needs none
+  std::string_view ending;
+  FileFormat library;  // that reads it; text needs none
   // its bytes; none: it is not written
   std::string (*write)(const Measurements& measurements) = nullptr;
   std::string (*write_columns)(const FileContent& content) = nullptr;
@@ -34,27 +36,30 @@ constexpr Format kFormats[] = {
     {".mat", {"a MATLAB file", ReadMatlabContent}},
 };
 
-// formats of other tools, which Python reads
-constexpr std::string_view kOtherFormats[] = {".db3",  ".mcap", ".bag",   ".parquet",
-                                              ".npz",  ".npy",  ".xlsx",  ".xls",
-                                              ".xlsm", ".json", ".jsonl", ".ndjson"};
-
-std::string Extension(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
-
-/// By the extension; any other is read as CSV, and not written.
-Format FormatOf(const std::string& path) {
-  const auto found = std::ranges::find(kFormats, Extension(path), &Format::extension);
+/// By the ending; any other is read as a table of text, and not written.
+Format HandlersOf(const std::string& path) {
+  const auto found = std::ranges::find(kFormats, FormatOf(path).ending, &Format::ending);
   return found == std::end(kFormats) ? Format{} : *found;
 }
 
-/// Refuses what `warmjoint convert` makes readable.
-void RefuseUnreadable(const std::string& path) {
-  if (!IsOtherFormat(path)) return;
-  const bool is_folder = std::filesystem::is_directory(path);
-  Refuse({path}, "{} is not read here; first: warmjoint convert {} -o log.h5",
-         is_folder ? "a folder" : Extension(path), path);
+/// Refuses bytes that are no text, whatever the name says.
+void RequireText(std::string_view bytes, const std::string& path) {
+  // names may begin as files of bytes do; texts in UTF-16 hold zeros
+  constexpr std::size_t of_head = 512;
+  const auto is_of_bytes = [](char c) { return (c >= 0 && c < '\t') || (c > '\r' && c < ' '); };
+  if (FromUtf16(bytes.substr(0, of_head)) ||
+      std::ranges::none_of(bytes.substr(0, of_head), is_of_bytes)) {
+    return;
+  }
+  if (const LogFormat* const format = FormatOfBytes(bytes)) {
+    Refuse({InputName(path)}, "is no table of text: it begins as {}; let its name end in {}",
+           format->name, format->ending);
+  }
+  if (bytes.substr(0, of_head).find('\0') == std::string_view::npos) return;
+  Refuse({InputName(path)},
+         "is no table of text: its first bytes are none of characters; let its name end as its "
+         "format asks, one of {}, {}",
+         EndingsOf(ReadBy::program), EndingsOf(ReadBy::converter));
 }
 
 /// Makes torque of a current, by the motor's constant seen at the joint, where one is given.
@@ -78,10 +83,8 @@ void TakeTorqueConstant(double constant, Measurements& log) {
 /// The recordings of a file: one, or one for each episode.
 std::vector<Measurements> ReadFile(const std::string& path, const ReadSettings& layout,
                                    double patience = kPatience) {
-  RefuseUnreadable(path);
-  const FileFormat library = FormatOf(path).library;
-  if (!library.read) return ParseRecordings(ReadWholeFile(path), InputName(path), layout);
-  return AssembleContent(ReadApart(library, path, layout, patience), path, layout);
+  return AssembleContent(ReadColumns(path, layout, ColumnsOfJoint(layout), patience),
+                         InputName(path), layout);
 }
 
 }  // namespace
@@ -129,25 +132,30 @@ Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layo
   return OnlyOne(ReadFile(path, layout, patience));
 }
 
-bool IsOtherFormat(const std::string& path) {
-  return std::ranges::find(kOtherFormats, Lowercase(Extension(path))) != std::end(kOtherFormats) ||
-         std::filesystem::is_directory(path);
+FileContent ReadColumns(const std::string& path, const ReadSettings& layout,
+                        const WantedColumns& wanted, double patience) {
+  RequireReadable(path);
+  const FileFormat library = HandlersOf(path).library;
+  if (library.read) return ReadApart(library, path, wanted, patience);
+  const std::string text = ReadWholeFile(path);
+  RequireText(text, path);
+  return ParseColumns(text, InputName(path), layout, wanted);
 }
 
 void RequireWritable(const std::filesystem::path& path) {
-  if (FormatOf(path).write) return;
+  if (HandlersOf(path).write) return;
   Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
-         Extension(path));
+         path.extension().string());
 }
 
 void WriteRecording(const Measurements& measurements, const std::filesystem::path& path) {
   RequireWritable(path);
-  WriteWholeFile(path, FormatOf(path).write(measurements));
+  WriteWholeFile(path, HandlersOf(path).write(measurements));
 }
 
 void WriteColumns(const FileContent& content, const std::filesystem::path& path) {
   RequireWritable(path);
-  WriteWholeFile(path, FormatOf(path).write_columns(content));
+  WriteWholeFile(path, HandlersOf(path).write_columns(content));
 }
 
 std::vector<Measurements> ReadRecordings(const RecordingSource& source) {
@@ -163,15 +171,19 @@ std::vector<Measurements> ReadRecordings(const RecordingSource& source) {
   return recordings;
 }
 
-Measurements MakeRecording(const std::map<std::string, std::vector<double>>& columns,
-                           const ReadSettings& settings, const std::string& name) {
-  // named columns go through the layout of a file
+FileContent ContentOf(const std::map<std::string, std::vector<double>>& columns) {
   FileContent content;
   for (const auto& [column, values] : columns) {
     content.columns.push_back(
         {column, "", Eigen::VectorXd::Map(values.data(), std::ssize(values))});
   }
-  return MakeRecording(std::move(content), settings, name);
+  return content;
+}
+
+Measurements MakeRecording(const std::map<std::string, std::vector<double>>& columns,
+                           const ReadSettings& settings, const std::string& name) {
+  // named columns go through the layout of a file
+  return MakeRecording(ContentOf(columns), settings, name);
 }
 
 Measurements MakeRecording(FileContent content, const ReadSettings& settings,

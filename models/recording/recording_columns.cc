@@ -13,12 +13,15 @@
 #include <utility>
 
 #include "models/foundation/excerpt.h"
+#include "models/recording/stand_in.h"
+#include "models/recording/time_names.h"
 
 namespace warmjoint {
 namespace {
 
 using Values = Eigen::VectorXd;
 
+constexpr const char* kTime = "time";
 constexpr const char* kTemperature = "temperature";
 constexpr const char* kPosition = "position";
 constexpr const char* kTorque = "torque";
@@ -35,29 +38,6 @@ const std::map<std::string, std::vector<std::string>> kHints{
     {"load", {"load"}},
     {"temperature", {"temp"}},
 };
-
-/// A quantity that stands for a torque by its name.
-struct StandIn {
-  const char* name;   // with its article
-  const char* units;  // of --unit, the likeliest first
-  std::vector<std::string_view>
-      parts;  // of a name's words; of three letters or fewer: a whole word
-
-  /// The likeliest of the units.
-  std::string Unit() const {
-    const std::string_view all = units;
-    return std::string(all.substr(0, all.find_first_of(", ")));
-  }
-};
-
-const std::vector<StandIn>& StandIns() {
-  static const std::vector<StandIn> all{
-      {"a current", "A, mA or raw", {"current", "strom", "curr", "cur", "amp", "iq", "i"}},
-      {"a voltage", "V, mV or raw", {"volt", "spannung"}},
-      {"a duty cycle", "% or raw", {"duty", "pwm"}},
-      {"a load", "%, raw or N.m", {"load", "auslastung"}}};
-  return all;
-}
 
 template <auto member>
 const Values* Get(const Measurements& measurements) {
@@ -105,52 +85,6 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
     }
   }
   return std::nullopt;
-}
-
-/// The words of a name in small letters, as position, est of "PositionEst2"; digits and signs part them.
-std::vector<std::string> WordsIn(std::string_view name) {
-  std::vector<std::string> words;
-  bool joins = false;  // whether the next letter goes on with the last word
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const auto c = static_cast<unsigned char>(name[i]);
-    const bool is_letter = std::isalpha(c) || c >= 0x80;
-    const bool begins =
-        std::isupper(c) && i > 0 && std::islower(static_cast<unsigned char>(name[i - 1]));
-    if (is_letter && (!joins || begins)) words.emplace_back();
-    if (is_letter) words.back() += Lowercase(name.substr(i, 1));
-    joins = is_letter;
-  }
-  return words;
-}
-
-/// What a name says that its column is in place of a torque; nullptr where it says nothing of the kind, or speaks of a torque
-/// last, as load_torque does, and current_torque.
-const StandIn* StandInOf(const std::string& name) {
-  const auto is_in = [](std::string_view part, const std::string& word) {
-    return part.size() > 3 ? word.find(part) != std::string::npos : word == part;
-  };
-  const auto is_torque = [&](const std::string& word) {
-    return std::ranges::any_of(std::array{"torque", "moment", "trq", "tau", "effort", "force"},
-                               [&](std::string_view part) { return is_in(part, word); });
-  };
-  const StandIn* found = nullptr;
-  bool of_torque =
-      false;  // whether a torque was named before: of that a letter is an index, as in tau_i
-  for (const std::string& word : WordsIn(name)) {
-    if (is_torque(word)) {
-      found = nullptr;
-      of_torque = true;
-      continue;
-    }
-    for (const StandIn& one : StandIns()) {
-      const bool is_one = std::ranges::any_of(one.parts, [&](std::string_view part) {
-        const bool is_vague = part == "i" || part == "load";
-        return !(is_vague && of_torque) && is_in(part, word);
-      });
-      if (is_one && !found) found = &one;
-    }
-  }
-  return found;
 }
 
 /// names: of all columns; free: of those that no other column of ours has
@@ -288,6 +222,15 @@ Header HeaderOf(const std::vector<FileColumn>& columns, const ReadSettings& layo
   return header;
 }
 
+/// The time by its name in any spelling, among the columns that are not given away.
+std::vector<std::size_t> TimeOf(const Header& header) {
+  std::vector<std::string> names = header.names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (header.given[i]) names[i].clear();
+  }
+  return FindTime(names, {kTime});
+}
+
 /// The columns of a file that are one of ours.
 std::vector<std::size_t> Find(const Header& header, const RecordingColumn& column) {
   const auto mapped = header.layout.map.find(column.name);
@@ -305,7 +248,8 @@ std::vector<std::size_t> Find(const Header& header, const RecordingColumn& colum
   if (found.size() != 1 && column.name == kTemperature) {
     found = where([](const NameAndUnit& split) { return split.unit.has_value(); });
   }
-  return found.size() == 1 ? found : std::vector<std::size_t>();
+  if (found.size() != 1 && column.name == kTime) found = TimeOf(header);
+  return found.size() == 1 || column.name == kTime ? found : std::vector<std::size_t>();
 }
 
 /// Refuses a torque of which nobody says the unit, and whose name says that it is something else. A factor makes it a torque,
@@ -335,7 +279,7 @@ void TakeUnit(const Header& header, ColumnSource& source) {
   const NameAndUnit any = SplitUnit(name);
   const auto behind = Split(column, name, header.layout.joint).unit;
   // the name of a part of the time may be its unit, as nsecs
-  const auto in_name = source.is_added && !behind ? MeantUnit(name, bases) : behind;
+  const auto in_name = source.is_added && !behind ? MeantUnit(UnitOfPart(name), bases) : behind;
   if (given != header.layout.unit.end() && !source.is_added) {
     take(given->second, UnitFrom::option);
   } else if (const std::string& unit = header.columns[source.index].unit; !unit.empty()) {
@@ -394,7 +338,7 @@ const std::vector<RecordingColumn>& RecordingColumns() {
   // name, whether it is needed, units of rotary and linear joints, and where it lies
   using M = Measurements;
   static const std::vector<RecordingColumn> columns{
-      {"time", true, {"s"}, {"s"}, Get<&M::time>, Set<&M::time>},
+      {kTime, true, {"s"}, {"s"}, Get<&M::time>, Set<&M::time>},
       {kPosition, true, {"rad"}, {"m"}, LoggedPosition, Set<&M::position>},
       {"velocity", false, {"rad/s"}, {"m/s"}, Get<&M::velocity>, Set<&M::velocity>},
       {"torque",
@@ -434,7 +378,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
   std::vector<const RecordingColumn*> missing;
   for (const RecordingColumn& column : RecordingColumns()) {
     // a rate that is given makes the time
-    if (column.name == "time" && layout.rate > 0) continue;
+    if (column.name == kTime && layout.rate > 0) continue;
     const std::vector<std::size_t> found = Find(header, column);
     for (const std::size_t index : found) {
       const bool is_added = !sources.empty() && sources.back().column == &column;
@@ -465,6 +409,18 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
     if (!header.given[i]) free.push_back(header.names[i]);
   }
   RefuseMissing(missing, header.names, free, place, there);
+}
+
+std::vector<WantedColumn> FindMappedColumns(const std::vector<FileColumn>& columns,
+                                            const ReadSettings& layout, const Place& place) {
+  const Header header = HeaderOf(columns, layout, place);
+  std::vector<WantedColumn> found;
+  for (const auto& [ours, theirs] : layout.map) {
+    for (const std::size_t index : FindMapped(header, ours, theirs)) {
+      found.push_back({index, ours == kTime});
+    }
+  }
+  return found;
 }
 
 bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings& layout,

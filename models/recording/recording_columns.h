@@ -39,7 +39,9 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
 struct FileColumn {
   std::string name;          // behind its groups, as "robot/elbow/q"
   std::string unit{};        // as the file says beside the name; empty where it does not
-  Eigen::VectorXd values{};  // [N]; empty where the layout does not ask for it
+  Eigen::VectorXd values{};  // [N]; empty where nobody asks for it
+  bool in_words = false;     // the values stand in words as stamps, which were read as s
+  std::string refusal{};     // why it holds no numbers, with its place; empty where it does
 };
 
 /// Who says in which unit a column is.
@@ -48,6 +50,12 @@ enum class UnitFrom {
   file,    // beside the name
   name,    // as Winkel_deg
   nobody,  // it is the usual one
+};
+
+/// A column of a file whose values are wanted.
+struct WantedColumn {
+  std::size_t index = 0;
+  bool is_time = false;  // its cells may be stamps
 };
 
 /// A column of ours and where a file has it.
@@ -61,6 +69,8 @@ struct ColumnSource {
   std::vector<std::string>
       of_other_joints{};     // of the position: names of other joints' in the file
   bool is_added = false;     // to the source before it: the nanoseconds of secs+nsecs
+  bool in_words = false;     // stamps, which were read as s
+  std::string label{};       // what messages call it; empty: by the name of our column
   Eigen::VectorXd values{};  // [N] as they stand in the file, once they are read; NaN: no number
 };
 
@@ -69,11 +79,15 @@ struct ColumnSource {
 /// what is there and the --map that would help), one that stands there twice, and unknown names
 /// and units in the layout, a unit of another quantity, and a torque without a unit that is a current, a voltage, a duty cycle or
 /// a load by its name. A column that `map` gives to one of ours is found for no other. A temperature that nothing names is found by its unit. Time, which --rate
-/// makes needless, comes first; `time=secs+nsecs` gives two sources, whose sum it is.
+/// makes needless, comes first; `time=secs+nsecs` gives two sources, whose sum it is, and so do names as header.stamp.sec and header.stamp.nanosec (FindTime).
 /// place: of the header. there: what the file has, for messages; by default the names.
 std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
                                       const ReadSettings& layout, const Place& place,
                                       const std::string& there = "");
+
+/// The columns that `map` alone names. Throws BadInput as FindColumns does where one is not there.
+std::vector<WantedColumn> FindMappedColumns(const std::vector<FileColumn>& columns,
+                                            const ReadSettings& layout, const Place& place);
 
 /// Whether the columns are speeds and torques without a clock or a position: a table of points of a friction curve.
 bool IsTableOfSpeeds(const std::vector<FileColumn>& columns, const ReadSettings& layout,

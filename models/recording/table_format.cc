@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -190,17 +191,56 @@ std::optional<std::vector<std::string>> UnitsOf(std::vector<std::string> fields)
   return fields;
 }
 
+/// Whether names are too few to tell columns apart: several are empty, or two are equal.
+bool AreAlike(std::vector<std::string> names) {
+  const bool has_gaps = std::ranges::count(names, std::string()) > 1;
+  std::ranges::sort(names);
+  const auto equal = [](const std::string& a, const std::string& b) {
+    return !a.empty() && a == b;
+  };
+  return has_gaps || std::ranges::adjacent_find(names, equal) != names.end();
+}
+
+/// Names with those of a row above in front of them; a cell that is empty there goes on with the one to its left, as merged cells do.
+/// Nothing where that row has numbers, or fewer than two names.
+std::optional<std::vector<std::string>> JoinedNames(const std::vector<std::string>& above,
+                                                    std::vector<std::string> names, char mark) {
+  std::set<std::string> different;
+  for (const std::string& name : above) {
+    if (IsNumber(name, mark)) return std::nullopt;
+    if (!name.empty()) different.insert(name);
+  }
+  if (different.size() < 2) return std::nullopt;
+  std::string group;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!above[k].empty()) group = above[k];
+    if (group.empty() || (above[k].empty() && names[k].empty())) continue;
+    names[k] = names[k].empty() ? group : group + "/" + names[k];
+  }
+  return names;
+}
+
+/// Takes the names of further rows above those that were found, as long as names are alike.
+void TakeGroups(const std::vector<Line>& lines, std::size_t header, TableFormat& table) {
+  constexpr std::size_t most = 4;  // why: a joint, a quantity and a unit each have a row at most
+  for (std::size_t i = header; i-- > 0 && header - i <= most && AreAlike(table.names);) {
+    const auto above = FieldsAbove(lines[i].text, table, table.rows_end_empty);
+    if (!above || IsBlankLine(lines[i].text)) return;
+    auto names = JoinedNames(*above, table.names, table.decimal_mark);
+    if (!names) return;
+    table.names = std::move(*names);
+  }
+}
+
 /// Takes names and units from the lines above the first row, the nearest first: nothing but blank lines and comments may stand
 /// between. A comment is the header where no other line is.
 void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::string& file,
                 bool is_named, TableFormat& table) {
-  std::vector<std::string_view> row;
-  SplitLine(lines[std::min(look.first, lines.size() - 1)].text, table.separator, row);
   for (std::size_t i = look.first; i-- > 0;) {
     const Line& line = lines[i];
     const bool is_comment = IsComment(line.text);
     if (IsBlankLine(line.text) && !is_comment) continue;
-    auto fields = FieldsAbove(line.text, table, row.back().empty());
+    auto fields = FieldsAbove(line.text, table, table.rows_end_empty);
     if (auto units = fields && table.units.empty() ? UnitsOf(*fields) : std::nullopt) {
       table.units = std::move(*units);
       continue;
@@ -209,6 +249,7 @@ void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::str
       table.header = line.text;
       table.header_line = line.number;
       table.names = std::move(*fields);
+      if (!is_comment) TakeGroups(lines, i, table);
     }
     if (is_comment) continue;
     // a line of several fields that are not those of the rows, where the header should stand
@@ -375,6 +416,9 @@ TableFormat FindTable(std::string_view text, const std::string& file, bool is_na
   table.separator = look.separator;
   table.decimal_mark = look.mark;
   table.columns = look.columns;
+  std::vector<std::string_view> row;
+  SplitLine(first.text, look.separator, row);
+  table.rows_end_empty = row.back().empty();
   if (table.columns > kMostFields) {
     Refuse({file, first.number}, "has {} columns; {} at most: leave out those that are not needed",
            table.columns, kMostFields);

@@ -10,7 +10,8 @@
 namespace warmjoint {
 
 /// A table of text, as its first lines tell it: a preamble of any lines, a row of names, perhaps a row of units, rows of
-/// numbers. Lines that begin with # or % are comments; a row of names may stand in one.
+/// numbers. Lines that begin with # or % are comments; a row of names may stand in one. Names that repeat take in those of the row
+/// above them, "knee/torque" of "knee" and "torque", where that tells them apart.
 struct TableFormat {
   char separator = ',';            // comma, semicolon, tab, stroke, or a blank for runs of blanks
   char decimal_mark = '.';         // or a comma
@@ -19,9 +20,10 @@ struct TableFormat {
   int header_line = 0;             // 0: there is none
   std::vector<std::string> names;  // [columns], UTF-8; empty where there is no header
   std::vector<std::string>
-      units;             // [columns] each empty where the row says none; empty without such a row
-  std::size_t data = 0;  // byte at which the rows of numbers begin
-  int data_line = 1;     // its line
+      units;  // [columns] each empty where the row says none; empty without such a row
+  bool rows_end_empty = false;  // the first row ends with a separator and nothing behind it
+  std::size_t data = 0;         // byte at which the rows of numbers begin
+  int data_line = 1;            // its line
 };
 
 /// One look at the first thousand lines of a file. Throws BadInput for a file without a row, for rows that do not fit the

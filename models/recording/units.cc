@@ -42,6 +42,7 @@ constexpr std::array kSpellings = std::to_array<Texts>({
     {"msec", "ms"},       {"msecs", "ms"},       {"millis", "ms"},       {"milliseconds", "ms"},
     {"usec", "us"},       {"usecs", "us"},       {"micros", "us"},       {"microseconds", "us"},
     {"nsec", "ns"},       {"nsecs", "ns"},       {"nanosec", "ns"},      {"nanoseconds", "ns"},
+    {"nanosecs", "ns"},   {"nanosecond", "ns"},  {"microsecs", "us"},    {"microsecond", "us"},
     {"minutes", "min"},   {"hours", "h"},        {"days", "d"},          {"radians", "rad"},
     {"radian", "rad"},    {"degree", "deg"},     {"degrees", "deg"},     {"turns", "turn"},
     {"rev", "turn"},      {"revs", "turn"},      {"rot", "turn"},        {"count", "counts"},

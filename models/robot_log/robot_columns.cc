@@ -11,6 +11,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
+#include "models/recording/time_names.h"
 
 namespace warmjoint {
 namespace {
@@ -28,7 +29,7 @@ const Words kNotMeasured{"target",   "desired",   "des",    "ref",      "referen
                          "command",  "commanded", "goal",   "setpoint", "soll",      "control",
                          "external", "ext",       "limit",  "max",      "min",       "error",
                          "err",      "friction",  "gravity"};
-const Words kTimes{"time", "timestamp", "t", "stamp", "time_s", "zeit"};
+const Words kTimes{"time", "timestamp", "t", "stamp", "zeit"};
 
 bool Holds(const Words& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
@@ -179,15 +180,11 @@ void Join(const Family& position, const Family& torque, const Words& joints, Rob
                   numbered, joints.size(), fmt::join(found.joints, ", ")));
 }
 
-std::optional<std::string> FindTime(const Words& names) {
-  for (const std::string& time : kTimes) {
-    for (const std::string& name : names) {
-      std::string lower = name.substr(0, name.find_first_of(" [("));
-      std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-      if (lower == time) return name;
-    }
-  }
-  return std::nullopt;
+/// The column of the time as --map names it, or the sum of two; nothing where its name does not tell it.
+std::optional<std::string> NameOfTime(const Words& names) {
+  const std::vector<std::size_t> found = FindTime(names, kTimes);
+  if (found.empty()) return std::nullopt;
+  return found.size() == 1 ? names[found[0]] : names[found[0]] + "+" + names[found[1]];
 }
 
 /// The text of braces for joint j.
@@ -257,7 +254,7 @@ RobotColumns FindRobotColumns(const Words& names, const Words& joints, const Col
       std::ranges::any_of(words, [](const std::string& word) { return Holds(kCurrents, word); });
   Join(position, torque, joints, found);
   const auto said = map.find("time");
-  const auto time = said != map.end() ? std::optional(said->second) : FindTime(names);
+  const auto time = said != map.end() ? std::optional(said->second) : NameOfTime(names);
   for (ColumnTexts& one : found.maps) {
     if (time) one["time"] = *time;
     // nothing else counts

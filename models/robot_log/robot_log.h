@@ -1,13 +1,15 @@
-// The log of a whole robot: a wide file with columns for each joint.
+// The log of a whole robot: a wide table with columns for each joint.
 #pragma once
 
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "models/recording/assemble.h"
 #include "models/robot_log/robot_columns.h"
 
 namespace warmjoint {
@@ -15,25 +17,36 @@ namespace warmjoint {
 /// N samples of n joints on one clock, even in time.
 struct RobotLog {
   std::string source;
-  double step = 0;                               // s
-  Eigen::VectorXd time;                          // [N] s
-  Eigen::MatrixXd position;                      // [N x n] rad or m
-  Eigen::MatrixXd torque;                        // [N x n] torque_unit
-  Eigen::Array<bool, Eigen::Dynamic, 1> logged;  // [N] false within a gap of the log
-  std::string torque_unit;                       // N.m (N for slides) or A, ...
+  double step = 0;           // s
+  Eigen::VectorXd time;      // [N] s
+  Eigen::MatrixXd position;  // [N x n] rad or m
+  Eigen::MatrixXd torque;    // [N x n] torque_unit
+  /// [N x n] false within a gap of any joint's positions or of the joint's torque
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> logged;
+  std::string torque_unit;         // N.m (N for slides) or A, ...
   std::vector<std::string> dead;   // [n] why a joint's torque cannot be used; else empty
   std::vector<std::string> notes;  // what reading made of the file, one phrase each
 };
 
-/// The names of a text file's columns; none of a format that does not tell them before it is read.
-std::vector<std::string> NamesOfColumns(const std::string& file, const ReadSettings& settings);
+/// A log as it is given: a file, or columns or a table of text in memory.
+struct RobotLogSource {
+  std::string name;                      // of the file, or what messages call it
+  std::optional<FileContent> columns{};  // in place of the file
+  std::optional<std::string> text{};     // the same
+};
 
-/// A joint's own part of a file.
-using ReadJoint = std::function<Measurements(const ReadSettings& settings)>;
+/// The columns of the joints, by the columns of a log. place: of the header
+using FindRobot = std::function<RobotColumns(const FileContent& content, const Place& place)>;
 
-/// Reads the columns of each joint by the reader of single joints, with its units, stamps, clocks and mends, and joins them on the clock
-/// of the first. kinds: [n] of the joints. Throws BadInput as that does; a torque that cannot be used leaves its joint `dead`.
-RobotLog ReadRobotLog(const ReadJoint& read, const ReadSettings& settings,
+/// The columns of a log, with the values of those that `find` gives to joints; a file is opened once. settings: names of columns in place
+/// of a header. Throws BadInput, also as `find` does.
+FileContent ReadRobotTable(const RobotLogSource& source, const ReadSettings& settings,
+                           const FindRobot& find);
+
+/// The joints of a table on one clock: the table has one, which is mended once; each position and each torque is then a column of its own,
+/// with its own rows without a number, its unit and its gaps. kinds: [n] of the joints. Throws BadInput where the clock or a position
+/// cannot be used; a torque that cannot be used leaves its joint `dead`.
+RobotLog ReadRobotLog(const std::string& source, FileContent table, const ReadSettings& settings,
                       const RobotColumns& columns, const std::vector<JointKind>& kinds);
 
 }  // namespace warmjoint

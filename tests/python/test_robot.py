@@ -136,6 +136,45 @@ def test_no_load_is_claimed_where_there_is_none_and_an_unknown_one_is_taken_in(w
         assert abs(estimate["viscous"].value - VISCOUS[j]) < 4 * estimate["viscous"].std
 
 
+def test_masked_samples_are_left_out_and_a_dead_torque_leaves_its_joint_out(wrong, log):
+    whole = wj.identify_robot(wrong, log)
+    hidden = np.random.default_rng(5).random(log["torque"].shape) < .1
+    spoilt = np.ma.masked_array(np.where(hidden, .4 * log["torque"], log["torque"]), hidden)
+    masked = wj.identify_robot(wrong, log | {"torque": spoilt})
+    for name, one in masked.items():
+        assert one.ok, one.message
+        assert one["viscous"].value == pytest.approx(whole[name]["viscous"].value, rel=.03)
+    for nothing in (0, np.nan):
+        dead = log["torque"].copy()
+        dead[:, 1] = nothing
+        robot = wj.identify_robot(wrong, log | {"torque": dead})
+        assert [one.status for one in robot.values()] == ["ok", "bad_data", "ok"]
+        assert "torque of elbow" in robot["elbow"].message
+        assert [one for one in robot.notices if one.startswith("elbow is left out")]
+        for name in ("shoulder", "wrist"):
+            assert robot[name]["viscous"].value == pytest.approx(whole[name]["viscous"].value, rel=.02)
+
+
+def test_the_reason_of_a_refusal_is_its_own(wrong, log):
+    for spoilt, words in (({"time": log["time"][::-1]}, "runs backwards"), ({"torque": log["torque"][:-1]}, "one length"),
+                          ({"position": log["position"].T, "torque": log["torque"].T}, "transpose"),
+                          ({"position": log["position"] * [1, np.nan, 1]}, "position of elbow")):
+        with pytest.raises(wj.BadInput, match=words) as refusal:
+            wj.identify_robot(wrong, log | spoilt)
+        assert "map" not in str(refusal.value) or words == "position of elbow"
+
+
+def test_a_joint_of_a_robot_is_drawn_and_has_residuals(wrong, log):
+    robot = wj.identify_robot(wrong, log)
+    elbow = robot["elbow"]
+    assert type(elbow.plot()) is type(robot.plot("elbow"))
+    left = elbow.residuals
+    assert len(left.time) == len(left.torque) > 100
+    assert np.sqrt(np.mean(left.torque ** 2)) < .2
+    with pytest.raises(wj.BadInput, match="elbow"):
+        elbow.plot("friction_curve")
+
+
 def test_what_cannot_be_used_is_refused(wrong, log):
     with pytest.raises(wj.BadInput, match="position"):
         wj.identify_robot(wrong, {"time": log["time"], "torque": log["torque"]})

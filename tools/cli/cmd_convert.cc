@@ -8,6 +8,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/recording/log_formats.h"
 #include "models/recording/read_recording.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
@@ -21,16 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr Eigen::Index kFewestSamples = 3;  // why: a recording has as many at least
+
 struct ConvertArguments {
   RecordingSource recording;
   std::string output, topic, joint;
 };
-
-/// Whether a file may have cells, compounds or structs, which Python's libraries read and the program does not.
-bool MayHoldObjects(const std::string& path) {
-  const std::string end = Lowercase(fs::path(path).extension().string());
-  return end == ".h5" || end == ".hdf5" || end == ".mat";
-}
 
 /// Refuses options of text where columns are written as they are.
 void RefuseLayout(const ReadSettings& read) {
@@ -62,12 +59,16 @@ ExitStatus ConvertOther(const ConvertArguments& arguments) {
   const FileContent content = ReadOtherFormat({arguments.recording.files.front(), arguments.topic,
                                                arguments.joint, arguments.recording.read.map});
   for (const std::string& note : content.notes) SayNotice("notice: {}\n", note);
+  const Eigen::Index samples = content.columns.empty() ? 0 : content.columns.front().values.size();
+  if (samples < kFewestSamples) {
+    Refuse({arguments.recording.files.front()},
+           "has {} rows of numbers; a log has {} at least. Is its table elsewhere in the file?",
+           samples, kFewestSamples);
+  }
   WriteColumns(content, arguments.output);
   std::vector<std::string> names;
   for (const FileColumn& column : content.columns) names.push_back(column.name);
-  fmt::print("{}: {} samples of {}\n", arguments.output,
-             content.columns.empty() ? 0 : content.columns.front().values.size(),
-             ExcerptOfList(names));
+  fmt::print("{}: {} samples of {}\n", arguments.output, samples, ExcerptOfList(names));
   return ExitStatus::done;
 }
 
@@ -93,6 +94,7 @@ ExitStatus Convert(ConvertArguments& arguments, const CLI::App& parser) {
   RequireWritable(arguments.output);
   KeepApart({arguments.output}, {file});
   if (IsOtherFormat(file)) return ConvertOther(arguments);
+  RequireReadable(file);
   if (!arguments.topic.empty()) Refuse({file}, "--topic is for bags; name columns with --map");
   // of a file without joints by name it is the joint's kind
   if (arguments.joint == "linear") arguments.recording.read.joint = JointKind::linear;
@@ -117,16 +119,16 @@ Command AddConvertCommand(CLI::App& program) {
   CLI::App* parser = program.add_subcommand("convert", "Make a log of one in another format");
   arguments->recording.files.resize(1);
   AddValue(*parser, "LOG", "LOG", arguments->recording.files.front(),
-           "bag (rosbag2 folder, .db3, .mcap, .bag), .parquet or a folder of them, .npz, .npy, "
-           ".json, .jsonl, .xlsx, "
-           ".mat, .h5, or a table of text")
+           fmt::format("log whose name ends in {}, {}; folder of a rosbag2 or of .parquet; or a "
+                       "table of text",
+                       EndingsOf(ReadBy::converter), EndingsOf(ReadBy::program)))
       ->required();
   AddValue(*parser, "-o,--output", "FILE", arguments->output, "log to write: .h5 or .csv")
       ->required();
   AddLayoutOptions(*parser, arguments->recording.read);
   parser->remove_option(parser->get_option("--joint"));
   AddValue(*parser, "--joint", "NAME", arguments->joint,
-           "joint of a bag's JointState; of a table of text rotary or linear");
+           "joint of a bag's JointState, by default all; of a table of text rotary or linear");
   AddValue(*parser, "--topic", "TOPIC", arguments->topic,
            "topic of a bag; by default the only one of sensor_msgs/JointState");
   return {parser, [arguments, parser] { return Convert(*arguments, *parser); }};

@@ -8,6 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/recording/log_formats.h"
 #include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
 #include "tools/cli/python_child.h"
@@ -90,9 +91,15 @@ void TakeMapped(const OtherFormat& asked, FileContent& content) {
 }  // namespace
 
 FileContent ReadOtherFormat(const OtherFormat& asked) {
+  std::map<std::string, std::string> readers;
+  for (const LogFormat& format : LogFormats()) {
+    if (!format.reader.empty()) readers[std::string(format.ending)] = format.reader;
+  }
   const json request = {{"file", asked.file},
+                        {"readers", readers},
                         {"topic", asked.topic},
                         {"joint", asked.joint},
+                        {"joints", "all"},
                         {"map", static_cast<const std::map<std::string, std::string>&>(asked.map)}};
   const std::string script = DataFolder() / kScript;
   Ended ended;
@@ -108,7 +115,7 @@ FileContent ReadOtherFormat(const OtherFormat& asked) {
 
   const ConverterAnswer answer = Split(asked.file, ended.out);
   if (answer.head.contains("error")) {
-    throw BadInput(Printable(answer.head["error"].get<std::string>()));
+    throw BadInput(Printable(answer.head.value("error", std::string())));
   }
   FileContent content;
   const std::vector<std::string> notes = answer.head.value("notes", std::vector<std::string>{});

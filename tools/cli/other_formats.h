@@ -11,7 +11,7 @@ namespace warmjoint {
 /// What is asked of a file of another format.
 struct OtherFormat {
   std::string file;
-  std::string topic, joint;  // of a bag; empty: the only one
+  std::string topic, joint;  // of a bag; empty: the only topic of joints, all joints
   ColumnTexts map{};         // ours -> theirs; empty: all columns by their own names
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -106,14 +107,23 @@ class Taking {
   std::string words_;
 };
 
+/// Whether a sign follows a name of a column or of a converted field, as torque=, q1= or elbow.position=.
+bool BeginsWithKey(std::string_view text) {
+  const auto is_of_key = [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("_ .[]/").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  const auto end = std::ranges::find_if_not(text, is_of_key);
+  return end != text.end() && *end == '=';
+}
+
 /// The pairs of a list: a comma parts two where a key and a sign follow it, since names have commas, too.
 std::vector<std::string> SplitPairs(std::string_view list) {
   std::vector<std::string> pairs;
   for (std::size_t begin = 0, at = 0; at <= list.size(); ++at) {
     if (at < list.size() && list[at] != ',') continue;
     const std::string_view rest = list.substr(std::min(at + 1, list.size()));
-    const std::size_t key = rest.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ");
-    if (at < list.size() && (key == std::string_view::npos || rest[key] != '=')) continue;
+    if (at < list.size() && !BeginsWithKey(rest)) continue;
     pairs.emplace_back(list.substr(begin, at - begin));
     begin = at + 1;
   }

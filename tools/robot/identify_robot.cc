@@ -7,8 +7,10 @@
 
 #include "identification/robot/explain_robot.h"
 #include "identification/robot/report_joint.h"
+#include "models/recording/read_recording.h"
 #include "tools/robot/at_once.h"
 #include "tools/robot/find_faults.h"
+#include "tools/robot/identify_logs.h"
 #include "tools/robot/joint_data.h"
 #include "tools/robot/payload.h"
 #include "tools/robot/robot_data.h"
@@ -82,8 +84,10 @@ RobotJointEstimate Answer(const Joint& joint, const JointQuestion& question, dou
   return ReportJoint(fit, joint.columns, joint.summary, HoldOutJoint(fit, joint.columns, holdout));
 }
 
-RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& source,
-                       const RobotSettings& settings, const RobotWatch& watch) {
+}  // namespace
+
+RobotEstimate IdentifyRobot(const std::filesystem::path& robot, const RobotSource& source,
+                            const RobotSettings& settings, const RobotWatch& watch) {
   const auto tell = [&](const char* words) {
     if (watch) watch(words);
   };
@@ -133,7 +137,7 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   tell("fitting each joint");
   RobotEstimate answer;
   answer.robot = robot.string();
-  answer.log = source.recording.files;
+  for (const RobotLogSource& log : source.logs) answer.log.push_back(log.name);
   answer.notices = data.notices;
   answer.joints.resize(joints.size());
   for (const Joint& joint : joints) {
@@ -159,22 +163,18 @@ RobotEstimate Identify(const std::filesystem::path& robot, const RobotSource& so
   return answer;
 }
 
-}  // namespace
-
 RobotEstimate IdentifyRobot(const std::filesystem::path& robot, const RecordingSource& source,
                             const RobotSettings& settings, const RobotWatch& watch) {
-  return Identify(robot, {source}, settings, watch);
+  RobotSource logs{{}, source.read};
+  for (const std::string& file : source.files) logs.logs.push_back({file});
+  return IdentifyRobot(robot, logs, settings, watch);
 }
 
 RobotEstimate IdentifyRobot(const std::filesystem::path& robot,
                             const std::map<std::string, std::vector<double>>& columns,
                             const ReadSettings& read, const RobotSettings& settings,
                             const RobotWatch& watch) {
-  RobotSource source;
-  source.recording.files = {"log"};
-  source.recording.read = read;
-  source.columns = &columns;
-  return Identify(robot, source, settings, watch);
+  return IdentifyRobot(robot, RobotSource{{{"log", ContentOf(columns)}}, read}, settings, watch);
 }
 
 }  // namespace warmjoint

@@ -25,21 +25,28 @@ using Eigen::Index;
 constexpr double kFarthest = 4 * 2 * std::numbers::pi;  // rad
 constexpr double kBesideLimit = .5;  // rad that a joint may stand beyond its limits in a log
 
-/// The joint's own part of a file, or of columns in memory.
-ReadJoint ReaderOf(const RobotSource& source, const std::string& file) {
-  if (source.columns) {
-    return [&source, file](const ReadSettings& own) {
-      return MakeRecording(*source.columns, own, file);
-    };
-  }
-  return [file](const ReadSettings& own) { return ReadRecordingFile(file, own); };
-}
+/// The tables of all logs, and the columns of the joints, by the first of them.
+struct Tables {
+  std::vector<FileContent> contents;
+  RobotColumns columns;
+};
 
-std::vector<std::string> NamesIn(const RobotSource& source, const std::string& file) {
-  if (!source.columns) return NamesOfColumns(file, source.recording.read);
-  std::vector<std::string> names;
-  for (const auto& [name, values] : *source.columns) names.push_back(name);
-  return names;
+Tables ReadTables(const RobotSource& source, const std::vector<std::string>& joints) {
+  const auto find = [&](const FileContent& content, const Place& place) {
+    std::vector<std::string> names;
+    for (const FileColumn& column : content.columns) names.push_back(column.name);
+    return FindRobotColumns(names, joints, source.read.map, place);
+  };
+  Tables tables;
+  for (const RobotLogSource& log : source.logs) {
+    const bool is_first = tables.contents.empty();
+    const auto known = [&](const FileContent&, const Place&) { return tables.columns; };
+    tables.contents.push_back(
+        ReadRobotTable(log, source.read, is_first ? FindRobot(find) : FindRobot(known)));
+    // a file may be read by a process of its own, which keeps what it found
+    if (is_first) tables.columns = find(tables.contents.front(), {InputName(log.name)});
+  }
+  return tables;
 }
 
 /// A rotary joint that stands where it could not, were its positions in rad.
@@ -165,12 +172,9 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
                         const RobotSettings& settings) {
   ReadModel model = ReadRobotModel(robot);
   const std::vector<std::string> joints = settings.joints.empty() ? model.joints : settings.joints;
-  const std::vector<std::string>& files = source.recording.files;
-
-  // which columns, by the first file
-  ReadSettings read = source.recording.read;
-  const RobotColumns columns =
-      FindRobotColumns(NamesIn(source, files.at(0)), joints, read.map, {InputName(files[0])});
+  Tables tables = ReadTables(source, joints);
+  const RobotColumns& columns = tables.columns;
+  ReadSettings read = source.read;
   RobotData data{.robot = DescribeRobot(std::move(model), columns.joints),
                  .logs = {},
                  .torque_units = {},
@@ -195,8 +199,9 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
   for (const ModelJoint& joint : data.robot.joints) kinds.push_back(joint.kind);
   const auto read_all = [&] {
     data.logs.clear();
-    for (const std::string& file : files) {
-      data.logs.push_back(ReadRobotLog(ReaderOf(source, file), read, columns, kinds));
+    for (std::size_t i = 0; i < source.logs.size(); ++i) {
+      data.logs.push_back(
+          ReadRobotLog(InputName(source.logs[i].name), tables.contents[i], read, columns, kinds));
     }
   };
   read_all();
@@ -216,6 +221,11 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
   }
   for (const RobotLog& log : data.logs) {
     for (const std::string& note : log.notes) data.notices.push_back(log.source + ": " + note);
+    for (std::size_t j = 0; j < log.dead.size(); ++j) {
+      if (log.dead[j].empty()) continue;
+      data.notices.push_back(
+          fmt::format("{} is left out: {}", data.robot.joints[j].name, log.dead[j]));
+    }
   }
   TakeOptions(settings, data);
   return data;

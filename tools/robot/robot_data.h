@@ -13,10 +13,10 @@
 
 namespace warmjoint {
 
-/// Files, or columns in memory.
+/// Logs, each a file or columns in memory, and how they are read.
 struct RobotSource {
-  RecordingSource recording;
-  const std::map<std::string, std::vector<double>>* columns = nullptr;  // in place of files
+  std::vector<RobotLogSource> logs;
+  ReadSettings read;
 };
 
 struct RobotData {

@@ -7,6 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/read_recording.h"
 #include "models/recording/units.h"
 #include "tests/models/recording/temporary_file.h"
@@ -65,6 +66,35 @@ TEST(ReadCsv, UnderstandsTheWaysOfOtherPrograms) {
     text.pop_back();
     EXPECT_EQ(Read(text).torque, torque) << separator;
   }
+}
+
+TEST(ReadCsv, JoinsNamesOfTwoRows) {
+  // as a frame with two rows of columns is written, and as merged cells are
+  const char* const written = ",knee,knee,ankle,ankle\n,angle,torque,angle,torque\ntime,,,,\n";
+  const char* const merged = ",knee,,ankle,\ntime,angle,torque,angle,torque\n";
+  for (const char* head : {written, merged}) {
+    const TemporaryFile file("log.csv", std::string(head) + "0,1,2,3,4\n1,2,3,4,5\n2,4,7,9,1\n");
+    const Measurements log =
+        ReadCsv(file.path(), {.map = {{"position", "ankle/angle"}, {"torque", "ankle/torque"}}});
+    EXPECT_EQ(log.position, Eigen::Vector3d(3, 4, 9));
+    EXPECT_EQ(log.torque, Eigen::Vector3d(4, 5, 1));
+  }
+}
+
+TEST(ReadCsv, NeedsNoNameBehindASeparatorAtTheEndOfRows) {
+  const TemporaryFile file("log.csv", "0\t1\t2\t\n1\t2\t3\t\n2\t4\t7\t\n");
+  const Measurements log = ReadCsv(file.path(), {.columns = {"time", "position", "torque"}});
+  EXPECT_EQ(log.torque, Eigen::Vector3d(2, 3, 7));
+}
+
+TEST(ReadCsv, KnowsTheTimeInManySpellings) {
+  const std::string rows = "17,0,1,2\n17,500000000,2,3\n18,0,4,7\n";
+  for (const char* names : {"sec,nanosec", "header.stamp.sec,header.stamp.nanosec"}) {
+    const TemporaryFile file("log.csv", std::string(names) + ",position,torque\n" + rows);
+    EXPECT_NEAR(MedianStep(ReadCsv(file.path()).time), .5, 1e-9) << names;
+  }
+  const TemporaryFile file("log.csv", "__time,position,torque\n0,1,2\n1,2,3\n2,4,7\n");
+  EXPECT_EQ(ReadCsv(file.path()).time, Eigen::Vector3d(0, 1, 2));
 }
 
 TEST(ReadCsv, ConvertsToSi) {

@@ -137,7 +137,7 @@ TEST(Hdf5, LeavesNothingBehindWhereItCannotWrite) {
 }
 
 /// A reader that a file took over: it sends its parent a byte now and then, for 5 s.
-FileContent Trickle(const std::string&, const ReadSettings&) {
+FileContent Trickle(const std::string&, const WantedColumns&) {
   for (int i = 0; i < 50; ++i) {
     for (int file = 3; file < 64; ++file) {
       struct stat status {};
