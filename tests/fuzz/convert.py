@@ -7,7 +7,10 @@ FOLDER gets the inputs that broke a reader, and makes the status 1. Exits 77 whe
 """
 
 import argparse
+import bz2
+import gzip
 import json
+import lzma
 import os
 import pathlib
 import random
@@ -16,6 +19,7 @@ import signal
 import sys
 import tempfile
 import time
+import zipfile
 
 FORMATS = pathlib.Path(__file__).resolve().parents[2] / "tools/python/warmjoint/formats"
 sys.path.insert(0, str(FORMATS))
@@ -24,11 +28,13 @@ try:
     import numpy
     import openpyxl
     import pyarrow
+    import pyarrow.feather
     import pyarrow.parquet
     import read_arrays
     import read_bag
     import read_json
     import read_numpy
+    import read_packed
     import read_parquet
     import read_sheet
     import scipy.io
@@ -37,7 +43,11 @@ try:
 except ImportError as error:
     print(f"skipped: {error}; tools/convert --setup fetches the packages")
     sys.exit(77)
-READERS = (read_arrays, read_bag, read_json, read_numpy, read_parquet, read_sheet)  # imported once, before each input forks
+# imported once, before each input forks; of the endings of the seeds
+READERS = {".mat": read_arrays, ".h5": read_arrays, ".nc": read_arrays, ".mcap": read_bag, ".db3": read_bag, ".json": read_json, ".jsonl": read_json,
+           ".npz": read_numpy, ".npy": read_numpy, ".parquet": read_parquet, ".feather": read_parquet, ".xlsx": read_sheet,
+           **dict.fromkeys((".gz", ".bz2", ".xz", ".zip"), read_packed)}
+REQUEST = {"map": {}, "joint": "", "topic": "", "joints": "all", "readers": {ending: reader.__name__ for ending, reader in READERS.items()}}
 SLOWEST = 20  # s of one input: files are of some kB
 
 
@@ -70,6 +80,16 @@ def seeds(folder):
                 message = state(header=header(stamp=stamp(sec=int(t), nanosec=round(t % 1 * 1e9)), frame_id=""), name=["j"], position=one, velocity=one, effort=one)
                 writer.write(topic, round(t * 1e9), store.serialize_cdr(message, kind))
         next((folder / f"bag{end}").glob(f"*.{end}")).rename(folder / f"a.{end}")
+    pyarrow.feather.write_feather(pyarrow.table(columns), folder / "a.feather")
+    with scipy.io.netcdf_file(folder / "a.nc", "w") as file:
+        file.createDimension("n", len(time_))
+        for name, values in columns.items():
+            file.createVariable(name, "d", ("n",))[:] = values
+    text = b"time,position,torque\n" + b"".join(b"%f,%f,%f\n" % (t, t, x) for t, x in zip(time_, torque, strict=True))
+    for ending, packed in ((".gz", gzip.compress(text)), (".bz2", bz2.compress(text)), (".xz", lzma.compress(text))):
+        (folder / f"a.csv{ending}").write_bytes(packed)
+    with zipfile.ZipFile(folder / "a.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("log.csv", text)
     return [path for path in sorted(folder.iterdir()) if path.is_file()]
 
 
@@ -105,7 +125,7 @@ def fault_of(path):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
         try:
             import importlib
-            answer = importlib.import_module("__main__formats").answer({"file": str(path), "map": {}, "joint": "", "topic": ""})
+            answer = importlib.import_module("__main__formats").answer({"file": str(path), **REQUEST})
             os.write(into, answer.partition(b"\n")[0][:60_000])
         except BaseException as error:
             os.write(into, f"raised {type(error).__name__}: {error}".encode("utf-8", "replace")[:2000])

@@ -11,6 +11,7 @@
 #include <warmjoint/simulation.h>
 #include <warmjoint/suite.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
+#include "tools/robot/identify_logs.h"
 #include "tools/shown/estimate_data.h"
 
 namespace warmjoint::python {
@@ -90,25 +92,54 @@ nb::dict RunInPython(const std::string& suite, const std::string& output, nb::ha
 
 using GivenColumn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-/// columns: of one log in memory; none: the files of `source`. Returns (robot.json, facts and arrays of its pictures).
-nb::object IdentifyRobotInPython(const std::string& robot, nb::handle source,
-                                 const std::map<std::string, GivenColumn>& columns,
-                                 nb::handle given) {
-  const auto read = FieldsFromPython<RecordingSource>(source, "log");
-  const auto settings = FieldsFromPython<RobotSettings>(given, "identify_robot");
-  std::map<std::string, std::vector<double>> values;
-  for (const auto& [name, column] : columns) {
-    values[name].assign(column.data(), column.data() + column.size());
+/// (name, unit, [N] or None, why it holds no numbers) each.
+FileContent ColumnsFromPython(const nb::list& columns) {
+  FileContent content;
+  for (const nb::handle one : columns) {
+    const auto entry = nb::cast<nb::tuple>(one);
+    FileColumn& column = content.columns.emplace_back();
+    column.name = nb::cast<std::string>(entry[0]);
+    column.unit = nb::cast<std::string>(entry[1]);
+    column.refusal = nb::cast<std::string>(entry[3]);
+    if (nb::handle(entry[2]).is_none()) continue;
+    const auto values = nb::cast<GivenColumn>(entry[2]);
+    column.values = Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
   }
+  return content;
+}
+
+/// (name, columns or None, text or None) each: a file where there is neither.
+std::vector<RobotLogSource> LogsFromPython(const nb::list& given) {
+  std::vector<RobotLogSource> logs;
+  for (const nb::handle one : given) {
+    const auto entry = nb::cast<nb::tuple>(one);
+    RobotLogSource& log = logs.emplace_back();
+    log.name = nb::cast<std::string>(entry[0]);
+    if (!nb::handle(entry[1]).is_none()) {
+      log.columns = ColumnsFromPython(nb::cast<nb::list>(entry[1]));
+    }
+    if (!nb::handle(entry[2]).is_none()) log.text = nb::cast<std::string>(entry[2]);
+  }
+  return logs;
+}
+
+/// read: settings of a RecordingSource. Returns (robot.json, facts and arrays of its pictures).
+nb::object IdentifyRobotInPython(const std::string& robot, const nb::list& logs, nb::handle read,
+                                 nb::handle given) {
+  const auto settings = FieldsFromPython<RobotSettings>(given, "identify_robot");
+  const RobotSource source{LogsFromPython(logs),
+                           FieldsFromPython<RecordingSource>(read, "log").read};
+  const bool is_in_memory = std::ranges::all_of(
+      source.logs, [](const RobotLogSource& log) { return log.columns || log.text; });
   RobotEstimate answer;
-  if (columns.empty()) {
+  if (is_in_memory) {
+    answer = Interruptibly([=](const auto& stop) {
+      return IdentifyRobot(robot, source, settings, [&](const std::string&) { stop(); });
+    });
+  } else {
     // readers of HDF5 and MATLAB fork, which only the thread that calls may do
     nb::gil_scoped_release released;
-    answer = IdentifyRobot(robot, read, settings);
-  } else {
-    answer = Interruptibly([=](const auto& stop) {
-      return IdentifyRobot(robot, values, read.read, settings, [&](const std::string&) { stop(); });
-    });
+    answer = IdentifyRobot(robot, source, settings, {});
   }
   shown::ShownData data;
   data.facts = shown::RobotFacts(answer, data);
@@ -137,8 +168,9 @@ NB_MODULE(_engine, module) {
               "collections.abc.Callable[[dict[str, typing.Any]], str]], watch: "
               "collections.abc.Callable[[int, int], None]) -> dict[str, typing.Any]"));
   module.def("identify_robot", &python::IdentifyRobotInPython,
-             nb::sig("def identify_robot(robot: str, source: dict[str, object], columns: dict[str, "
-                     "numpy.typing.NDArray[numpy.float64]], settings: dict[str, object]) -> "
+             nb::sig("def identify_robot(robot: str, logs: list[tuple[str, list[tuple[str, str, "
+                     "numpy.typing.NDArray[numpy.float64] | None, str]] | None, str | None]], "
+                     "read: dict[str, object], settings: dict[str, object]) -> "
                      "tuple[dict[str, typing.Any], list[dict[str, typing.Any]], "
                      "list[numpy.typing.NDArray[numpy.float64]]]"));
   module.def("leaderboard", [](const std::string& directory, const std::string& format) {

@@ -16,6 +16,7 @@
 
 #include "identification/preparation/check.h"
 #include "models/foundation/excerpt.h"
+#include "models/recording/log_formats.h"
 #include "models/recording/read_recording.h"
 #include "models/recording/recording_columns.h"
 #include "models/recording/table_format.h"
@@ -117,6 +118,22 @@ std::pair<nb::object, bool> ReadCells(const std::vector<std::string>& texts,
 }
 
 // Files.
+
+/// [{ending, name, by, reader}] of all formats: by is program, converter or nobody.
+nb::list FormatsInPython() {
+  nb::list formats;
+  for (const LogFormat& one : LogFormats()) {
+    nb::dict format;
+    format["ending"] = std::string(one.ending);
+    format["name"] = std::string(one.name);
+    format["by"] = one.by == ReadBy::program     ? "program"
+                   : one.by == ReadBy::converter ? "converter"
+                                                 : "nobody";
+    format["reader"] = std::string(one.reader);
+    formats.append(format);
+  }
+  return formats;
+}
 
 Log ReadLog(nb::handle settings) {
   const auto source = FieldsFromPython<RecordingSource>(settings, "read");
@@ -308,6 +325,9 @@ void AddLogs(nb::module_& module) {
   module.def("read_log", &ReadLog, nb::sig("def read_log(settings: dict[str, object]) -> Log"));
   module.def("read_text", &ReadText,
              nb::sig("def read_text(text: str, settings: dict[str, object]) -> Log"));
+  module.def("log_formats", &FormatsInPython, nb::sig("def log_formats() -> list[dict[str, str]]"));
+  module.def("is_other_format", [](const std::string& path) { return IsOtherFormat(path); });
+  module.def("may_hold_objects", [](const std::string& path) { return MayHoldObjects(path); });
   module.def("join_logs", &JoinLogs);
   module.def("log_of_state", &LogOfState,
              nb::sig("def log_of_state(state: dict[str, typing.Any]) -> Log"));

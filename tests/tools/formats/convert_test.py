@@ -5,20 +5,27 @@
 Each HDF5 that comes out is also read by `warmjoint check`. Exits 77 where the packages are not there.
 """
 
+import bz2
 import datetime
+import gzip
 import json
+import lzma
 import os
 import pathlib
+import re
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 try:
     import h5py
     import numpy
     import openpyxl
     import pyarrow
+    import pyarrow.feather
     import pyarrow.parquet
     import scipy.io
     from rosbags.rosbag2 import StoragePlugin, Writer
@@ -72,6 +79,20 @@ def write_bag(folder, plugin, order=range(COUNT)):
             writer.write(wrenches, when, STORE.serialize_cdr(wrench(i), "geometry_msgs/msg/WrenchStamped"))
 
 
+def write_json_mcap(path, cut=0):
+    """Messages of JSON in no chunks, as a program writes them that knows no ROS."""
+    text = lambda content: struct.pack("<I", len(content)) + content
+    record = lambda kind, content: bytes([kind]) + struct.pack("<Q", len(content)) + content
+    parts = [b"\x89MCAP0\r\n", record(1, text(b"") + text(b"own")), record(3, struct.pack("<H", 1) + text(b"drive") + text(b"jsonschema") + text(b"{}")),
+             record(4, struct.pack("<HH", 1, 1) + text(b"/drive") + text(b"json") + struct.pack("<I", 0))]
+    for i in range(COUNT):
+        when = EPOCH * 10**9 + round(TIME[i] * 1e9)
+        parts.append(record(5, struct.pack("<HIQQ", 1, i, when, when) + json.dumps({"position": POSITION[i], "torque": TORQUE[i]}).encode()))
+    end = [record(15, struct.pack("<I", 0)), record(2, struct.pack("<QQI", 0, 0, 0)), b"\x89MCAP0\r\n"]
+    whole = b"".join(parts)
+    path.write_bytes(whole[:-cut] if cut else whole + b"".join(end))
+
+
 class Convert(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -113,6 +134,123 @@ class Convert(unittest.TestCase):
             found = self.columns(bag, "--topic", "/wrench", "--map", "position=wrench.force.x,torque=wrench.torque.z")
             self.is_the_log(found, ("time", "position", "torque"))
 
+    def test_all_joints_of_a_bag_in_one_table(self):
+        """Each with its own columns; messages that leave a joint out are no numbers of it. The folder may end in .bag."""
+        for plugin in (StoragePlugin.SQLITE3, StoragePlugin.MCAP):
+            bag = self.folder / f"{plugin.name.lower()}.bag"
+            write_bag(bag, plugin)
+            done = convert(bag, self.output)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(self.output) as file:
+                self.assertEqual(set(file), {"time", *(f"{joint}.{name}" for joint in ("shoulder", "elbow") for name in ("position", "velocity", "effort"))})
+                numpy.testing.assert_array_equal(file["elbow.effort"], TORQUE)
+                numpy.testing.assert_array_equal(file["shoulder.effort"], 0 * TORQUE)
+
+    def test_fields_of_a_bag_by_any_names(self):
+        write_bag(self.folder / "bag", StoragePlugin.MCAP)
+        done = convert(self.folder / "bag", self.output, "--topic", "/joint_states", "--map", "q1=position[0],q2=position[1],tau2=effort[1]")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.output) as file:
+            self.assertEqual(set(file), {"time", "q1", "q2", "tau2"})
+            numpy.testing.assert_array_equal(file["tau2"], TORQUE)
+
+    def test_a_cut_mcap_is_read_as_far_as_it_reaches(self):
+        write_bag(self.folder / "bag", StoragePlugin.MCAP)
+        cut = self.folder / "cut.mcap"
+        whole = next((self.folder / "bag").glob("*.mcap")).read_bytes()
+        cut.write_bytes(whole[:len(whole) // 2])
+        done = convert(cut, self.output, "--joint", "elbow")
+        if done.returncode == 0:  # chunks that were whole
+            self.assertIn("ends within a record", done.stderr)
+            with h5py.File(self.output) as file:
+                count = len(file["time"])
+                self.assertTrue(3 <= count < COUNT)
+                numpy.testing.assert_array_equal(file["torque"], TORQUE[:count])
+        else:
+            self.assertIn("ends before its first message", done.stderr)
+        write_json_mcap(self.folder / "drive.mcap", cut=40)
+        self.assertEqual(len(self.columns(self.folder / "drive.mcap")["time"]), COUNT - 1)
+        self.assertIn("ends within a record", self.said)
+
+    def test_json_messages_in_an_mcap(self):
+        write_json_mcap(self.folder / "drive.mcap")
+        found = self.columns(self.folder / "drive.mcap")
+        self.assertEqual(set(found), {"time", "position", "torque"})
+        numpy.testing.assert_array_equal(found["torque"], TORQUE)
+        numpy.testing.assert_allclose(found["time"], TIME, atol=1e-6)
+        found = self.columns(self.folder / "drive.mcap", "--map", "position=position,torque=torque")
+        numpy.testing.assert_array_equal(found["position"], POSITION)
+
+    def test_packed_files(self):
+        """Tables of text, whatever their characters, and other formats."""
+        rows = ["time,position,torque", *(f"{t!r},{q!r},{x!r}" for t, q, x in zip(TIME.tolist(), POSITION.tolist(), TORQUE.tolist(), strict=True)), ""]
+        text = "\n".join(rows)
+        numpy.savez(self.folder / "inside.npz", time=TIME, position=POSITION, torque=TORQUE)
+        packed = {"a.csv.gz": gzip.compress(text.encode()), "A.TXT.BZ2": bz2.compress(text.encode("utf-16")), "a.csv.xz": lzma.compress(text.encode()),
+                  "a.npz.gz": gzip.compress((self.folder / "inside.npz").read_bytes())}
+        for name, content in packed.items():
+            (self.folder / name).write_bytes(content)
+        with zipfile.ZipFile(self.folder / "a.zip", "w") as archive:
+            archive.writestr("../../up/log.csv", text)
+        for name in (*packed, "a.zip"):
+            with self.subTest(name):
+                self.is_the_log(self.columns(self.folder / name), ("time", "position", "torque"))
+        self.output.unlink()
+        (self.folder / "cut.csv.gz").write_bytes(packed["a.csv.gz"][:200])
+        self.assertIn("cannot be unpacked", self.refusal(self.folder / "cut.csv.gz"))
+        with zipfile.ZipFile(self.folder / "two.zip", "w") as archive:
+            archive.writestr("a.csv", text)
+            archive.writestr("b.csv", text)
+        self.assertIn("holds 2 files", self.refusal(self.folder / "two.zip"))
+        (self.folder / "again.gz.gz").write_bytes(gzip.compress(packed["a.csv.gz"]))
+        self.assertIn("packed again", self.refusal(self.folder / "again.gz.gz"))
+
+    def test_feather_and_netcdf(self):
+        pyarrow.feather.write_feather(pyarrow.table({"time": TIME, "position": POSITION, "torque": TORQUE}), self.folder / "log.feather")
+        self.is_the_log(self.columns(self.folder / "log.feather"), ("time", "position", "torque"))
+        with scipy.io.netcdf_file(self.folder / "log.nc", "w") as file:
+            file.createDimension("n", COUNT)
+            for name, values in {"time": TIME, "position": numpy.degrees(POSITION), "torque": TORQUE}.items():
+                file.createVariable(name, "d", ("n",))[:] = values
+            file.variables["position"].units, file.variables["time"].units = "deg", "seconds since 2026-01-01"
+        found = self.columns(self.folder / "log.nc")
+        with h5py.File(self.output) as file:
+            self.assertEqual(file["position"].attrs["unit"], "deg")
+        numpy.testing.assert_array_equal(found["torque"], TORQUE)
+        with h5py.File(self.folder / "four.nc", "w") as file:  # netCDF-4 is HDF5
+            file["time"], file["position"], file["torque"] = TIME, POSITION, TORQUE
+        self.is_the_log(self.columns(self.folder / "four.nc"), ("time", "position", "torque"))
+
+    def test_what_no_one_reads_has_a_remedy_that_works(self):
+        for name, words in (("log.xls", "save it as .xlsx"), ("LOG.PKL", "is not opened here"), ("log.pickle", "is not opened here")):
+            (self.folder / name).write_bytes(b"\x80\x04}")
+            said = self.refusal(self.folder / name)
+            self.assertIn(words, said)
+            self.assertNotIn("warmjoint convert", said)
+
+    def test_endings_are_one_list(self):
+        """The reader of each ending is there, and help and page name it."""
+        formats = pathlib.Path(__file__).resolve().parents[3] / "tools/python/warmjoint/formats"
+        page = (formats.parents[2] / "docs/logs.md").read_text()
+        shown = subprocess.run([PROGRAM, "convert", "--help"], capture_output=True, text=True, check=True).stdout
+        endings = set(re.findall(r"\.[a-z0-9]+", " ".join(shown.split("LOG REQUIRED")[1].split("-o,--output")[0].split())))
+        self.assertGreater(len(endings), 15)
+        for ending in endings:
+            self.assertRegex(page, rf"(?<![\w]){re.escape(ending)}\b")
+        for ending in endings - {".csv"}:
+            (self.folder / f"log{ending}").write_bytes(b"nothing of the kind")
+            self.assertNotIn("is none of", convert(self.folder / f"log{ending}", self.output).stderr)
+
+    def test_a_missing_package_is_named_with_its_remedy(self):
+        (self.folder / "log.json").write_text(json.dumps({"time": [0, 1, 2]}))
+        done = subprocess.run([PROGRAM, "convert", self.folder / "log.json", "-o", self.output], capture_output=True, text=True, check=False,
+                              env={**{name: value for name, value in os.environ.items() if name != "PYTHONPATH"}, "WARMJOINT_PYTHON": sys.executable,
+                                   "PYTHONNOUSERSITE": "1"})
+        if done.returncode:  # a Python of the system may have NumPy
+            self.assertEqual(done.returncode, 2)
+            for words in ("numpy", "warmjoint[convert]", "WARMJOINT_PYTHON"):
+                self.assertIn(words, done.stderr)
+
     def test_a_lone_mcap_without_its_folder(self):
         write_bag(self.folder / "bag", StoragePlugin.MCAP)
         alone = self.folder / "drive.mcap"
@@ -126,7 +264,6 @@ class Convert(unittest.TestCase):
     def test_what_a_bag_lacks_is_named(self):
         bag = self.folder / "bag"
         write_bag(bag, StoragePlugin.SQLITE3)
-        self.assertIn("give --joint, one of shoulder, elbow", self.refusal(bag))
         self.assertIn("did you mean 'elbow'?", self.refusal(bag, "--joint", "elbo"))
         self.assertIn("did you mean '/wrench'?", self.refusal(bag, "--topic", "/wrenc"))
         self.assertIn("give --map", self.refusal(bag, "--topic", "/wrench"))
@@ -205,6 +342,9 @@ class Convert(unittest.TestCase):
         for time, position, torque in zip(TIME, POSITION, TORQUE, strict=True):
             book.active.append([datetime.datetime(2026, 11, 26) + datetime.timedelta(seconds=time), position, torque, "fine"])
         book.create_sheet("notes")
+        about = book.create_sheet("about", 0)
+        about.append(["operator", "supply V"])
+        about.append(["A", 48])
         book.save(self.folder / "log.xlsx")
         for name in ("scope.csv", "german.csv", "multi.lvm", "ni.csv", "log.xlsx", "units.txt"):
             with self.subTest(name):
@@ -285,7 +425,6 @@ class Convert(unittest.TestCase):
         self.is_the_log(self.columns(self.folder / "bag", "--joint", "elbow"))
         self.assertIn("200 of 400 messages of elbow", self.said)
         self.output.unlink()
-        self.assertIn("one of finger, shoulder, elbow", self.refusal(self.folder / "bag"))
         self.assertIn("no effort of finger", self.refusal(self.folder / "bag", "--joint", "finger"))
 
     def test_hostile_files(self):
@@ -297,6 +436,9 @@ class Convert(unittest.TestCase):
         head = b"{'descr': '(08,)f8', 'fortran_order': False, 'shape': (8,), }".ljust(117) + b"\n"
         (self.folder / "header.npy").write_bytes(b"\x93NUMPY\x01\x00v\x00" + head + bytes(64))
         self.assertIn("cannot be read as NumPy's", self.refusal(self.folder / "header.npy"))
+        (self.folder / "folder").mkdir()
+        os.mkfifo(self.folder / "folder/0.parquet")
+        self.assertIn("0.parquet: is neither a file nor a folder", self.refusal(self.folder / "folder"))
         os.mkfifo(self.folder / "pipe.npz")
         self.assertIn("neither a file nor a folder", self.refusal(self.folder / "pipe.npz"))
         with h5py.File(self.folder / "self.h5", "w") as file:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import html
+import json
 import math
 import os
 import sys
@@ -456,8 +457,23 @@ def identifiers() -> dict[str, Any]:
 def load(path: str | os.PathLike[str], log: Log | Any = None, force: bool = False) -> Estimate:
     """Reads estimate.json. log: the recording that it was identified from, for its figures; without it the files that the estimate
     names are read where they are there. force: as of identify. Raises BadInput."""
-    data = _core.read_estimate(path_of(path))
+    try:
+        data = _core.read_estimate(path_of(path))
+    except _core.BadInput:
+        if _is_of_robot(path_of(path)):
+            raise _core.BadInput(f"{path_of(path)}: holds a robot's joints, and no estimate of one; read it by load_robot(path)[joint]") from None
+        raise
     return Estimate(data, None if log is None else log_of(log), force)
+
+
+def _is_of_robot(path: str) -> bool:
+    """Whether a file is a robot.json."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            tree = json.load(file)
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(tree, dict) and isinstance(tree.get("joints"), dict)
 
 
 def _word(name: str, value: Any) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 from warmjoint import _core, other_formats
+from warmjoint.tables import Asked, Table, list_of, table_of, with_objects
 from warmjoint.values import Array, Column, column, columns_of, kind_of, path_of, text_of
 
 if TYPE_CHECKING:
@@ -207,7 +208,7 @@ def read(path: str | bytes | os.PathLike[Any] | Sequence[str | bytes | os.PathLi
     map={"position": "q_m"} names the columns of the file. columns=["time", "position", "torque"] stand in place of the header that
     a text file lacks; rate (Hz) makes the time that a file lacks. The other arguments are those of Log. Raises BadInput.
     """
-    paths = [path] if isinstance(path, (str, bytes, os.PathLike)) else _list(path, "path", "give the path of a file, or a list of them")
+    paths = [path] if isinstance(path, (str, bytes, os.PathLike)) else list_of(path, "path", "give the path of a file, or a list of them")
     files = [path_of(one) for one in paths]
     settings = _settings(files, map=map, joint=joint, unit=unit, scale=scale, columns=columns, rate=rate,
                          gear=gear, torque_constant=torque_constant, wrap=wrap, trim=trim, shortest_hold=shortest_hold)
@@ -217,34 +218,24 @@ def read(path: str | bytes | os.PathLike[Any] | Sequence[str | bytes | os.PathLi
         except _core.BadInput:
             if not any(other_formats.may_hold_objects(one) for one in files):
                 raise
-    logs = [_read_one({**settings, "files": [one]}, topic, joint_name) for one in files]
+    asked = Asked(topic, joint_name, map=settings.get("map", {}))
+    logs = [_read_one(one, settings, asked) for one in files]
     return Log._of(logs[0] if len(logs) == 1 else _core.join_logs(logs))
 
 
-def _read_one(settings: dict[str, Any], topic: str | None, joint_name: str | None) -> _core.Log:
+def _read_one(file: str, settings: dict[str, Any], asked: Asked) -> _core.Log:
     """A file that the program may leave to the readers of other formats."""
-    file = settings["files"][0]
-    if not other_formats.is_other(file):
+    table = table_of(file, file, asked) or Table(file)
+    own = {**settings, "files": [file]}
+    if table.columns is None and table.text is None:
         try:
-            return _core.read_log(settings)
+            return _core.read_log(own)
         except _core.BadInput as refusal:
-            if not other_formats.may_hold_objects(file):
-                raise
-            # cells, compounds and structs; what none of the readers takes is refused in the program's words
-            try:
-                return _of_other(file, settings, topic, joint_name)
-            except _core.BadInput:
-                raise refusal from None
-    return _of_other(file, settings, topic, joint_name)
-
-
-def _of_other(file: str, settings: dict[str, Any], topic: str | None, joint_name: str | None) -> _core.Log:
-    mapped = settings.get("map", {})
-    found = other_formats.read(file, topic=topic, joint=joint_name, map=mapped)
-    if isinstance(found, str):
-        return _core.read_text(found, settings)
+            table = with_objects(table, refusal, asked)
+    if table.text is not None:
+        return _core.read_text(table.text, own)
     # columns that were asked for have our names
-    return _of_table(found, {**settings, "map": {key: name for key, name in mapped.items() if not name}})
+    return _of_table(table.columns or [], {**own, "map": {key: name for key, name in asked.map.items() if not name}})
 
 
 @dataclasses.dataclass(frozen=True)
@@ -285,7 +276,7 @@ def log_of(given: Any, argument: str = "log", **reading: Any) -> Log:
     if one is not None:
         return one
     logs = []
-    for each in _list(given, argument, "give a Log, a path, a data frame, or a list of these"):
+    for each in list_of(given, argument, "give a Log, a path, a data frame, or a list of these"):
         part = _one_log(each, reading)
         if part is None:
             raise _core.BadInput(f"{argument}: holds {kind_of(each)}; give Logs, paths or data frames")
@@ -305,12 +296,6 @@ def _one_log(given: Any, reading: dict[str, Any]) -> Log | None:
     if isinstance(given, (str, bytes, os.PathLike)):
         return read(given, **reading)
     return Log.from_frame(given, **reading) if columns_of(given) is not None else None
-
-
-def _list(given: Any, argument: str, remedy: str) -> list[Any]:
-    if isinstance(given, (Sequence, set, frozenset)) and not isinstance(given, (str, bytes)):
-        return list(given)
-    raise _core.BadInput(f"{argument}: is {kind_of(given)}; {remedy}")
 
 
 def _of_table(columns: list[Column], settings: dict[str, Any]) -> _core.Log:

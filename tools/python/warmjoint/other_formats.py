@@ -15,25 +15,25 @@ import numpy as np
 from warmjoint import _core
 from warmjoint.values import Column
 
-ENDS = (".db3", ".mcap", ".bag", ".parquet", ".npz", ".npy", ".xlsx", ".xls", ".xlsm", ".json", ".jsonl", ".ndjson")
-OBJECTS = (".h5", ".hdf5", ".mat")  # may hold cells, compounds and structs, which the program does not read
-
-
 def is_other(path: str) -> bool:
     """Whether the program leaves a file, by its name, or a folder to these readers."""
-    return path.lower().endswith(ENDS) or pathlib.Path(path).is_dir()
+    return _core.is_other_format(path)
 
 
 def may_hold_objects(path: str) -> bool:
-    return path.lower().endswith(OBJECTS)
+    """Whether a file that the program reads may hold cells, compounds or structs, which it does not read."""
+    return _core.may_hold_objects(path)
 
 
-def read(path: str, *, topic: str | None = None, joint: str | None = None, map: Mapping[str, str] | None = None) -> list[Column] | str:
-    """The columns that `map` names, by our names, or all; or a table of text. Warns of what is left out. Raises BadInput."""
+def read(path: str, *, topic: str | None = None, joint: str | None = None, joints: str = "one",
+         map: Mapping[str, str] | None = None) -> list[Column] | str:
+    """The columns that `map` names, by our names, or all; or a table of text. joints: "one" or "all" of a bag, where none is named. Warns of
+    what is left out. Raises BadInput."""
     for name, column in (map or {}).items():
         if not isinstance(column, str):
             raise _core.BadInput(f"map.{name}: is a {type(column).__name__}; give the name of a column")
-    request = {"file": path, "topic": topic or "", "joint": joint or "", "map": dict(map or {})}
+    readers = {one["ending"]: one["reader"] for one in _core.log_formats() if one["reader"]}
+    request = {"file": path, "readers": readers, "topic": topic or "", "joint": joint or "", "joints": joints, "map": dict(map or {})}
     script = pathlib.Path(__file__).parent / "formats/__main__.py"
     done = subprocess.run([sys.executable, "-B", str(script), json.dumps(request)], capture_output=True, check=False)
     if done.returncode < 0:
@@ -43,16 +43,24 @@ def read(path: str, *, topic: str | None = None, joint: str | None = None, map: 
     head, newline, rest = done.stdout.partition(b"\n")
     if done.returncode or not newline:
         words = done.stderr.decode(errors="replace").strip().splitlines()
-        raise _core.BadInput(f"{path}: cannot be read: {words[-1] if words else 'its reader broke off'}")
+        raise _core.BadInput(f"{path}: cannot be read: {words[-1][:200] if words else 'its reader broke off'}")
     answer = json.loads(head)
     if "error" in answer:
-        raise _core.BadInput(answer["error"])
+        raise _core.BadInput(_core.in_python(answer["error"]))
     for note in answer["notes"]:
-        warnings.warn(f"{path}: {note}", stacklevel=4)
+        warnings.warn(f"{path}: {note}", stacklevel=5)
     if "text" in answer:
-        return rest.decode()
+        return _text_of(rest)
     columns, at = [], 0
     for one in answer["columns"]:
         columns.append(Column(one["name"], one["unit"], np.frombuffer(rest, dtype=np.float64, count=one["count"], offset=at)))
         at += 8 * one["count"]
     return columns
+
+
+def _text_of(table: bytes) -> str:
+    """A table of text: of a packed file in the characters of its own program."""
+    try:
+        return table.decode("utf-16" if table[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8")
+    except UnicodeDecodeError:
+        return table.decode("latin-1")

@@ -10,16 +10,47 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
 
-from warmjoint import _core
+from warmjoint import _core, other_formats
 from warmjoint.engine import _engine
-from warmjoint.estimate import Estimate, Parameter
+from warmjoint.estimate import Estimate, Parameter, Rejected, Residuals
 from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
+from warmjoint.tables import Asked, Table, numbers_of, tables_of, with_objects
+from warmjoint.values import path_of
 
 Numbers = float | Mapping[str, float]
+
+
+class RobotJoint(Estimate):
+    """One joint of a robot's answer: an Estimate whose pictures and residuals are those of the robot's log."""
+
+    def __init__(self, robot: RobotEstimate, joint: str) -> None:
+        super().__init__(robot.data["joints"][joint])
+        self._robot, self._joint = robot, joint
+
+    @property
+    def residuals(self) -> Residuals:
+        """Torque less fit at the samples that the fit takes. Raises Rejected where there is no fit, BadInput of a robot.json."""
+        if self._joint not in self._robot._drawn and not self.ok:
+            raise Rejected(self.message)
+        drawn = self._robot._drawn_of(self._joint, "residuals")
+        keep = np.asarray(drawn["keep"], dtype=bool)
+        return Residuals(np.asarray(drawn["time"])[keep], (np.asarray(drawn["measured"]) - np.asarray(drawn["fitted"]))[keep])
+
+    def figures(self) -> dict[str, dict[str, dict[str, Any]]]:
+        """What the one figure of a robot's joint shows, {"joint": {series: {x, y, ...}}}."""
+        from warmjoint.figures import robots, style
+
+        with style.use("screen"):
+            return {"joint": robots.joint(self._robot._drawn_of(self._joint, "figures")).series()}
+
+    def plot(self, figure: str = "", ax: Any = None, style: str | dict[str, Any] = "screen") -> Any:
+        """RobotEstimate.plot of this joint; returns the matplotlib Figure. figure: joint, or none."""
+        if figure not in ("", "joint") or ax is not None:
+            raise _core.BadInput(f"figure: a robot's joint gives one figure, of three panels: robot.plot('{self._joint}'); leave figure and ax out")
+        return self._robot.plot(self._joint, style)
 
 
 class RobotEstimate(Mapping[str, Estimate]):
@@ -32,7 +63,7 @@ class RobotEstimate(Mapping[str, Estimate]):
     def __getitem__(self, joint: str) -> Estimate:
         if joint not in self.data["joints"]:
             raise KeyError(f"the log holds no joint '{joint}'; it holds {', '.join(self.data['joints'])}")
-        return Estimate(self.data["joints"][joint])
+        return RobotJoint(self, joint)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.data["joints"])
@@ -71,10 +102,16 @@ class RobotEstimate(Mapping[str, Estimate]):
         from warmjoint.figures import robots
         from warmjoint.figures.style import use
 
-        if joint not in self._drawn:
-            raise _core.BadInput(f"plot: there is no picture of '{joint}'; there are {', '.join(self._drawn) or 'none in a file'}")
+        drawn = self._drawn_of(joint, "plot")
         with use(style):
-            return robots.joint(self._drawn[joint])
+            return robots.joint(drawn)
+
+    def _drawn_of(self, joint: str, what: str) -> dict[str, Any]:
+        """The series of a joint along its log."""
+        if joint in self._drawn:
+            return self._drawn[joint]
+        there = f"the joints that were fitted are {', '.join(self._drawn)}" if self._drawn else "a robot.json holds none: identify_robot(model, log)"
+        raise _core.BadInput(f"{what}: there is no fit along the log of '{joint}'; {there}")
 
     def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None) -> Export:
         """The frictions of all joints that are known in N.m or N as the numbers that another engine takes (Estimate.export)."""
@@ -93,11 +130,12 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
                    scale: Mapping[str, float] | None = None, columns: Sequence[str] = (), rate: float = 0,
                    joints: Sequence[str] = (), gear: Numbers = 0, inertials: float | Literal["exact"] = 0.1,
                    tool: Mapping[str, Any] | Literal["unknown"] | None = None, coupling: str | Sequence[str] = (), cutoff: float = 10,
-                   torque_constant: Numbers = 0, holdout: float = 0.4) -> RobotEstimate:
+                   torque_constant: Numbers = 0, holdout: float = 0.4, topic: str | None = None) -> RobotEstimate:
     """The friction of all joints: what `warmjoint identify-robot` does.
 
-    model: path of an MJCF or URDF, or a mujoco.MjModel or MjSpec. log: path of a wide file (several paths: recordings, each from a cold
-    start), a data frame, or {"time": [N], "position": [N, n], "torque": [N, n]} in SI with a column for each joint. map, unit, scale,
+    model: path or text of an MJCF or URDF, or a mujoco.MjModel or MjSpec. log: path of a wide file or bag of any kind that read takes, a
+    table that Log.from_frame takes, or {"time": [N], "position": [N, n], "torque": [N, n]} with a column for each joint; a list of these are
+    recordings, each from a cold start. Samples that a mask hides, or that hold no number, are left out. topic: of a bag. map, unit, scale,
     columns, rate, joints, gear, coupling, cutoff, torque_constant and holdout are the options of the program: map={"position": "q_{j}"},
     scale={"J4.torque": -1}, gear=101 or {"J4": 101}. inertials: share by which the description may be wrong. tool: {"mass": kg, "com":
     (x, y, z)} at the last link. Needs MuJoCo 4.0. Raises BadInput.
@@ -113,11 +151,17 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
         "coupling": [coupling] if isinstance(coupling, str) else list(coupling), "cutoff": float(cutoff),
         "torque_constant": _numbers(torque_constant), "torque_scale": factors["torque"], "position_scale": factors["position"],
         "holdout": float(holdout), "tool": _tool(tool)}
-    files, arrays = _log(log)
-    source = {"files": files, "map": dict(map or {}), "unit": dict(unit or {}), "columns": list(columns), "rate": float(rate)}
+    asked = Asked(topic, joints="all")
+    tables = tables_of(log, "log", asked)
+    read = {"files": [one.name for one in tables], "map": dict(map or {}), "unit": dict(unit or {}), "columns": list(columns), "rate": float(rate)}
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
-        data, facts, columns_of = _engine().identify_robot(_model(model, folder), source, arrays, settings)
-    return RobotEstimate(data, unpacked(facts, columns_of))
+        path = _model(model, folder)
+        try:
+            data, facts, arrays = _engine().identify_robot(path, [_given(one) for one in tables], read, settings)
+        except _core.BadInput as refusal:
+            again = _with_objects(tables, refusal, asked)
+            data, facts, arrays = _engine().identify_robot(path, [_given(one) for one in again], read, settings)
+    return RobotEstimate(data, unpacked(facts, arrays))
 
 
 def load_robot(path: str | os.PathLike[str]) -> RobotEstimate:
@@ -143,8 +187,12 @@ def _tool(given: Mapping[str, Any] | str | None) -> dict[str, object]:
 
 def _model(model: Any, folder: str) -> str:
     """The path of a description; of a model in memory that of a file in `folder`."""
-    if isinstance(model, (str, os.PathLike)):
-        return os.fspath(model)
+    if isinstance(model, str) and model.lstrip().startswith("<"):
+        path = os.path.join(folder, "robot.urdf" if "<robot" in model else "robot.xml")
+        pathlib.Path(path).write_text(model, encoding="utf-8")
+        return path
+    if isinstance(model, (str, bytes, os.PathLike)):
+        return path_of(model, "model")
     import mujoco
 
     compiled = model.compile() if isinstance(model, mujoco.MjSpec) else model
@@ -153,20 +201,13 @@ def _model(model: Any, folder: str) -> str:
     return path
 
 
-def _log(log: Any) -> tuple[list[str], dict[str, npt.NDArray[np.float64]]]:
-    """Files, or columns by their names: matrices become a column for each joint, numbered from 0."""
-    if isinstance(log, (str, os.PathLike)):
-        return [os.fspath(log)], {}
-    if not isinstance(log, Mapping) and not hasattr(log, "columns"):
-        return [os.fspath(one) for one in log], {}
-    arrays = {}
-    for name in log:
-        values = np.asarray(log[name])
-        if values.dtype.kind not in "fiub":
-            continue
-        values = np.ascontiguousarray(values, dtype=np.float64)
-        if values.ndim == 1:
-            arrays[str(name)] = values
-        elif values.ndim == 2:
-            arrays |= {f"{name}{j}": np.ascontiguousarray(values[:, j]) for j in range(values.shape[1])}
-    return ["log"], arrays
+def _given(table: Table) -> tuple[str, Any, str | None]:
+    """A log as the engine takes it."""
+    return table.name, None if table.columns is None else numbers_of(table), table.text
+
+
+def _with_objects(tables: list[Table], refusal: _core.BadInput, asked: Asked) -> list[Table]:
+    """The logs again, files that may hold cells and compounds by the readers of other formats. Raises the refusal where there are none."""
+    if not any(one.columns is None and one.text is None and other_formats.may_hold_objects(one.name) for one in tables):
+        raise refusal
+    return [with_objects(one, refusal, asked) if one.columns is None and one.text is None else one for one in tables]

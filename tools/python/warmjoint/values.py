@@ -36,7 +36,7 @@ def columns_of(table: Any) -> list[Column] | None:
     if hasattr(table, "collect_schema") and hasattr(table, "collect"):  # of Polars, not yet computed
         table = table.collect()
     if hasattr(table, "data_vars") and hasattr(table, "coords"):  # of xarray
-        return [_column_of(name, table[name]) for name in (*table.coords, *table.data_vars) if table[name].ndim == 1]
+        return [_column_of(name, table[name]) for name in (*table.coords, *table.data_vars) if table[name].ndim in (1, 2)]
     if isinstance(table, Mapping):
         return [_column_of(name, values) for name, values in table.items()]
     if hasattr(table, "schema") and hasattr(table, "column"):  # of pyarrow
@@ -47,6 +47,17 @@ def columns_of(table: Any) -> list[Column] | None:
         found = [_column_of(name, table.iloc[:, i]) for i, name in enumerate(table.columns)]
         return found + _of_index(table.index, {one.name for one in found})
     return [_column_of(name, table[name]) for name in table.columns]
+
+
+def array_of(values: Any) -> npt.NDArray[Any] | None:
+    """The values as an array of any shape, NaN where a mask hides one; None of what is no array."""
+    given, _ = _without_unit(values)
+    if isinstance(given, (str, bytes, Mapping)) or given is None:
+        return None
+    try:
+        return _array(given)
+    except Exception:  # of any library; `column` says why
+        return None
 
 
 def column(name: str, values: Any, label: str = "") -> tuple[Array, str]:

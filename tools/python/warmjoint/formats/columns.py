@@ -5,15 +5,12 @@ import re
 from collections.abc import Mapping
 
 import numpy
+from refusal import Refusal
 
 FIELD = re.compile(r"^(.*?)(?:\[(\d+)\])?$")
 MOST_COLUMNS = 256  # of a matrix that is written whole
 MOST_PATHS = 10_000  # arrays and groups of a file that are looked at
 MOST_NUMBERS = 400_000_000  # of all columns that are written: 3.2 GB
-
-
-class Refusal(Exception):
-    """An input that cannot be used: place, value, remedy."""
 
 
 def nearest(name, known):
@@ -91,15 +88,23 @@ def seconds_of(values):
     return "s", numpy.ascontiguousarray(seconds, dtype=float)
 
 
+def told_unit(array):
+    """The unit that a dataset of HDF5 or a variable of netCDF says; of "seconds since ..." the unit alone."""
+    attributes = getattr(array, "attrs", None) or getattr(array, "__dict__", {})
+    told = next((attributes[name] for name in ("unit", "units") if name in attributes), "")
+    told = told.decode(errors="replace") if isinstance(told, bytes) else told
+    return told.partition(" since ")[0] if isinstance(told, str) else ""
+
+
 def vector(array, index, samples):
     """(unit, [N]) of a vector, or of the column of a matrix N x k or k x N."""
-    told = getattr(array, "attrs", {}).get("unit", "")  # of a dataset of HDF5
+    told = told_unit(array)
     if len([length for length in array.shape if length != 1]) == 1:
         unit, values = seconds_of(numpy.asarray(array).reshape(-1))
     else:
         flat = array if len(array.shape) == 2 else numpy.squeeze(numpy.asarray(array))
         unit, values = seconds_of(numpy.asarray(flat[:, index] if flat.shape[0] == samples else flat[index, :]))
-    return unit or (told if isinstance(told, str) else ""), values
+    return unit or told, values
 
 
 def count_of(place, name, array, index, samples):
@@ -176,8 +181,3 @@ def require_one_length(place, columns):
     for name, (_, values) in columns.items():
         if len(values) != length:
             raise Refusal(f"{place}: {name} has {len(values)} samples where {first} has {length}; choose columns with --map")
-
-
-def first_line(error):
-    """What a library says of a file, in a line."""
-    return str(error).splitlines()[0] if str(error) else type(error).__name__

@@ -1,8 +1,9 @@
-"""What HDF5 and MATLAB files hold: groups, structs, cells, arrays of structs, compounds and references. Links lead to no other file."""
+"""What HDF5, MATLAB and netCDF files hold: groups, structs, cells, arrays of structs, compounds and references. Links lead to no other file."""
 
 import h5py
 import scipy.io
-from columns import MOST_PATHS, Refusal, first_line
+from columns import MOST_PATHS
+from refusal import Refusal, first_line
 
 DEEPEST = 16  # groups within groups
 
@@ -53,8 +54,11 @@ def tree(path, notes):
         if h5py.is_hdf5(path):
             looking = Looking(path)
             return looking.at(looking.file, 0)
+        if path.suffix.lower() == ".nc":  # of version 3; 4 is HDF5
+            with scipy.io.netcdf_file(path, mmap=False) as file:
+                return dict(file.variables)
         return {name: value for name, value in scipy.io.loadmat(path, simplify_cells=True).items() if not name.startswith("__")}
     except (Refusal, MemoryError):
         raise
     except Exception as error:  # a damaged file breaks any part of the parsers
-        raise Refusal(f"{path}: cannot be read as HDF5 or MATLAB's: {first_line(error)}") from None
+        raise Refusal(f"{path}: cannot be read as HDF5, MATLAB's or netCDF: {first_line(error)}") from None

@@ -4,7 +4,8 @@ import json
 import math
 
 import numpy
-from columns import MOST_NUMBERS, Refusal
+from columns import MOST_NUMBERS
+from refusal import Refusal
 
 MOST_COLUMNS = 1000  # of records
 
@@ -69,7 +70,8 @@ def lines_of(path, text):
         try:
             record = json.loads(line, parse_constant=no_constant)
         except (ValueError, RecursionError) as error:
-            raise Refusal(f"{path}:{number}: is no record of JSON: {error}") from None
+            why = "its levels lie too deep within each other" if isinstance(error, RecursionError) else error
+            raise Refusal(f"{path}:{number}: is no record of JSON: {why}") from None
         if not isinstance(record, dict):
             raise Refusal(f"{path}:{number}: is no object {{...}}; each line is one sample")
         yield record

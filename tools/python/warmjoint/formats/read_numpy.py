@@ -4,7 +4,8 @@ import tokenize
 import zipfile
 
 import numpy
-from columns import MOST_NUMBERS, Refusal
+from columns import MOST_NUMBERS
+from refusal import Refusal
 
 LARGEST = 8 * MOST_NUMBERS  # bytes of one array
 

@@ -1,9 +1,11 @@
-"""What Parquet files hold, as LeRobot and pandas write them; a folder of them is a set of episodes."""
+"""What Parquet, Feather and Arrow files hold, as LeRobot and pandas write them; a folder of Parquet files is a set of episodes."""
 
 import numpy
 import pyarrow
+import pyarrow.feather
 import pyarrow.parquet
-from columns import MOST_NUMBERS, Refusal, first_line
+from columns import MOST_NUMBERS
+from refusal import Refusal, first_line
 
 MOST_SAMPLES = 50_000_000  # as the program reads
 
@@ -28,13 +30,18 @@ def column(values):
 def table_of(path):
     """One file. Refuses it by what its head states."""
     try:
+        if path.suffix.lower() != ".parquet":
+            table = pyarrow.feather.read_table(path, memory_map=False)
+            if table.num_rows > MOST_SAMPLES or table.num_rows * table.num_columns > MOST_NUMBERS:
+                raise Refusal(f"{path}: holds {table.num_rows} rows of {table.num_columns} columns; {MOST_SAMPLES} rows and {MOST_NUMBERS} numbers at most are read")
+            return table
         file = pyarrow.parquet.ParquetFile(path)
         rows, columns = file.metadata.num_rows, len(file.schema_arrow.names)
         if rows > MOST_SAMPLES or rows * columns > MOST_NUMBERS:
             raise Refusal(f"{path}: states {rows} rows of {columns} columns; {MOST_SAMPLES} rows and {MOST_NUMBERS} numbers at most are read")
         return file.read()
     except (pyarrow.ArrowException, OSError) as error:
-        raise Refusal(f"{path}: cannot be read as Parquet: {first_line(error)}") from None
+        raise Refusal(f"{path}: cannot be read as Parquet or Feather: {first_line(error)}") from None
 
 
 def tree(path, notes):
