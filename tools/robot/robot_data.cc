@@ -37,6 +37,7 @@ Tables ReadTables(const RobotSource& source, const std::vector<std::string>& joi
     for (const FileColumn& column : content.columns) names.push_back(column.name);
     return FindRobotColumns(names, joints, source.read.map, place);
   };
+  if (source.logs.empty()) Refuse({"log"}, "is an empty list; give at least one");
   Tables tables;
   for (const RobotLogSource& log : source.logs) {
     const bool is_first = tables.contents.empty();
