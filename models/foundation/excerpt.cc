@@ -9,11 +9,12 @@
 namespace warmjoint {
 namespace {
 
-/// Whether terminals act on the character instead of showing it.
+/// Whether terminals act on the character instead of showing it, or XML 1.0 has no place for it.
 bool IsActive(char32_t code) {
   const auto within = [code](char32_t low, char32_t high) { return low <= code && code <= high; };
   return code < 0x20 || within(0x7F, 0x9F) || code == 0x061C || within(0x200E, 0x200F) ||
-         within(0x2028, 0x202E) || within(0x2066, 0x2069) || code == 0xFEFF;
+         within(0x2028, 0x202E) || within(0x2066, 0x2069) || code == 0xFEFF ||
+         (code & 0xFFFE) == 0xFFFE;
 }
 
 constexpr std::size_t kMostListed = 24;

@@ -7,6 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/names.h"
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint {
@@ -43,6 +44,22 @@ std::string_view Quoted(std::string_view message) {
   const std::size_t begin = message.rfind('\'', end - 1);
   if (begin == std::string_view::npos) return {};
   return message.substr(begin + 1, end - begin - 1);
+}
+
+/// Refuses control characters in keys, which are names, and in texts, whose own tabs and line ends are. key: of the tree
+void CheckTexts(const Tree& tree, const std::string& key, const Place& place) {
+  if (tree.is_string()) {
+    const auto& text = tree.get_ref<const std::string&>();
+    RequireText(key.empty() ? "the text" : fmt::format("the text of '{}',", key), text, place);
+  }
+  if (tree.is_array()) {
+    for (const Tree& entry : tree) CheckTexts(entry, key, place);
+  }
+  if (!tree.is_object()) return;
+  for (const auto& [name, entry] : tree.items()) {
+    RequireName("the key", name, place);
+    CheckTexts(entry, name, place);
+  }
 }
 
 }  // namespace
@@ -237,8 +254,12 @@ Tree ParseJson(const std::string& text, const std::string& file) {
   }
   CheckDepth(text, file);
   try {
-    const auto turn = JsonTurn();
-    return Tree::parse(text);
+    Tree tree = [&] {
+      const auto turn = JsonTurn();
+      return Tree::parse(text);
+    }();
+    CheckTexts(tree, "", {file});
+    return tree;
   } catch (const nlohmann::json::parse_error& error) {
     Refuse(PlaceOfByte(text, error.byte, file), "is not JSON: {}",
            Excerpt(error.what(), kLongestComplaint));

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "models/foundation/excerpt.h"
+
 namespace warmjoint {
 namespace {
 
@@ -51,24 +53,32 @@ XmlTag Parsed(std::string_view tag, int line) {
 
 }  // namespace
 
-std::optional<std::string_view> XmlTag::Attribute(std::string_view wanted) const {
+std::vector<XmlAttribute> XmlTag::Attributes() const {
+  std::vector<XmlAttribute> found;
   std::string_view rest = attributes;
   for (;;) {
     // name, equals sign, quoted value
     const std::size_t begin = rest.find_first_not_of(kBlanks);
     const std::size_t equals = rest.find('=');
     if (begin == std::string_view::npos || equals == std::string_view::npos || equals < begin) {
-      return std::nullopt;
+      return found;
     }
     std::string_view key = rest.substr(begin, equals - begin);
     key = key.substr(0, key.find_last_not_of(kBlanks) + 1);
     const std::size_t opening = rest.find_first_not_of(kBlanks, equals + 1);
-    if (opening == std::string_view::npos) return std::nullopt;
+    if (opening == std::string_view::npos) return found;
     const std::size_t closing = rest.find(rest[opening], opening + 1);
-    if (closing == std::string_view::npos) return std::nullopt;
-    if (key == wanted) return rest.substr(opening + 1, closing - opening - 1);
+    if (closing == std::string_view::npos) return found;
+    found.push_back({key, rest.substr(opening + 1, closing - opening - 1)});
     rest.remove_prefix(closing + 1);
   }
+}
+
+std::optional<std::string_view> XmlTag::Attribute(std::string_view wanted) const {
+  for (const auto& [key, value] : Attributes()) {
+    if (key == wanted) return value;
+  }
+  return std::nullopt;
 }
 
 std::optional<XmlTag> XmlTagReader::Next() {
@@ -103,7 +113,8 @@ std::string EscapeXml(std::string_view text) {
   constexpr std::pair<char, std::string_view> entities[]{
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string result;
-  for (const char c : text) {
+  // characters that XML 1.0 has not, and those that a parser makes blanks of, become codes
+  for (const char c : Printable(text)) {
     const auto found = std::ranges::find(entities, c, &std::pair<char, std::string_view>::first);
     result += found == std::end(entities) ? std::string(1, c) : std::string(found->second);
   }

@@ -4,8 +4,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace warmjoint {
+
+/// NAME="VALUE", the value as it is written.
+struct XmlAttribute {
+  std::string_view name, value;
+};
 
 /// One <...> of a text. What is no tag (comments, declarations, character data) is passed over.
 struct XmlTag {
@@ -16,6 +22,8 @@ struct XmlTag {
   std::string_view attributes;  // as they stand there
   int line = 0;                 // on which it begins
 
+  /// All attributes, in their order.
+  std::vector<XmlAttribute> Attributes() const;
   /// The value of an attribute as it is written; nothing where it is absent.
   std::optional<std::string_view> Attribute(std::string_view wanted) const;
 };
@@ -35,7 +43,7 @@ class XmlTagReader {
   int line_ = 1;
 };
 
-/// The text with &, <, > and " written as entities.
+/// The text as a value of XML: &, <, > and " as entities, and characters that XML 1.0 has not by their codes, as Printable has them.
 std::string EscapeXml(std::string_view text);
 
 }  // namespace warmjoint

@@ -10,9 +10,10 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/names.h"
 #include "models/foundation/node.h"
-#include "models/foundation/xml_tags.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;
@@ -92,21 +93,6 @@ class Collector : public console_bridge::OutputHandler {
   std::string errors;
 };
 
-/// Refuses what would end the parser's stack, which it needs once for each level.
-void CheckDepth(const std::string& text, const Place& place) {
-  constexpr int deepest = 500;
-  XmlTagReader reader(text);
-  // how many elements are open at each tag
-  int depth = 0;
-  while (const auto tag = reader.Next()) {
-    if (tag->kind == XmlTag::Kind::opens) ++depth;
-    if (tag->kind == XmlTag::Kind::closes) --depth;
-    if (depth > deepest) {
-      Refuse({place.file, tag->line}, "nests deeper than {} elements; a robot does not", deepest);
-    }
-  }
-}
-
 }  // namespace
 
 fs::path DataFolder() {
@@ -175,11 +161,13 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   const std::lock_guard lock(one_at_a_time);
 
   // read, checked and parsed, with what the parser says kept for the refusal
-  const std::string text = ReadWholeFile(path);
-  CheckDepth(text, {path.string()});
+  const std::string text = ReadDescription(path).text;
   Collector collector;
   urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
-  if (!robot) Refuse({path.string()}, "cannot be used as URDF: {}", collector.errors);
+  const Place place{path.string()};
+  if (!robot) Refuse(place, "cannot be used as URDF: {}", collector.errors);
+  for (const auto& [name, link] : robot->links_) RequireName("the name of a link", name, place);
+  for (const auto& [name, joint] : robot->joints_) RequireName("the name of a joint", name, place);
   return robot;
 }
 

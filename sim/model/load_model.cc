@@ -9,7 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "models/foundation/atomic_file.h"
+#include "models/foundation/description_text.h"
+#include "models/foundation/names.h"
 #include "models/foundation/xml_tags.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/attributes.h"
@@ -57,8 +58,7 @@ std::string UnknownPlugin(const std::string& message) {
   return found[1].matched ? found[1] : found[2];
 }
 
-constexpr std::size_t kLargestModel = std::size_t{64} << 20;  // bytes of XML
-constexpr double kLargestTexture = 1 << 30;                   // bytes
+constexpr double kLargestTexture = 1 << 30;  // bytes
 
 /// One line of text.
 std::string Flatten(std::string_view message) {
@@ -91,19 +91,6 @@ void RefuseOtherFormats(const std::string& text, const std::filesystem::path& pa
          usd ? "USD" : "SDF");
 }
 
-/// Refuses what xacro has to write out first; its own output may still declare its namespace.
-void RefuseXacro(const std::string& text, const std::filesystem::path& path) {
-  bool declared = false;
-  XmlTagReader reader(text);
-  while (const auto tag = reader.Next()) {
-    declared = declared || tag->Attribute("xmlns:xacro");
-    const bool holds = std::regex_search(std::string(tag->attributes), std::regex("[$][{(]"));
-    if (!tag->name.starts_with("xacro:") && !(declared && holds)) continue;
-    Refuse({path.string(), tag->line}, "<{}> is written in xacro; run: xacro {} > robot.urdf",
-           tag->name, path.string());
-  }
-}
-
 /// Mass of a body and of all that is fixed to it, kg.
 double FixedMass(mjsBody* body) {
   double mass = body->mass;
@@ -113,6 +100,16 @@ double FixedMass(mjsBody* body) {
     if (!mjs_firstChild(link, mjOBJ_JOINT, 0)) mass += FixedMass(link);
   }
   return mass;
+}
+
+/// Refuses names that are no text: they go into tables, pages, pictures and programs.
+void RequireNames(mjSpec& spec, const Place& place) {
+  for (const mjtObj kind :
+       {mjOBJ_BODY, mjOBJ_JOINT, mjOBJ_GEOM, mjOBJ_SITE, mjOBJ_MESH, mjOBJ_HFIELD, mjOBJ_TEXTURE,
+        mjOBJ_MATERIAL, mjOBJ_TENDON, mjOBJ_ACTUATOR, mjOBJ_SENSOR, mjOBJ_KEY}) {
+    const std::string what = fmt::format("the name of a {}", mju_type2Str(kind));
+    for (mjsElement* element : SpecElements(spec, kind)) RequireName(what, NameOf(element), place);
+  }
 }
 
 void CheckInertials(mjSpec& spec, const Place& place) {
@@ -165,15 +162,37 @@ std::string PluginRefusal(const std::string& message) {
   return message.substr(begin, message.find("; " + mark, begin) - begin);
 }
 
+/// Refuses masses and inertias of which no torque can be computed.
+void RequireWeights(const mjModel& model, const Place& place) {
+  constexpr double most = 1e12;  // kg, kg.m^2; why: more than any robot has, and squares are exact
+  for (int body = 1; body < model.nbody; ++body) {
+    const double* const inertia = model.body_inertia + 3 * body;
+    const double worst = std::max({model.body_mass[body], inertia[0], inertia[1], inertia[2]});
+    if (worst <= most) continue;
+    const char* const name = mj_id2name(&model, mjOBJ_BODY, body);
+    Refuse(place, "link '{}' has a mass or inertia of {:g} kg or kg.m^2; at most {:g}",
+           name ? name : "", worst, most);
+  }
+}
+
+/// Refuses texts of the model that XML has no characters for: MuJoCo writes them as they are.
+void RequireXml(std::string_view text, const Place& place) {
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    RequireText(fmt::format("line {} of the model as MJCF,", line), text.substr(0, end), place);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
 }  // namespace
 
 ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages) {
   // the plugin is known before a model asks for it
   RegisterFrictionPlugin();
-  const std::string text = ReadWholeFile(path, kLargestModel);
+  // what MuJoCo would wait for, or never end with, is refused before it sees the model
+  const std::string text = ReadDescription(path, packages).text;
   RefuseOtherFormats(text, path);
   const bool urdf = IsUrdf(text);
-  if (urdf) RefuseXacro(text, path);
   ModelFolder() = std::filesystem::absolute(path).parent_path();
 
   // plugins of MuJoCo's own are loaded where the model asks for one
@@ -183,8 +202,9 @@ ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& 
   if (!parsed.spec && !UnknownPlugin(error).empty() && LoadMujocoPlugins()) parsed.spec = parse();
   if (!parsed.spec) RefuseUnread(path, error);
 
+  const Place place{path.string()};
+  RequireNames(*parsed.spec, place);
   if (urdf) {
-    const Place place{path.string()};
     parsed.notices = ResolveMeshes(*parsed.spec, packages, path, place);
     CheckInertials(*parsed.spec, place);
   }
@@ -201,7 +221,10 @@ ModelPtr CompileModel(mjSpec& spec, const Place& place, const mjVFS* files) {
            bytes / kLargestTexture);
   }
   ModelPtr model(mj_compile(&spec, files));
-  if (model) return model;
+  if (model) {
+    RequireWeights(*model, place);
+    return model;
+  }
   // what our plugin refused says more than MuJoCo's message around it
   const std::string message = Flatten(mjs_getError(&spec));
   const std::string refusal = PluginRefusal(message);
@@ -212,6 +235,16 @@ ModelPtr CompileModel(mjSpec& spec, const Place& place, const mjVFS* files) {
              ? "; <compiler balanceinertia=\"true\" boundmass=\"0.01\" boundinertia=\"0.0001\"/> "
                "in <mujoco>, which a URDF may hold in <robot>, makes inertias valid"
              : "");
+}
+
+void RequireLoads(const std::string& xml, const fs::path& target) {
+  std::array<char, 2000> error{};
+  const SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error.data(), error.size()));
+  if (!spec) RefuseUnread(target, Flatten(error.data()));
+  // its files, and the plugin's, count from the folder that it will lie in
+  ModelFolder() = fs::absolute(target).parent_path();
+  mjs_setString(spec->modelfiledir, (ModelFolder() / "").c_str());
+  CompileModel(*spec, {target.string()});
 }
 
 LoadedModel LoadModel(const std::filesystem::path& path) {
@@ -235,6 +268,7 @@ std::string ModelToXml(mjSpec& spec, const Place& place) {
     text.resize(static_cast<size_t>(size) + 1);
     if (mj_saveXMLString(&spec, text.data(), size + 1, error.data(), error.size()) == 0) {
       text.resize(text.find('\0'));
+      RequireXml(text, place);
       return text;
     }
   }

@@ -22,13 +22,16 @@ struct ParsedModel {
 /// Reads an MJCF or URDF file. Of a URDF what is only to be seen is kept, and its meshes are looked
 /// for as ResolveMeshes does, those named by `package://` in `packages`. Plugins that MuJoCo comes
 /// with are loaded where the model asks for one. Throws BadInput with file and, where MuJoCo tells
-/// it, line for an unreadable file, and with the link's name for a URDF with a moving link that has
-/// no mass.
+/// it, line for an unreadable file and for what ReadDescription refuses, for a name that is no text, and with the link's name
+/// for a URDF with a moving link that has no mass.
 ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages = {});
 
 /// Compiles a model. files: meshes and textures that lie in memory. Throws BadInput from `place` with
 /// what MuJoCo or a plugin refuses.
 ModelPtr CompileModel(mjSpec& spec, const Place& place, const mjVFS* files = nullptr);
+
+/// Throws BadInput, by the name of `target`, for a text of MJCF that does not load from where it will lie.
+void RequireLoads(const std::string& xml, const std::filesystem::path& target);
 
 /// A compiled model and the notices of its reading.
 struct LoadedModel {

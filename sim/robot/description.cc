@@ -8,9 +8,10 @@
 #include <cmath>
 #include <utility>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/names.h"
 #include "models/foundation/xml_tags.h"
 #include "sim/model/load_model.h"
 #include "sim/robot/urdf_spec.h"
@@ -21,8 +22,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using RowMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-constexpr std::size_t kLargestDescription = std::size_t{64} << 20;  // bytes
 
 /// Takes out the shapes, which no torque needs: their files are often elsewhere.
 void DeleteMeshes(mjSpec& spec) {
@@ -55,8 +54,17 @@ ModelPtr CompileMjcf(const std::filesystem::path& file, std::vector<std::string>
 }
 
 ModelPtr LoadCompiled(const std::filesystem::path& file) {
+  const Place place{file.string()};
+  if (!std::filesystem::is_regular_file(file)) Refuse(place, "is no regular file; give one");
   ModelPtr model(mj_loadModel(file.c_str(), nullptr));
-  if (!model) Refuse({file.string()}, "is no compiled model of MuJoCo {}", mj_versionString());
+  if (!model) Refuse(place, "is no compiled model of MuJoCo {}", mj_versionString());
+  for (const mjtObj kind : {mjOBJ_BODY, mjOBJ_JOINT}) {
+    const int count = static_cast<int>(kind == mjOBJ_BODY ? model->nbody : model->njnt);
+    for (int i = 0; i < count; ++i) {
+      const char* const name = mj_id2name(model.get(), kind, i);
+      if (name) RequireName("the name of a link or joint", name, place);
+    }
+  }
   return model;
 }
 
@@ -201,7 +209,7 @@ ReadModel ReadRobotModel(const std::filesystem::path& file) {
   ReadModel read{file.string(), nullptr, {}, {}};
   if (file.extension() == ".mjb") {
     read.model = LoadCompiled(file);
-  } else if (IsUrdfText(ReadWholeFile(file, kLargestDescription))) {
+  } else if (IsUrdfText(ReadDescription(file).text)) {
     const SpecPtr spec = SpecOfUrdf(file, read.notices);
     read.model = CompileModel(*spec, {file.string()});
   } else {

@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -47,6 +49,7 @@ class Builder {
     };
     say(mended_, "inertia that no body can have, taken as the nearest that one can");
     say(massless_, "links that move without a mass of their own, taken as massless");
+    say(turned_, "joints whose lower limit is above the upper one, taken as unlimited");
     say(odd_, "joints that float or slide in a plane, taken to stand still");
     return std::move(spec_);
   }
@@ -83,10 +86,13 @@ class Builder {
     std::ranges::copy(std::array{joint.axis.x, joint.axis.y, joint.axis.z}, made->axis);
     made->limited = mjLIMITED_FALSE;
     if (joint.type == urdf::Joint::CONTINUOUS || !joint.limits) return;
-    if (!(joint.limits->lower < joint.limits->upper)) return;
+    const auto& [lower, upper] = std::pair(joint.limits->lower, joint.limits->upper);
+    if (lower > upper) turned_.push_back(joint.name);
+    // no range at all, or one without an end, bounds nothing
+    if (!(lower < upper) || !std::isfinite(lower) || !std::isfinite(upper)) return;
     made->limited = mjLIMITED_TRUE;
-    made->range[0] = joint.limits->lower;
-    made->range[1] = joint.limits->upper;
+    made->range[0] = lower;
+    made->range[1] = upper;
   }
 
   void AddInertial(const urdf::Link& link, bool moves, mjsBody& body) {
@@ -123,7 +129,7 @@ class Builder {
   const urdf::ModelInterface& robot_;
   const Place& place_;
   SpecPtr spec_{mj_makeSpec()};
-  std::vector<std::string> mended_, massless_, odd_;
+  std::vector<std::string> mended_, massless_, turned_, odd_;
 };
 
 }  // namespace

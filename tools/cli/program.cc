@@ -4,6 +4,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/names.h"
 #include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 
@@ -77,6 +78,8 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
   for (const Command& command : commands) AddQuiet(*command.parser);
   program.footer(kFooter);  // behind the subcommands, which would take it over
 
+  // names of joints and files go into tables, pages and files of JSON, which hold text
+  for (int i = 1; i < argc; ++i) RequireText("the argument", argv[i], {});
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

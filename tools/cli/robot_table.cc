@@ -50,7 +50,7 @@ std::string RobotToText(const RobotEstimate& robot, const Page& page) {
   std::string text = TableToText(table, 2);
   for (const RobotJointEstimate& one : robot.joints) {
     const Colour colour = one.estimate.status == Status::ok ? Colour::green : Colour::yellow;
-    text += fmt::format("{}: {}\n", Paint(one.summary.joint, colour, page),
+    text += fmt::format("{}: {}\n", Paint(Printable(one.summary.joint), colour, page),
                         Printable(one.estimate.FullMessage()));
   }
   return text;

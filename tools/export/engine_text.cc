@@ -7,6 +7,7 @@
 #include "identification/estimate.h"
 #include "identification/robot/robot_estimate.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/serialize.h"
 #include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
@@ -18,7 +19,8 @@ namespace {
 std::string InQuotes(const std::string& name) { return nlohmann::json(name).dump(); }
 
 /// A comment that ends with its line, or in XML before its end.
-std::string Comment(const std::string& words, EngineFormat format) {
+std::string Comment(const std::string& given, EngineFormat format) {
+  const std::string words = Printable(given);
   if (format == EngineFormat::physx) return fmt::format("// {}\n", words);
   if (format == EngineFormat::isaaclab || format == EngineFormat::mjlab)
     return fmt::format("# {}\n", words);

@@ -99,6 +99,10 @@ void BeQuiet() { quiet = true; }
 
 bool IsQuiet() { return quiet; }
 
+void PrintLines(std::FILE* stream, const std::string& lines) {
+  fmt::print(stream, "{}", PrintableLines(lines));
+}
+
 std::string TableToText(const Table& given, size_t left) {
   const Table table = Shown(given);
   // as wide as the widest cell of each column

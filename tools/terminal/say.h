@@ -31,10 +31,19 @@ void BeQuiet();
 
 bool IsQuiet();
 
+/// Prints lines of which no terminal acts on a character (PrintableLines).
+void PrintLines(std::FILE* stream, const std::string& lines);
+
+/// Prints a sentence that names what came from outside.
+template <typename... Args>
+void Say(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
+  PrintLines(stream, fmt::format(format, std::forward<Args>(args)...));
+}
+
 /// What is good to know and asks for nothing: on stderr, unless --quiet.
 template <typename... Args>
 void SayNotice(fmt::format_string<Args...> format, Args&&... args) {
-  if (!IsQuiet()) fmt::print(stderr, format, std::forward<Args>(args)...);
+  if (!IsQuiet()) Say(stderr, format, std::forward<Args>(args)...);
 }
 
 /// Cells as text: a header and rows of as many cells.

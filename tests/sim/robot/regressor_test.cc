@@ -121,7 +121,7 @@ class RobotDescriptionFile : public testing::Test {
 
 constexpr const char* kBroken = R"(<robot name="r"><link name="base"/>
 <link name="a"><inertial><origin xyz="0 0 .1"/><mass value="2"/>
-<inertia ixx=".1" iyy="-.1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial>
+<inertia ixx=".1" iyy=".1" izz=".5" ixy="0" ixz="0" iyz="0"/></inertial>
 <visual><geometry><mesh filename="package://nowhere/a.dae"/></geometry></visual></link>
 <link name="b"/>
 <joint name="turns" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/>
@@ -139,6 +139,25 @@ TEST_F(RobotDescriptionFile, IsMendedAndSaysSo) {
   for (const std::string& notice : robot.notices) said += notice + "\n";
   EXPECT_NE(said.find("inertia that no body can have"), std::string::npos) << said;
   EXPECT_NE(said.find("without a mass of their own, taken as massless: b"), std::string::npos);
+}
+
+TEST_F(RobotDescriptionFile, WithAnInertiaBelowZeroIsRefusedByLinkAndValue) {
+  std::string text = kBroken;
+  text.replace(text.find("izz=\".5\""), 8, "izz=\"-.5\"");
+  const std::string refusal = test::RefusalOf([&] { ReadRobotModel(Write(text)); });
+  for (const char* part : {":3: ", "link 'a'", "izz", "'-.5'", "0 or more"}) {
+    EXPECT_NE(refusal.find(part), std::string::npos) << refusal;
+  }
+}
+
+TEST_F(RobotDescriptionFile, SaysWhichLimitsAreTurned) {
+  std::string text = kBroken;
+  text.replace(text.find("lower=\"-1\""), 10, "lower=\"2\"");
+  const RobotDescription robot = Describe(Write(text));
+  EXPECT_FALSE(robot.joints[0].range);
+  std::string said;
+  for (const std::string& notice : robot.notices) said += notice + "\n";
+  EXPECT_NE(said.find("lower limit is above the upper one"), std::string::npos) << said;
 }
 
 TEST_F(RobotDescriptionFile, NamesTheNearestJoint) {
