@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "identification/robot/robot_joint.h"
 #include "models/foundation/atomic_file.h"
@@ -106,6 +107,44 @@ void TakeOptions(const RobotSettings& settings, RobotData& data) {
   }
 }
 
+/// Refuses numbers that no joint has. name: as the option is called
+void CheckRange(const NumberOfJoints& numbers, const char* name, double least, double most) {
+  for (const auto& [joint, number] : numbers) {
+    const double size = std::abs(number);
+    if (size >= least && size <= most) continue;
+    Refuse({name}, "{}{}is {}; its size must be from {:g} to {:g}",
+           joint.empty() ? "" : Excerpt(joint), joint.empty() ? "" : " ", number, least, most);
+  }
+}
+
+/// Refuses settings that mean nothing, before anything is read.
+void CheckSettings(const RobotSettings& settings) {
+  constexpr double most_gear =
+      1e5;  // why: ten times the turns of a motor for 1 m of a screw of 1 mm
+  constexpr double most_factor =
+      1e9;                           // why: from a unit to one of a thousand millionth, either way
+  constexpr double most_mass = 1e6;  // kg; why: a thousand times what any robot carries
+  constexpr double most_length = 1e3;  // m; why: the same
+  std::set<std::string> known;
+  for (const std::string& joint : settings.joints) {
+    if (known.insert(joint).second) continue;
+    Refuse({"--joints"}, "names '{}' twice; give each joint of the log once", Excerpt(joint));
+  }
+  CheckRange(settings.gear, "--gear", 0, most_gear);
+  CheckRange(settings.torque_constant, "--torque-constant", 1 / most_factor, most_factor);
+  CheckRange(settings.torque_scale, "--scale of the torque", 1 / most_factor, most_factor);
+  CheckRange(settings.position_scale, "--scale of the position", 1 / most_factor, most_factor);
+  const RobotTool& tool = settings.tool;
+  if (!(tool.mass >= 0 && tool.mass <= most_mass)) {
+    Refuse({"--tool"}, "mass is {}; it must be from 0 to {:g} kg", tool.mass, most_mass);
+  }
+  for (const double place : tool.centre) {
+    if (std::abs(place) <= most_length) continue;
+    Refuse({"--tool"}, "com has {}; it must be from -{:g} to {:g} m", place, most_length,
+           most_length);
+  }
+}
+
 void CheckNames(const NumberOfJoints& numbers, const char* option, const RobotDescription& robot) {
   std::vector<std::string> names;
   for (const ModelJoint& joint : robot.joints) names.push_back(joint.name);
@@ -171,6 +210,7 @@ Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
 
 RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& source,
                         const RobotSettings& settings) {
+  CheckSettings(settings);
   ReadModel model = ReadRobotModel(robot);
   const std::vector<std::string> joints = settings.joints.empty() ? model.joints : settings.joints;
   Tables tables = ReadTables(source, joints);
