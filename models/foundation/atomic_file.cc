@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
+#include <random>
 #include <system_error>
 
 #include "models/foundation/bad_input.h"
@@ -16,11 +18,12 @@ namespace warmjoint {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kOwnFiles = "/proc/self/fd/";  // an open file by its number
 constexpr std::string_view kPart = ".warmjoint.part.", kDrawn = "XXXXXX";
 
 /// The name of something under construction, for mkstemp and mkdtemp to draw.
-std::string Pattern(const fs::path& folder, const std::string& extension) {
-  return folder / (std::string(kPart) + std::string(kDrawn) + extension);
+std::string Pattern(const fs::path& folder) {
+  return folder / (std::string(kPart) + std::string(kDrawn));
 }
 
 /// What is under construction cannot be made in a folder. A full disk says nothing against the name.
@@ -47,6 +50,27 @@ void WriteAll(int file, std::string_view bytes, const std::string& name) {
     if (written < 0) FailOutput(name, errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+/// Writes all that an open file holds.
+void CopyTo(int to, int from, const std::string& name) {
+  std::array<char, 65536> block{};
+  for (off_t at = 0;;) {
+    const ssize_t n = pread(from, block.data(), block.size(), at);
+    if (n < 0) FailOutput(name, errno);
+    if (n == 0) return;
+    WriteAll(to, {block.data(), static_cast<std::size_t>(n)}, name);
+    at += n;
+  }
+}
+
+/// A name of something under construction that nobody can foresee.
+fs::path Drawn(const fs::path& folder) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device random;
+  std::string name(kPart);
+  for (std::size_t i = 0; i < 2 * kDrawn.size(); ++i) name += letters[random() % letters.size()];
+  return folder / name;
 }
 
 void RefuseForeignContents(const fs::path& target, const std::vector<std::string>& replaceable) {
@@ -105,12 +129,15 @@ AtomicFile::AtomicFile(const fs::path& target) : name_(target.string()) {
     folder = target_.parent_path();
   }
 
-  // beside the target, so that it can take its name in one step
-  const std::string extension = target_.extension().string();
-  std::string pattern = Pattern(folder, extension);
-  file_ = mkostemps(pattern.data(), static_cast<int>(extension.size()), O_CLOEXEC);
-  if (file_ < 0) RefuseFolder(name_, folder, errno);
-  temporary_ = pattern;
+  // in the target's folder, so that it can take its name in one step
+  file_ = access(kOwnFiles, X_OK) == 0 ? open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)
+                                       : -1;
+  if (file_ < 0) {
+    std::string pattern = Pattern(folder);
+    file_ = mkostemp(pattern.data(), O_CLOEXEC);
+    if (file_ < 0) RefuseFolder(name_, folder, errno);
+    temporary_ = pattern;
+  }
   fchmod(file_, exists ? old.st_mode & 07777 : Permitted(0666));
 }
 
@@ -126,12 +153,22 @@ void AtomicFile::Commit() {
   if (target_.empty()) {
     // after what was printed before
     if (std::fflush(stdout) != 0) FailOutput("standard output", errno);
-    return WriteAll(STDOUT_FILENO, ReadWholeFile(temporary_), "standard output");
+    return CopyTo(STDOUT_FILENO, file_, "standard output");
   }
   // on the disk before it gets its name, so that no one finds half a file under it
-  if (fsync(file_) != 0 || rename(temporary_.c_str(), target_.c_str()) != 0) {
-    FailOutput(name_, errno);
+  if (fsync(file_) != 0) FailOutput(name_, errno);
+  if (temporary_.empty()) {
+    // a new file gets its name at once, an older one is replaced by a drawn name
+    const std::string own = kOwnFiles + std::to_string(file_);
+    const auto link = [&](const fs::path& to) {
+      return linkat(AT_FDCWD, own.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (link(target_)) return;
+    if (errno != EEXIST) FailOutput(name_, errno);
+    temporary_ = Drawn(target_.parent_path());
+    if (!link(temporary_)) FailOutput(name_, errno);
   }
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) FailOutput(name_, errno);
   temporary_.clear();
 }
 
@@ -145,7 +182,7 @@ AtomicDirectory::AtomicDirectory(const fs::path& target,
   if (fs::is_directory(target_)) target_ = fs::canonical(target_);
   RefuseForeignContents(target_, replaceable);
 
-  std::string pattern = Pattern(target_.parent_path(), "");
+  std::string pattern = Pattern(target_.parent_path());
   if (!mkdtemp(pattern.data())) RefuseFolder(target_.string(), target_.parent_path(), errno);
   temporary_ = pattern;
 }

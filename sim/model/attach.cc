@@ -11,6 +11,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "sim/model/attach_text.h"
 #include "sim/model/earlier_friction.h"
 #include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
@@ -231,8 +232,9 @@ Attached AttachFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frict
   return attached;
 }
 
-Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoint>& frictions,
-                        const fs::path& out, const AttachOptions& options) {
+AttachedText AttachFrictionAsText(const fs::path& model,
+                                  const std::vector<FrictionForJoint>& frictions,
+                                  const fs::path& out, const AttachOptions& options) {
   // the model as it is written
   for (const auto& [name, folder] : options.packages) {
     if (fs::is_directory(folder)) continue;
@@ -249,11 +251,16 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
     PointTo(spec.compiler.meshdir, FolderOf(model), FolderOf(out));
     PointTo(spec.compiler.texturedir, FolderOf(model), FolderOf(out));
   }
-  AtomicFile file(out);
-  file.Write(ModelToXml(spec, {model.string()}));
-  LoadModel(file.temporary());
-  file.Commit();
-  return attached;
+  std::string xml = ModelToXml(spec, {model.string()});
+  RequireLoads(xml, IsStandardOutput(out) ? fs::path("-") : out);
+  return {std::move(attached), std::move(xml)};
+}
+
+Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoint>& frictions,
+                        const fs::path& out, const AttachOptions& options) {
+  AttachedText made = AttachFrictionAsText(model, frictions, out, options);
+  WriteWholeFile(out, made.xml);
+  return std::move(made.attached);
 }
 
 }  // namespace warmjoint

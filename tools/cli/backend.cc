@@ -5,13 +5,23 @@
 
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
 #include "tools/cli/python_child.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;
+namespace {
+
+/// The first line of an answer, which says what follows. Throws BadInput for a refusal.
+Tree HeadOf(const std::string& answer) {
+  Tree head = Tree::parse(answer.substr(0, answer.find('\n')));
+  if (!head.contains("refusal")) return head;
+  Refuse({head["refusal"]["place"].get<std::string>()}, "{}",
+         head["refusal"]["why"].get<std::string>());
+}
+
+}  // namespace
 
 PictureFormat PictureFormatOf(const std::string& path) {
   const std::string end = fs::path(path).extension().string();
@@ -41,8 +51,7 @@ Backend::Backend() : folder_(DataFolder() / "tools/python/warmjoint/figures") {
 std::string Backend::Ask(const shown::ShownData& request) const {
   const Ended ended = CallPython({python_, "-B", folder_.string()}, shown::Packed(request));
   if (ended.well) return ended.out;
-  throw OutputFailed(
-      fmt::format("{} {} failed: {}", python_, folder_.string(), LastLine(ended.err)));
+  throw OutputFailed(fmt::format("{} {} {}", python_, folder_.string(), ReasonOf(ended)));
 }
 
 Drawn Backend::Draw(DrawRequest request, const PictureSetting& setting) const {
@@ -52,14 +61,9 @@ Drawn Backend::Draw(DrawRequest request, const PictureSetting& setting) const {
                         {"figures", request.figures},
                         {"data", request.with_data}};
   const std::string answer = Ask(request.data);
-
-  // one line with what the files are, or a refusal; then their bytes
-  std::size_t at = answer.find('\n');
-  const Tree head = Tree::parse(answer.substr(0, at++));
-  if (head.contains("refusal")) {
-    Refuse({head["refusal"]["place"].get<std::string>()}, "{}",
-           head["refusal"]["why"].get<std::string>());
-  }
+  // what the files are; then their bytes
+  std::size_t at = answer.find('\n') + 1;
+  const Tree head = HeadOf(answer);
   Drawn drawn;
   drawn.left_out = head.at("left_out").get<std::vector<std::string>>();
   for (const Tree& file : head.at("files")) {
@@ -73,14 +77,15 @@ Drawn Backend::Draw(DrawRequest request, const PictureSetting& setting) const {
 
 std::string Backend::FillPage(const std::string& page, shown::ShownData data) const {
   data.facts = {{"page", page}, {"content", std::move(data.facts)}};
-  return Ask(data);
+  const std::string answer = Ask(data);
+  HeadOf(answer);
+  return answer.substr(answer.find('\n') + 1);
 }
 
-void WritePicture(const Backend& backend, DrawRequest request, const std::string& path) {
+std::string PictureFor(const std::string& path, const Backend& backend, DrawRequest request) {
   PictureSetting setting;
   setting.format = PictureFormatOf(path);
-  const Drawn drawn = backend.Draw(std::move(request), setting);
-  WriteWholeFile(path, drawn.files.at(0).bytes);
+  return backend.Draw(std::move(request), setting).files.at(0).bytes;
 }
 
 }  // namespace warmjoint

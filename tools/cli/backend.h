@@ -86,7 +86,7 @@ class Backend {
   std::string python_;
 };
 
-/// Draws one figure of one source into a file of the format that its end names. Throws OutputFailed, and BadInput as PictureFormatOf does.
-void WritePicture(const Backend& backend, DrawRequest request, const std::string& path);
+/// One figure of one source in the format that the end of `path` names. Throws OutputFailed, and BadInput as PictureFormatOf does.
+std::string PictureFor(const std::string& path, const Backend& backend, DrawRequest request);
 
 }  // namespace warmjoint

@@ -1,15 +1,16 @@
 // warmjoint attach MODEL: friction onto the joints of any robot.
 #include <fmt/format.h>
-#include <warmjoint/attach.h>
 
 #include <memory>
 #include <utility>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
 #include "models/robots/robot_folder.h"
+#include "sim/model/attach_text.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
@@ -107,7 +108,7 @@ ExitStatus Attach(const AttachArguments& arguments) {
   std::vector<FrictionForJoint> frictions;
   std::vector<std::string> warnings;
   const std::filesystem::path model = FindRobot(arguments.model, "MODEL");
-  std::vector<std::filesystem::path> inputs{model};
+  std::vector<std::filesystem::path> inputs = FilesOfDescription(model, options.packages);
   if (arguments.joints.empty() && arguments.robot.empty()) {
     Refuse({"attach"}, "needs --joint NAME=FILE, or --friction robot.json for all joints");
   }
@@ -123,12 +124,13 @@ ExitStatus Attach(const AttachArguments& arguments) {
   }
 
   // nothing is written over, and every doubt of the estimates is told before the model is made
-  KeepApart({arguments.output}, inputs);
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-  const Attached attached = AttachFriction(model, frictions, arguments.output, options);
+  Outputs outputs({arguments.output}, inputs);
+  for (const std::string& warning : warnings) Say(stderr, "warning: {}\n", warning);
+  auto [attached, xml] = AttachFrictionAsText(model, frictions, arguments.output, options);
+  outputs.Add(arguments.output, std::move(xml));
+  outputs.Write();
   for (const std::string& notice : attached.notices) SayNotice("notice: {}\n", notice);
-  fmt::print(
-      WordsBeside({arguments.output}),
+  Say(WordsBeside({arguments.output}),
       "{}: friction on {} of its joints, {}; load it with libwarmjoint_friction.so in MuJoCo {}\n",
       arguments.output, attached.joints.size(),
       options.form == FrictionForm::passive

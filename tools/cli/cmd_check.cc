@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "identification/preparation/check.h"
-#include "models/foundation/atomic_file.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/backend.h"
 #include "tools/cli/command.h"
@@ -127,13 +126,9 @@ ExitStatus Check(const CheckArguments& arguments) {
   // outputs are refused before any time is spent
   const std::vector<std::filesystem::path> outputs{arguments.segments, arguments.plot};
   std::optional<Backend> backend;
-  if (!arguments.plot.empty()) {
-    PictureFormatOf(arguments.plot);
-    AtomicFile{arguments.plot};
-    backend.emplace();
-  }
-  if (!arguments.segments.empty()) AtomicFile{arguments.segments};
-  KeepApart(outputs, {arguments.recording.files.begin(), arguments.recording.files.end()});
+  if (!arguments.plot.empty()) PictureFormatOf(arguments.plot);
+  Outputs written(outputs, InputsOf(arguments.recording));
+  if (!arguments.plot.empty()) backend.emplace();
 
   // options that make no layout are refused for all of them at once
   CheckReadSettings(arguments.recording.read);
@@ -153,10 +148,11 @@ ExitStatus Check(const CheckArguments& arguments) {
       DrawRequest request{.figures = {"log"}};
       request.sources.push_back({{"kind", "estimate"}, {"place", arguments.plot}});
       request.sources[0].update(shown::FitFacts(shown::MakeFitView(*log, {}), request.data));
-      WritePicture(*backend, std::move(request), arguments.plot);
+      written.Add(arguments.plot, PictureFor(arguments.plot, *backend, std::move(request)));
     }
   }
-  if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);
+  written.Add(arguments.segments, segments);
+  written.Write();
 
   // words and numbers keep apart where an output is standard output
   std::FILE* const words = WordsBeside(outputs);
@@ -167,9 +163,8 @@ ExitStatus Check(const CheckArguments& arguments) {
       fmt::print(words, "{}", Text(files));
     }
     if (!arguments.plot.empty() && !files.front().check) {
-      fmt::print(stderr,
-                 "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
-                 arguments.plot, files.front().file);
+      Say(stderr, "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
+          arguments.plot, files.front().file);
     }
   });
 

@@ -68,7 +68,8 @@ ExitStatus ConvertOther(const ConvertArguments& arguments) {
   WriteColumns(content, arguments.output);
   std::vector<std::string> names;
   for (const FileColumn& column : content.columns) names.push_back(column.name);
-  fmt::print("{}: {} samples of {}\n", arguments.output, samples, ExcerptOfList(names));
+  Say(stdout, "{}: {} samples of {}
+", arguments.output, samples, ExcerptOfList(names));
   return ExitStatus::done;
 }
 
@@ -83,8 +84,8 @@ ExitStatus ConvertOurs(const ConvertArguments& arguments) {
     for (const RecordingColumn& column : RecordingColumns()) {
       if (column.get(recordings[k])) columns.push_back(column.name);
     }
-    fmt::print("{}: {} samples of {}\n", name.string(), recordings[k].size(),
-               fmt::join(columns, ", "));
+    Say(stdout, "{}: {} samples of {}\n", name.string(), recordings[k].size(),
+        fmt::join(columns, ", "));
   }
   return ExitStatus::done;
 }

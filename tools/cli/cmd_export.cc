@@ -6,7 +6,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/node.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
@@ -27,7 +26,7 @@ struct ExportArguments {
 
 ExitStatus Export(const ExportArguments& arguments) {
   // what is read stays, and all that can be refused is first
-  KeepApart({arguments.output}, {arguments.file});
+  Outputs outputs({arguments.output}, {arguments.file});
   ExportRequest request = arguments.request;
   if (!std::isnan(arguments.speed)) request.warmth.speed = arguments.speed;
   const Exported exported = ExportFrictions(ReadJsonNode(arguments.file), request);
@@ -39,7 +38,8 @@ ExitStatus Export(const ExportArguments& arguments) {
   if (arguments.output.empty()) {
     fmt::print("{}", text);
   } else {
-    WriteWholeFile(arguments.output, text);
+    outputs.Add(arguments.output, text);
+    outputs.Write();
   }
   return ExitStatus::done;
 }

@@ -83,9 +83,8 @@ std::vector<std::filesystem::path> OutputsOf(const IdentifyArguments& arguments)
   return {arguments.output, arguments.mjcf, arguments.plot};
 }
 
-/// Refuses outputs that are inputs too, or cannot be written, before any time is spent; returns what draws the picture,
-/// where one is asked for.
-std::optional<Backend> CheckOutputs(const IdentifyArguments& arguments) {
+/// The outputs, none of which is an input, before any time is spent.
+Outputs ClaimOutputs(const IdentifyArguments& arguments) {
   // several identifiers give a table and no files
   const std::pair<const char*, const std::string&> of_one[]{{"--output", arguments.output},
                                                             {"--mjcf", arguments.mjcf},
@@ -97,19 +96,11 @@ std::optional<Backend> CheckOutputs(const IdentifyArguments& arguments) {
   }
 
   // the recording, and what else is read, must not be written over
-  std::vector<std::filesystem::path> inputs(arguments.recording.files.begin(),
-                                            arguments.recording.files.end());
+  std::vector<std::filesystem::path> inputs = InputsOf(arguments.recording);
   inputs.emplace_back(arguments.holdout);
   inputs.emplace_back(arguments.earlier.file);
-  KeepApart(OutputsOf(arguments), inputs);
-
-  // every output can be opened, and its name stands for a format that there is
-  for (const std::filesystem::path& path : OutputsOf(arguments)) {
-    if (!path.empty()) AtomicFile{path};
-  }
-  if (arguments.plot.empty()) return std::nullopt;
-  PictureFormatOf(arguments.plot);
-  return Backend();
+  if (!arguments.plot.empty()) PictureFormatOf(arguments.plot);
+  return {OutputsOf(arguments), inputs};
 }
 
 /// Fits and judges, or asks the command. context: without a narrator
@@ -131,22 +122,18 @@ Answered Answer(const Asked& asked, const PreparedLog& log, IdentifyContext cont
   }
 }
 
-/// measurements: of the log that was identified.
-void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
-                  const std::string& file, const Measurements& measurements, Activity& activity) {
-  // the estimate, where it is asked for
-  if (!arguments.output.empty()) WriteWholeFile(arguments.output, file);
-
-  // a model for MuJoCo needs a friction that can be trusted
+/// A model for MuJoCo, where one is asked for and there is a friction that can be trusted. measurements: of the log that was
+/// identified.
+void AddModel(const IdentifyArguments& arguments, const Estimate& estimate,
+              const Measurements& measurements, Outputs& outputs, Activity& activity) {
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction || !estimate.friction->torque_unit.empty()) {
     activity.Aside([&] {
-      fmt::print(stderr, "{} is not written: there is no friction that MuJoCo can use\n",
-                 arguments.mjcf);
+      Say(stderr, "{} is not written: there is no friction that MuJoCo can use\n", arguments.mjcf);
     });
     return;
   }
-  WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
+  outputs.Add(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
 }
 
 /// Says that friction in amperes is of no use to MuJoCo.
@@ -162,7 +149,7 @@ void NoticeAmperes(const Estimate& estimate, JointKind joint, Activity& activity
 
 /// Writes, draws and prints an estimate of the log.
 void Deliver(const IdentifyArguments& arguments, Identified identified, const PreparedLog& log,
-             const std::optional<Backend>& backend, Activity& activity) {
+             const std::optional<Backend>& backend, Outputs& outputs, Activity& activity) {
   const Measurements& measurements = log.raw().measurements;
   auto& [estimate, shown] = identified;
   NoticeAmperes(estimate, measurements.joint, activity);
@@ -170,14 +157,16 @@ void Deliver(const IdentifyArguments& arguments, Identified identified, const Pr
   // files and picture first, so that words follow what is there
   estimate.recording = arguments.recording;
   const std::string file = EstimateToJson(estimate, arguments.output);
-  WriteOutputs(arguments, estimate, file, measurements, activity);
+  outputs.Add(arguments.output, file);
+  AddModel(arguments, estimate, measurements, outputs, activity);
   if (backend) {
     activity.Is("drawing " + arguments.plot);
     DrawRequest request{.figures = {"fit"}};
     request.sources.push_back({{"kind", "estimate"}, {"place", arguments.plot}});
     request.sources[0].update(shown::FitFacts(shown::MakeFitView(log, shown), request.data));
-    WritePicture(*backend, std::move(request), arguments.plot);
+    outputs.Add(arguments.plot, PictureFor(arguments.plot, *backend, std::move(request)));
   }
+  outputs.Write();
 
   // then the words, in the format that was asked for
   std::FILE* const words = WordsBeside(OutputsOf(arguments));
@@ -197,7 +186,7 @@ void PrintSeveral(const IdentifyArguments& arguments, const std::vector<Answered
                   const std::string& unit) {
   if (arguments.format != "json") {
     for (const Answered& one : answers) {
-      if (!one.message.empty()) fmt::print(stderr, "{}: {}\n", one.name, one.message);
+      if (!one.message.empty()) Say(stderr, "{}: {}\n", one.name, one.message);
     }
     fmt::print(stdout, "{}", EstimatesToText(answers, unit));
     return;
@@ -221,7 +210,9 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
     asked.push_back(CheckIdentifier(arguments, identifier));
     if (asked.back().command) commands.push_back(asked.back().command->command);
   }
-  const std::optional<Backend> backend = CheckOutputs(arguments);
+  Outputs outputs = ClaimOutputs(arguments);
+  const std::optional<Backend> backend =
+      arguments.plot.empty() ? std::nullopt : std::optional<Backend>(std::in_place);
   ReportConfinement(commands, {}, arguments.confinement);
 
   // what is held out, the log, and the heat that an earlier recording left
@@ -247,10 +238,10 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   if (answers.size() > 1) {
     activity.Aside([&] { PrintSeveral(arguments, answers, log.raw().measurements.torque_unit); });
   } else if (first.identified) {
-    Deliver(arguments, *first.identified, log, backend, activity);
+    Deliver(arguments, *first.identified, log, backend, outputs, activity);
   } else {
     activity.Aside([&] {
-      fmt::print(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);
+      Say(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);
     });
   }
   return any_ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;

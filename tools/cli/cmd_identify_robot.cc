@@ -9,6 +9,7 @@
 
 #include "identification/robot/robot_estimate.h"
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/robots/robot_folder.h"
@@ -186,27 +187,25 @@ void AddRobotOptions(CLI::App& parser, RobotArguments& arguments) {
 }
 
 /// A picture a joint, JOINT.png in a folder.
-void DrawJoints(const Backend& backend, const RobotEstimate& answer, const std::string& folder) {
+void DrawJoints(const Backend& backend, const RobotEstimate& answer, const std::string& folder,
+                Outputs& outputs) {
   DrawRequest request;
   request.sources.push_back(
       {{"kind", "robot"}, {"place", folder}, {"joints", shown::RobotFacts(answer, request.data)}});
-  std::filesystem::create_directories(folder);
-  for (const DrawnFile& file : backend.Draw(std::move(request), {}).files) {
-    std::string name = file.name;
-    std::ranges::replace(name, '/', '_');
-    WriteWholeFile(std::filesystem::path(folder) / name, file.bytes);
+  for (DrawnFile& file : backend.Draw(std::move(request), {}).files) {
+    outputs.Add(std::filesystem::path(folder) / file.name, std::move(file.bytes));
   }
 }
 
 ExitStatus IdentifyRobotCommand(const RobotArguments& arguments) {
   // outputs that are inputs too, or cannot be written, before any time is spent
   const std::filesystem::path robot = FindRobot(arguments.robot, "ROBOT");
-  const std::vector<std::filesystem::path> outputs{arguments.output, arguments.mjcf};
-  std::vector<std::filesystem::path> inputs(arguments.log.files.begin(), arguments.log.files.end());
-  inputs.push_back(robot);
-  KeepApart(outputs, inputs);
-  for (const std::filesystem::path& path : outputs) {
-    if (!path.empty()) AtomicFile{path};
+  const std::vector<std::filesystem::path> targets{arguments.output, arguments.mjcf};
+  std::vector<std::filesystem::path> inputs = FilesOfDescription(robot);
+  inputs.insert(inputs.end(), arguments.log.files.begin(), arguments.log.files.end());
+  Outputs outputs(targets, inputs);
+  if (std::filesystem::exists(arguments.plot) && !std::filesystem::is_directory(arguments.plot)) {
+    Refuse({"--plot"}, "'{}' is a file; give a folder", Excerpt(arguments.plot));
   }
 
   const auto backend =
@@ -215,18 +214,25 @@ ExitStatus IdentifyRobotCommand(const RobotArguments& arguments) {
   const RobotEstimate answer = IdentifyRobot(robot, arguments.log, arguments.settings,
                                              [&](const std::string& words) { activity.Is(words); });
   const std::string text = RobotEstimateToJson(answer, arguments.output);
-  if (!arguments.output.empty()) WriteWholeFile(arguments.output, text);
+  outputs.Add(arguments.output, text);
   std::vector<std::string> notices = answer.notices;
-  if (!arguments.mjcf.empty()) {
-    activity.Is("writing " + arguments.mjcf);
-    const std::vector<std::string> said = WriteWarmModel(robot, answer, arguments.mjcf);
+  const bool has_friction = std::ranges::any_of(answer.joints, &RobotJointEstimate::HasFriction);
+  if (!arguments.mjcf.empty() && !has_friction) {
+    notices.push_back(arguments.mjcf +
+                      " is not written: no joint has a friction that MuJoCo can use");
+  } else if (!arguments.mjcf.empty()) {
+    activity.Is("making " + arguments.mjcf);
+    AttachedText warm = WarmModel(robot, answer, arguments.mjcf);
+    const std::vector<std::string>& said = warm.attached.notices;
     notices.insert(notices.end(), said.begin(), said.end());
+    outputs.Add(arguments.mjcf, std::move(warm.xml));
   }
   if (backend) {
     activity.Is("drawing");
-    DrawJoints(*backend, answer, arguments.plot);
+    DrawJoints(*backend, answer, arguments.plot, outputs);
   }
-  std::FILE* const words = WordsBeside(outputs);
+  outputs.Write();
+  std::FILE* const words = WordsBeside(targets);
   activity.Aside([&] {
     for (const std::string& notice : notices) SayNotice("notice: {}\n", notice);
     if (arguments.format != "json") {

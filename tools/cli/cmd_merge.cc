@@ -50,8 +50,8 @@ ExitStatus Merge(const MergeArguments& arguments) {
 
   // shards that overlap are refused here: each realization has one place
   const MergedRun merged = MergeRuns(arguments.shards, arguments.output);
-  fmt::print(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output,
-             arguments.shards.size(), merged.units - merged.missing.size(), merged.units);
+  Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
+      merged.units - merged.missing.size(), merged.units);
   // what is missing is no failure, but then the whole says nothing yet
   if (!merged.missing.empty()) NoticeMissing(merged.missing);
   return PrintEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),

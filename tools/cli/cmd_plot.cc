@@ -4,7 +4,6 @@
 #include <memory>
 #include <set>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/backend.h"
@@ -28,16 +27,19 @@ struct PlotArguments {
   std::string output;
 };
 
-/// Writes each picture and its numbers where they are wanted, and prints what each shows.
-void WriteAll(const Drawn& drawn, const std::vector<fs::path>& folders,
-              const std::vector<fs::path>& recordings, const fs::path& output, Activity& activity) {
-  for (const DrawnFile& file : drawn.files) {
+/// Writes each picture and its numbers where they are wanted, none over an input, and prints what each shows.
+void WriteAll(Drawn drawn, const std::vector<fs::path>& folders, std::vector<fs::path> inputs,
+              const fs::path& output, Activity& activity) {
+  Outputs outputs({}, std::move(inputs));
+  std::string words;
+  for (DrawnFile& file : drawn.files) {
     const fs::path folder = file.source < folders.size() ? folders[file.source] : output;
     const fs::path path = folder / file.name;
-    if (file.is_data) KeepApart({path}, recordings);
-    WriteWholeFile(path, file.bytes);
-    activity.Aside([&] { fmt::print(stdout, "{}: {}\n", path.string(), file.finding); });
+    outputs.Add(path, std::move(file.bytes));
+    words += fmt::format("{}: {}\n", path.string(), file.finding);
   }
+  outputs.Write();
+  activity.Aside([&] { PrintLines(stdout, words); });
 }
 
 /// The folder of each source: DIR for one, DIR/NAME for several.
@@ -82,24 +84,24 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   const Backend backend;
   Activity activity("preparing to draw");
   DrawRequest request{.figures = arguments.pictures.figures, .with_data = arguments.data};
-  std::vector<fs::path> recordings;
+  std::vector<fs::path> inputs = InputsOf(arguments.recording);
   std::vector<PictureSource> sources;
   for (const std::string& source : arguments.sources) {
     activity.Is("reading " + source);
     sources.push_back(SourceOf(source, arguments.recording, request.data));
     request.sources.push_back(sources.back().facts);
-    recordings.insert(recordings.end(), sources.back().recordings.begin(),
-                      sources.back().recordings.end());
+    inputs.insert(inputs.end(), sources.back().recordings.begin(), sources.back().recordings.end());
+    if (fs::is_regular_file(source)) inputs.emplace_back(source);
   }
 
   // all of them at once; nothing is written where one that was asked for by name could not be drawn
   activity.Is("drawing");
-  const Drawn drawn = backend.Draw(std::move(request), setting);
+  Drawn drawn = backend.Draw(std::move(request), setting);
   activity.Aside([&] {
     for (const std::string& line : drawn.left_out) SayNotice("{}\n", line);
   });
   for (const fs::path& folder : folders) MakeFolder(folder);
-  WriteAll(drawn, folders, recordings, arguments.output, activity);
+  WriteAll(std::move(drawn), folders, std::move(inputs), arguments.output, activity);
   return ExitStatus::done;
 }
 

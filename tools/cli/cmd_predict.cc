@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/serialize.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
@@ -63,13 +62,11 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
 
 ExitStatus Predict(PredictArguments arguments) {
   // what is read must not be written over, and all that can be refused is first
-  std::vector<std::filesystem::path> inputs(arguments.recording.files.begin(),
-                                            arguments.recording.files.end());
+  std::vector<std::filesystem::path> inputs = InputsOf(arguments.recording);
   inputs.emplace_back(arguments.estimate);
   inputs.emplace_back(arguments.earlier.file);
   CheckStart(arguments);
-  KeepApart({arguments.output}, inputs);
-  if (!arguments.output.empty()) AtomicFile{arguments.output};
+  Outputs outputs({arguments.output}, inputs);
 
   Activity activity("reading the recording");
   // the estimate, the log, and the heat between them
@@ -81,13 +78,14 @@ ExitStatus Predict(PredictArguments arguments) {
                                   arguments.recording, log.raw().measurements);
   // what the friction says of the log, and what the log says of it
   const Predicted predicted = PredictLog(stored, log, begin.start);
-  if (!arguments.output.empty()) WriteWholeFile(arguments.output, PredictedToCsv(predicted));
+  if (!arguments.output.empty()) outputs.Add(arguments.output, PredictedToCsv(predicted));
+  outputs.Write();
   std::FILE* const words = WordsBeside({arguments.output});
   activity.Aside([&] {
     // void numbers are shown, since they were asked for
     if (stored.status != Status::ok) {
-      fmt::print(stderr, "{} is {}: its friction is void, and so is what it predicts\n",
-                 arguments.estimate, StatusName(stored.status));
+      Say(stderr, "{} is {}: its friction is void, and so is what it predicts\n",
+          arguments.estimate, StatusName(stored.status));
     }
     if (arguments.format == "json") {
       nlohmann::json told = PredictedToJson(stored, predicted);

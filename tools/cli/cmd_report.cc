@@ -7,7 +7,6 @@
 
 #include "identification/estimate.h"
 #include "identification/robot/robot_estimate.h"
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
@@ -20,6 +19,7 @@
 #include "tools/shown/estimate_data.h"
 #include "tools/shown/run/run_data.h"
 #include "tools/terminal/progress_line.h"
+#include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
@@ -37,25 +37,20 @@ struct ReportArguments {
 
 /// What a template shows, and where the page goes.
 struct ReportPage {
+  Outputs output;  // one page
   fs::path target;
   std::string kind;  // of template
   shown::ShownData data;
   std::shared_ptr<RunStore> store{};  // of a run, whose database is read until the page is filled
 };
 
-/// Refuses, before time is spent, a page that would be written over what it is made of, or cannot be written.
-void ClaimOutput(const fs::path& target, const std::vector<fs::path>& inputs) {
-  KeepApart({target}, inputs);
-  AtomicFile{target};
-}
-
 ReportPage RunReport(const ReportArguments& arguments, Activity& activity) {
   const auto store = std::make_shared<RunStore>(RunStore::OpenToRead(arguments.source));
   const fs::path beside = fs::path(arguments.source) / "report.html";
   const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
-  ClaimOutput(target, {store->results_file(), store->suite_file()});
+  Outputs output({target}, {store->results_file(), store->suite_file()});
   NoticeEditedSuite(*store);
-  ReportPage page{target, "run", {}};
+  ReportPage page{std::move(output), target, "run", {}};
   page.data.facts =
       shown::RunPageFacts(*store, page.data, [&](const std::string& words) { activity.Is(words); });
   page.store = store;
@@ -99,14 +94,15 @@ shown::ShownData RecordingReport(const ReportArguments& arguments, Activity& act
   return LogReport(log, shown, {JoinCommand(words)});
 }
 
-/// Of an estimate file, with the recording that it remembers.
-shown::ShownData EstimateReport(const ReportArguments& arguments) {
+/// Of an estimate file, with the recording that it remembers, which must not be written over.
+shown::ShownData EstimateReport(const ReportArguments& arguments, Outputs& output) {
   // the estimate, and the recording that it remembers
   const Estimate estimate = ReadEstimate(arguments.source);
   const std::optional<RecordingSource> recording = RecordingOf(estimate, arguments.source);
   if (!recording) {
     Refuse({arguments.source}, "names no recording; give the report the recording itself");
   }
+  output.AddInputs(InputsOf(*recording));
   const PreparedLog log = ReadAndPrepare(*recording);
   // of a refused estimate the fit is made again, so that the page can show it
   return LogReport(
@@ -133,6 +129,26 @@ void RefuseOptionsOfRecordings(const CLI::App& parser, const std::string& source
   }
 }
 
+/// Of a recording, an estimate or a robot's answer.
+ReportPage FileReport(const ReportArguments& arguments, Activity& activity) {
+  // a log has no place of its own for the page
+  if (arguments.output.empty()) {
+    Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
+  }
+  std::vector<fs::path> inputs = InputsOf(arguments.recording);
+  inputs.emplace_back(arguments.source);
+  ReportPage page{Outputs({arguments.output}, inputs), arguments.output, "log", {}};
+  if (!IsEstimate(arguments.source)) {
+    page.data = RecordingReport(arguments, activity);
+  } else if (IsRobotEstimate(ReadJsonNode(arguments.source))) {
+    page.kind = "robot";
+    page.data = RobotReport(arguments.source);
+  } else {
+    page.data = EstimateReport(arguments, page.output);
+  }
+  return page;
+}
+
 ExitStatus Report(const ReportArguments& arguments) {
   Activity activity("reading " + arguments.source);
   // a run by its directory, a log by its file
@@ -141,29 +157,14 @@ ExitStatus Report(const ReportArguments& arguments) {
            "is not there; give a directory of `run`, a recording or an estimate file");
   }
   const Backend backend;
-  ReportPage page;
-  if (fs::is_directory(arguments.source)) {
-    page = RunReport(arguments, activity);
-  } else {
-    // a log has no place of its own for the page
-    if (arguments.output.empty()) {
-      Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
-    }
-    ClaimOutput(arguments.output, {arguments.source});
-    const bool is_estimate = IsEstimate(arguments.source);
-    if (is_estimate && IsRobotEstimate(ReadJsonNode(arguments.source))) {
-      page = {arguments.output, "robot", RobotReport(arguments.source), nullptr};
-    } else {
-      page = {arguments.output, "log",
-              is_estimate ? EstimateReport(arguments) : RecordingReport(arguments, activity),
-              nullptr};
-    }
-  }
+  ReportPage page = fs::is_directory(arguments.source) ? RunReport(arguments, activity)
+                                                       : FileReport(arguments, activity);
 
   // the page as a whole, and where it lies
   activity.Is("drawing the page");
-  WriteWholeFile(page.target, backend.FillPage(page.kind, std::move(page.data)));
-  activity.Aside([&] { fmt::print(WordsBeside({page.target}), "{}\n", page.target.string()); });
+  page.output.Add(page.target, backend.FillPage(page.kind, std::move(page.data)));
+  page.output.Write();
+  activity.Aside([&] { Say(WordsBeside({page.target}), "{}\n", page.target.string()); });
   return ExitStatus::done;
 }
 

@@ -126,8 +126,8 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   WriteWholeFile(folder / "scenario.yaml", ScenarioToYaml(scenario));
   directory.Commit();
   // what came of it, and whether the joint did what it should
-  fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
-             scenario.duration);
+  Say(stdout, "{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
+      scenario.duration);
   if (!recording.following.Follows()) {
     SayNotice("notice: {}\n", recording.following.Words());
   }

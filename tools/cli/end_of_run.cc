@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include "models/foundation/excerpt.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 
 ExitStatus PrintEnding(const std::filesystem::path& directory, const RunEnding& ending,
                        RunPart part) {
   // how many results there are, and of which kind
-  fmt::print(stdout, "{}: {}; see: warmjoint compare {}\n", directory.string(),
-             CountsInWords(ending), directory.string());
+  Say(stdout, "{}: {}; see: warmjoint compare {}\n", directory.string(), CountsInWords(ending),
+      directory.string());
   // who never answered is told with the first reason
   for (const auto& [label, reason] : ending.silent) {
-    fmt::print(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
-               Excerpt(reason, kLongestComplaint));
+    Say(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
+        Excerpt(reason, kLongestComplaint));
   }
 
   // a shard may hold too few realizations to say that

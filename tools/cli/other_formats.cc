@@ -1,7 +1,6 @@
 #include "tools/cli/other_formats.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr unsigned kLongestReading = 10 * 3600;  // s
 constexpr const char* kScript = "tools/python/warmjoint/formats/__main__.py";
 
 /// What the child wrote: a line of JSON, and bytes.
@@ -28,19 +28,6 @@ struct ConverterAnswer {
 
 [[noreturn]] void RefuseBroken(const std::string& file, const std::string& why) {
   Refuse({file}, "cannot be read: {}", why);
-}
-
-/// Why a child gave no answer.
-std::string ReasonOf(const Ended& ended) {
-  if (ended.signal == SIGALRM || ended.signal == SIGXCPU || ended.signal == SIGKILL) {
-    return "its reader takes too long; the file is damaged, or too large: take a part of it";
-  }
-  if (ended.signal != 0) return fmt::format("its reader crashed (signal {})", ended.signal);
-  if (ended.err.find("MemoryError") != std::string::npos ||
-      ended.err.find("std::bad_alloc") != std::string::npos) {
-    return "its reader needs more memory than a log may take; take a part of it";
-  }
-  return Excerpt(LastLine(ended.err), kLongestComplaint);
 }
 
 ConverterAnswer Split(const std::string& file, const std::string& bytes) {
@@ -104,14 +91,16 @@ FileContent ReadOtherFormat(const OtherFormat& asked) {
   const std::string script = DataFolder() / kScript;
   Ended ended;
   for (const std::string& python : Pythons()) {
-    ended = CallPython({python, "-B", script, request.dump(-1, ' ', true)}, "");
+    // by its size a file may take hours, which the script bounds
+    ended = CallPython({python, "-B", script, request.dump(-1, ' ', true)}, "",
+                       {.seconds = kLongestReading});
     if (ended.ran) break;
   }
   if (!ended.ran) {
     Refuse({asked.file},
            "is read by Python 3, which is not there: sudo apt install python3 python3-numpy");
   }
-  if (!ended.well) RefuseBroken(asked.file, ReasonOf(ended));
+  if (!ended.well) RefuseBroken(asked.file, "its reader " + ReasonOf(ended));
 
   const ConverterAnswer answer = Split(asked.file, ended.out);
   if (answer.head.contains("error")) {

@@ -32,8 +32,7 @@ RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) 
   for (const std::string& recording : remembered->files) {
     if (fs::exists(recording)) continue;
     // a warning, which --quiet leaves: it was there when the estimate was made
-    fmt::print(
-        stderr,
+    Say(stderr,
         "{}: its recording {} is not there; give --recording for the pictures that need it\n", file,
         recording);
     return {};

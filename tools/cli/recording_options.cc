@@ -215,6 +215,12 @@ void AddHoldOptions(CLI::App& parser, PrepareSettings& holds) {
             "s; a constant speed that lasts less is left out");
 }
 
+std::vector<fs::path> InputsOf(const RecordingSource& source) {
+  std::vector<fs::path> inputs(source.files.begin(), source.files.end());
+  if (source.project) inputs.emplace_back(source.project->file);
+  return inputs;
+}
+
 void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier) {
   AddValue(parser, "--follows", "FILE", earlier.file,
            "recording before this one, or its estimate.json: the heat that it left is there at the "

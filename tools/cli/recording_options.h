@@ -4,6 +4,8 @@
 #include <warmjoint/prepared_log.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <vector>
 
 #include "tools/identify/carried_heat.h"
 #include "tools/identify/recording_source.h"
@@ -18,6 +20,9 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings);
 
 /// Says on stderr what reading made of a log, a line each.
 void TellNotes(const PreparedLog& log);
+
+/// The files that reading a recording reads: its own, and the project file beside it.
+std::vector<std::filesystem::path> InputsOf(const RecordingSource& source);
 
 /// Adds --trim and --shortest-hold.
 void AddHoldOptions(CLI::App& parser, PrepareSettings& holds);

@@ -75,9 +75,8 @@ std::vector<FrictionForJoint> FrictionsOfRobot(const std::filesystem::path& file
   return frictions;
 }
 
-std::vector<std::string> WriteWarmModel(const std::filesystem::path& robot,
-                                        const RobotEstimate& estimate,
-                                        const std::filesystem::path& out) {
+AttachedText WarmModel(const std::filesystem::path& robot, const RobotEstimate& estimate,
+                       const std::filesystem::path& out) {
   std::vector<FrictionForJoint> frictions;
   AttachOptions options;
   std::vector<std::string> said;
@@ -98,9 +97,10 @@ std::vector<std::string> WriteWarmModel(const std::filesystem::path& robot,
       options.armatures.push_back({summary.joint, rotor->value / gain});
   }
   if (frictions.empty()) Refuse({"--mjcf"}, "no joint has a friction that MuJoCo can use");
-  Attached attached = AttachFriction(robot, frictions, out, options);
-  std::ranges::move(attached.notices, std::back_inserter(said));
-  return said;
+  AttachedText made = AttachFrictionAsText(robot, frictions, out, options);
+  std::vector<std::string>& notices = made.attached.notices;
+  notices.insert(notices.begin(), said.begin(), said.end());
+  return made;
 }
 
 }  // namespace warmjoint

@@ -1,12 +1,13 @@
 // The frictions of a robot's answer in its model.
 #pragma once
 
-#include <warmjoint/attach.h>
 #include <warmjoint/identify_robot.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "sim/model/attach_text.h"
 
 namespace warmjoint {
 
@@ -18,10 +19,9 @@ std::vector<FrictionForJoint> FrictionsOfRobot(const std::filesystem::path& file
                                                const std::string& initial,
                                                std::vector<std::string>& warnings);
 
-/// Writes the robot with the frictions that are known in N.m or N, and their rotors as armatures. Returns what is to be said, one sentence
-/// each: which joints are left out, and what attaching changed. Throws BadInput where none is left.
-std::vector<std::string> WriteWarmModel(const std::filesystem::path& robot,
-                                        const RobotEstimate& estimate,
-                                        const std::filesystem::path& out);
+/// The robot, for `out`, with the frictions that are known in N.m or N, and their rotors as armatures. The notices say which joints are left
+/// out, and what attaching changed. Throws BadInput where none is left.
+AttachedText WarmModel(const std::filesystem::path& robot, const RobotEstimate& estimate,
+                       const std::filesystem::path& out);
 
 }  // namespace warmjoint

@@ -2,7 +2,9 @@
 
 #include <warmjoint/friction.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "identification/alternating/first_guess.h"
@@ -228,14 +230,31 @@ Tree PageFacts(const FitView& view, const RecordingCheck& check,
       {"fit", ViewFacts(view, data)}, {"check", Tree(CheckToJson(check))}, {"commands", commands}};
 }
 
+namespace {
+
+/// The name of a joint's file, without its end: no folder and not hidden, and none that is taken, also by letters of another case.
+std::string FileOf(const std::string& joint, std::set<std::string>& taken) {
+  constexpr std::size_t longest =
+      100;  // characters; why: with its end and a number below what file systems take
+  std::string name = Excerpt(joint, longest);
+  std::ranges::replace(name, '/', '_');
+  if (name.empty() || name.front() == '.') name.insert(0, "_");
+  std::string free = name;
+  for (int i = 2; !taken.insert(Lowercase(free)).second; ++i) free = fmt::format("{}_{}", name, i);
+  return free;
+}
+
+}  // namespace
+
 Tree RobotFacts(const RobotEstimate& robot, ShownData& data) {
   Tree joints = Tree::array();
+  std::set<std::string> taken;
   for (const RobotJointEstimate& one : robot.joints) {
     if (!one.series) continue;
     const JointSeries& series = *one.series;
     const auto& held_out = one.summary.rms_held_out;
     joints.push_back({{"joint", Printable(one.summary.joint)},
-                      {"file", one.summary.joint},
+                      {"file", FileOf(one.summary.joint, taken)},
                       {"status", std::string(NameOf(one.estimate.status))},
                       {"message", one.estimate.message},
                       {"torque_unit", one.summary.torque_unit},

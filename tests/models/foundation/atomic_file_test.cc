@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -32,7 +33,8 @@ class AtomicFileTest : public testing::Test {
 
 TEST_F(AtomicFileTest, AppearsOnCommit) {
   AtomicFile file(folder_ / "a.txt");
-  std::ofstream(file.temporary()) << "whole";
+  file.Write("who");
+  file.Write("le");
   EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
   file.Commit();
   EXPECT_EQ(ReadWholeFile(folder_ / "a.txt"), "whole");
@@ -43,14 +45,23 @@ TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
   WriteWholeFile(folder_ / "a.txt", "old");
   {
     AtomicFile file(folder_ / "a.txt");
-    std::ofstream(file.temporary()) << "half";
+    file.Write("half");
   }
   EXPECT_EQ(ReadWholeFile(folder_ / "a.txt"), "old");
   EXPECT_EQ(FileCount(), 1);
 }
 
-TEST_F(AtomicFileTest, KeepsTheExtensionForWritersThatLookAtIt) {
-  EXPECT_EQ(AtomicFile(folder_ / "fit.png").temporary().extension(), ".png");
+TEST_F(AtomicFileTest, LeavesNothingWhereTheProcessIsKilled) {
+  const pid_t child = fork();
+  if (child == 0) {
+    AtomicFile file(folder_ / "a.txt");
+    file.Write("half");
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(FileCount(), 0);
 }
 
 TEST_F(AtomicFileTest, RefusesWhatIsNoRegularFileAndLeavesItAsItIs) {
@@ -96,14 +107,15 @@ TEST_F(AtomicFileTest, KeepsTheModeOfAFileAndHonoursTheMaskForANewOne) {
   EXPECT_EQ(mode("new"), 0666u & ~mask);
 }
 
-TEST_F(AtomicFileTest, ConstructsUnderANameThatNobodyCanForesee) {
-  const AtomicFile one(folder_ / "a.txt"), two(folder_ / "a.txt");
-  EXPECT_NE(one.temporary(), two.temporary());
-  for (const AtomicFile* file : {&one, &two}) {
-    EXPECT_TRUE(IsUnderConstruction(file->temporary()));
-    EXPECT_EQ(file->temporary().filename().string().find(std::to_string(getpid())),
-              std::string::npos);
-  }
+TEST_F(AtomicFileTest, TwoOfOneNameDoNotMeet) {
+  AtomicFile one(folder_ / "a.txt"), two(folder_ / "a.txt");
+  one.Write("one");
+  two.Write("two");
+  two.Commit();
+  one.Commit();
+  EXPECT_EQ(ReadWholeFile(folder_ / "a.txt"), "one");
+  EXPECT_EQ(FileCount(), 1);
+  EXPECT_TRUE(IsUnderConstruction(".warmjoint.part.a1B2c3"));
   EXPECT_FALSE(IsUnderConstruction("a.txt"));
   EXPECT_FALSE(IsUnderConstruction(".warmjoint.part"));
 }
