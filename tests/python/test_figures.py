@@ -7,7 +7,7 @@ pytest.importorskip("matplotlib")
 import shown
 from warmjoint.figures import along_log, families, fit_page, friction, motor, residuals, robots, runs, speeds, steps
 from warmjoint.figures.numerals import hue_of, plain_number, significant, to_digits_of, unit_text
-from warmjoint.figures.sheet import Sheet, TooSmall, encode, page_size
+from warmjoint.figures.sheet import Sheet, TooLarge, TooSmall, encode, math_text, page_size
 from warmjoint.figures.sheet import dots as draw_dots
 from warmjoint.figures.sheet import finish as finish_panel
 from warmjoint.figures.sheet import line as draw_line
@@ -459,3 +459,17 @@ def test_arrays_take_the_places_of_their_marks():
     facts = {"a": {"array": 0, "shape": [2, 2]}, "b": [{"c": 1}]}
     made = unpacked(facts, [np.arange(4.0)])
     assert made["a"].tolist() == [[0, 1], [2, 3]] and made["b"] == [{"c": 1}]
+
+
+def test_texts_from_outside_are_printable_and_no_mathematics():
+    made = unpacked({"joint\x1b": ["a\x07b", "c\u202ed", "e\ufffe", "two\nlines"]}, [])
+    assert made == {"joint\\x1B": ["a\\x07b", "c\\u202Ed", "e\\uFFFE", "two\nlines"]}
+    assert math_text("k_{c+} of a_{\\frac} $x$") == "k$_{c+}$ of a_{\\frac} \\$x\\$"
+
+
+def test_numbers_that_no_axis_holds_are_named():
+    sheet = Sheet("one", "title")
+    (ax,) = sheet.panels((200, [1]))
+    with pytest.raises(TooLarge, match="'one': force reaches 1e\\+200; at most 1e\\+100"):
+        draw_line(ax, [0, 1], [1, -1e200], "force")
+    draw_line(ax, [0, 1], [np.nan, np.inf], "force")

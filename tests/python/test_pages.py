@@ -55,17 +55,39 @@ def test_a_page_without_the_library_of_charts_says_so(monkeypatch):
     assert text.count("<img ") == 6 and "a &lt;b&gt;c&lt;/b&gt;" in text
 
 
+VISCOUS = {"value": 2.0, "std": 0.05, "interval95": [1.9, 2.1], "unit": "N.m.s/rad"}
+SPEEDS = [{"speed": v, "value": 5 + abs(v), "std": 0.1, "interval95": [4.8 + abs(v), 5.2 + abs(v)], "speed_unit": "rad/s", "unit": "N.m"} for v in (-1, -0.1, 0.1, 1)]
+ABOUT = {"torque_unit": "N.m", "travel": 2.0, "top_speed": 1.0, "minutes": 9.5, "gain": 0.98, "gain_is_known": True, "rms_held_out": 0.2, "rms_moving": 0.3,
+         "rms_without_friction": 7.0}
+PASSED = {"status": "ok", "message": "fitted", "parameters": {"viscous": VISCOUS}, "friction_at_speeds": SPEEDS}
+
+
 def test_the_page_of_a_robot_holds_each_joint():
     pages = pytest.importorskip("warmjoint.figures.pages")
-    viscous = {"value": 2.0, "std": 0.05, "interval95": [1.9, 2.1], "unit": "N.m.s/rad"}
-    speeds = [{"speed": v, "value": 5 + abs(v), "std": 0.1, "interval95": [4.8 + abs(v), 5.2 + abs(v)], "speed_unit": "rad/s", "unit": "N.m"} for v in (-1, -0.1, 0.1, 1)]
-    about = {"torque_unit": "N.m", "travel": 2.0, "top_speed": 1.0, "minutes": 9.5, "gain": 0.98, "gain_is_known": True, "rms_held_out": 0.2, "rms_moving": 0.3,
-             "rms_without_friction": 7.0}
-    nothing = about | {"gain": None, "rms_held_out": None, "rms_moving": None, "rms_without_friction": None}
+    nothing = ABOUT | {"gain": None, "rms_held_out": None, "rms_moving": None, "rms_without_friction": None}
     answer = {"robot": "arm.xml", "log": ["log.csv"], "notices": ["the torque of <b> is turned"], "payload": None,
-              "summary": {"shoulder": about, "elbow": nothing},
-              "joints": {"shoulder": {"status": "ok", "message": "fitted", "parameters": {"viscous": viscous}, "friction_at_speeds": speeds},
+              "summary": {"shoulder": ABOUT, "elbow": nothing},
+              "joints": {"shoulder": PASSED,
                          "elbow": {"status": "not_identifiable", "message": "elbow did not move", "parameters": {}, "friction_at_speeds": []}}}
     text = pages.fill("robot", {"source": "robot.json", "answer": answer})
     assert "1 of 2 joints" in text and "2.000 ± 0.1" in text and "lbow did not move" in text.replace("Elbow", "elbow")
     assert "the torque of &lt;b&gt; is turned" in text.replace("The", "the") and text.count("<img ") == 1
+
+
+def test_many_joints_stand_on_several_sheets():
+    from warmjoint.figures import robot_page
+
+    makers = robot_page.over_speed_sheets({f"j{i}": PASSED for i in range(2 * robot_page.MOST + 1)} | {"still": PASSED | {"friction_at_speeds": []}})
+    assert [maker.args[1] for maker in makers] == ["friction_over_speed", "friction_over_speed_2", "friction_over_speed_3"]
+    assert [len(maker.args[0]) for maker in makers] == [robot_page.MOST, robot_page.MOST, 1] and makers[2]().name == "friction_over_speed_3"
+    assert robot_page.over_speed_sheets({}) == []
+
+
+def test_a_page_with_a_number_that_no_axis_holds_is_refused_with_its_place():
+    import json
+
+    pages = pytest.importorskip("warmjoint.figures.pages")
+    large = PASSED | {"friction_at_speeds": [SPEEDS[0] | {"interval95": [-1e308, 1e308]}, *SPEEDS[1:]]}
+    answer = {"robot": "arm.xml", "log": ["log.csv"], "notices": [], "payload": None, "summary": {"shoulder": ABOUT}, "joints": {"shoulder": large}}
+    refusal = json.loads(pages.answer("robot", {"source": "robot.json", "answer": answer}))["refusal"]
+    assert refusal["place"] == "robot.json" and "1e+308" in refusal["why"] and "1e+100" in refusal["why"]

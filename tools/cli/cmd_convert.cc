@@ -68,8 +68,7 @@ ExitStatus ConvertOther(const ConvertArguments& arguments) {
   WriteColumns(content, arguments.output);
   std::vector<std::string> names;
   for (const FileColumn& column : content.columns) names.push_back(column.name);
-  Say(stdout, "{}: {} samples of {}
-", arguments.output, samples, ExcerptOfList(names));
+  Say(stdout, "{}: {} samples of {}\n", arguments.output, samples, ExcerptOfList(names));
   return ExitStatus::done;
 }
 

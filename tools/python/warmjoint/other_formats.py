@@ -35,7 +35,7 @@ def read(path: str, *, topic: str | None = None, joint: str | None = None, joint
     readers = {one["ending"]: one["reader"] for one in _core.log_formats() if one["reader"]}
     request = {"file": path, "readers": readers, "topic": topic or "", "joint": joint or "", "joints": joints, "map": dict(map or {})}
     script = pathlib.Path(__file__).parent / "formats/__main__.py"
-    done = subprocess.run([sys.executable, "-B", str(script), json.dumps(request)], capture_output=True, check=False)
+    done = subprocess.run([sys.executable, "-P", "-B", str(script), json.dumps(request)], capture_output=True, check=False)
     if done.returncode < 0:
         late = -done.returncode in (signal.SIGALRM, signal.SIGXCPU, signal.SIGKILL)
         raise _core.BadInput(f"{path}: cannot be read: " + ("its reader takes too long; the file is damaged, or too large: take a part of it" if late

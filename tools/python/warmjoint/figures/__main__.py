@@ -1,14 +1,18 @@
 """Answers one request of `warmjoint` on standard input: figures to draw, or a page to fill.
 
 A request is a line of JSON, {facts, sizes[]}, and arrays of float64 behind it (tools/shown/shown_data.h). The answer to figures is a line of
-JSON, {files[{source, name, finding, is_data, size}], left_out[]} or {refusal{place, why}}, and the files behind it; to a page its HTML.
+JSON, {files[{source, name, finding, is_data, size}], left_out[]} or {refusal{place, why}}, and the files behind it; to a page {size} or
+{refusal{place, why}}, and its HTML. Nothing of the folder that the program runs in, and no setting of the user's for matplotlib, changes either.
 """
 
 import json
 import os
 import sys
 
-sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+os.chdir(HERE)  # whose matplotlibrc is the first that matplotlib looks for
+os.environ.update(MPLBACKEND="agg", MATPLOTLIBRC=os.path.join(HERE, "matplotlibrc"))
+sys.path[0] = os.path.dirname(HERE)
 
 import numpy as np  # noqa: E402
 from figures.view import unpacked  # noqa: E402
@@ -28,7 +32,7 @@ def main():
     if "page" in request:
         from figures import pages
 
-        return sys.stdout.buffer.write(pages.fill(request["page"], request["content"]).encode())
+        return sys.stdout.buffer.write(pages.answer(request["page"], request["content"]))
     from figures import plot
 
     return sys.stdout.buffer.write(plot.answer(request))

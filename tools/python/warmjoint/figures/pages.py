@@ -14,7 +14,7 @@ import jinja2
 from markupsafe import Markup
 
 from . import log_page, robot_page, run_page
-from .sheet import Sheet, encode
+from .sheet import Sheet, TooLarge, encode
 from .style import use
 
 HERE = pathlib.Path(__file__).resolve().parent / "templates"
@@ -81,6 +81,15 @@ class Picture:
 def pictures(makers: list[Callable[[], Sheet | None]]) -> list[Picture]:
     """Those that have something to show."""
     return [one for one in map(Picture, makers) if one.there]
+
+
+def answer(name: str, content: dict[str, Any]) -> bytes:
+    """See __main__.py."""
+    try:
+        page = fill(name, content).encode()
+    except TooLarge as refusal:
+        return json.dumps({"refusal": {"place": str(content.get("source", "")), "why": str(refusal)}}).encode() + b"\n"
+    return json.dumps({"size": len(page)}).encode() + b"\n" + page
 
 
 def fill(name: str, content: dict[str, Any]) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import friction
 from .families import Refusal, Source, chosen, left_out
-from .sheet import Sheet, TooSmall, encode, page_size
+from .sheet import Sheet, TooLarge, TooSmall, encode, page_size
 from .style import use
 
 
@@ -39,6 +39,9 @@ def answer(request: dict[str, Any]) -> bytes:
         return json.dumps({"refusal": {"place": refusal.place, "why": str(refusal)}}).encode() + b"\n"
     except TooSmall as refusal:
         return json.dumps({"refusal": {"place": "--size", "why": str(refusal)}}).encode() + b"\n"
+    except TooLarge as refusal:
+        place = ", ".join(dict.fromkeys(str(one["place"]) for one in request["sources"]))
+        return json.dumps({"refusal": {"place": place, "why": str(refusal)}}).encode() + b"\n"
     return json.dumps({"files": heads, "left_out": notes}).encode() + b"\n" + b"".join(files)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,7 @@ from .sheet import Sheet
 from .view import VERDICTS
 
 ABREAST = 3  # panels in a row
+MOST = 60  # panels in a sheet: laying out takes the square of their number
 
 TERMS = (
     ("viscous, Coulomb", "Friction that grows with speed (N·m for each rad/s), and that which does not, in each direction. Of a joint under gravity their mean is "
@@ -42,7 +45,7 @@ def data_of(content: dict[str, Any]) -> dict[str, Any]:
     return {"source": content["source"], "robot": answer["robot"], "logs": answer["log"], "passed": bool(passed), "verdict": verdict,
             "joints": [(name, f"{VERDICTS[one['status']]}. {sentence(one['message'])}") for name, one in joints.items()],
             "notices": [sentence(one) for one in notices], "friction": _friction(joints, summary), "residuals": _residuals(joints, summary),
-            "attachable": bool(passed), "terms": TERMS, "figures": [lambda: over_speed(joints)]}
+            "attachable": bool(passed), "terms": TERMS, "figures": over_speed_sheets(joints)}
 
 
 def _friction(joints: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:
@@ -85,13 +88,18 @@ def _warming(parameters: dict[str, Any]) -> str:
     return f"{_shown(gain)} {unit_text(gain['unit'])}, {significant(tau['value'])} s"
 
 
-def over_speed(joints: dict[str, Any]) -> Sheet | None:
+def over_speed_sheets(joints: dict[str, Any]) -> list[Callable[[], Sheet]]:
+    """Makers of sheets with at most MOST joints each, of those that have figures at speeds."""
+    shown = [(name, one["friction_at_speeds"]) for name, one in joints.items() if one.get("friction_at_speeds")]
+    parts = [dict(shown[i : i + MOST]) for i in range(0, len(shown), MOST)]
+    names = ["friction_over_speed"] + [f"friction_over_speed_{i + 2}" for i in range(len(parts) - 1)]
+    return [functools.partial(over_speed, part, name) for part, name in zip(parts, names)]
+
+
+def over_speed(shown: dict[str, Any], name: str) -> Sheet:
     """Cold friction of each joint over speed, with its 95 % interval."""
-    shown = {name: one["friction_at_speeds"] for name, one in joints.items() if one.get("friction_at_speeds")}
-    if not shown:
-        return None
     rows = -(-len(shown) // ABREAST)
-    fig = Sheet("friction_over_speed", "Friction over speed", "cold, with 95 % intervals", f"Friction of {len(shown)} joints at the speeds of the log.")
+    fig = Sheet(name, "Friction over speed", "cold, with 95 % intervals", f"Friction of {len(shown)} joints at the speeds of the log.")
     axes = fig.panels(*[(220, [1] * ABREAST)] * rows)
     for ax, (name, figures) in zip(axes, shown.items(), strict=False):
         figures = sorted((one for one in figures if not one.get("energy")), key=lambda one: one["speed"])

@@ -32,11 +32,16 @@ LINE = 1.25  # of the height of words
 LETTER = 0.56  # mean width of one, of their height: lines are broken by their count of letters
 APART, PLACES = 300, 3000  # dots and places of lines that files of vectors hold one by one; more are a picture in them
 CROWD = 3000  # dots that are all drawn; of more, one in each cell
+LARGEST = 1e100  # of what is drawn: products and differences of two such numbers are still numbers
 CELLS = (480, 240)  # across and up: closer than the smallest dots are wide
 
 
 class TooSmall(ValueError):
     """A panel would have no room at the size that is asked for."""
+
+
+class TooLarge(ValueError):
+    """A number that no axis can hold."""
 
 
 @dataclasses.dataclass
@@ -184,8 +189,8 @@ def lines_of(text: str, width: float, size: float = TEXT) -> list[str]:
 
 
 def math_text(text: str) -> str:
-    """What stands in _{} is set lower."""
-    return re.sub(r"_\{(.*?)\}", lambda m: "$_{" + m.group(1) + "}$", text.replace("$", r"\$"))
+    """What stands in _{} is set lower, where it is letters, digits and signs: others may be no mathematics."""
+    return re.sub(r"_\{([A-Za-z0-9+−-]+)\}", lambda m: "$_{" + m.group(1) + "}$", text.replace("$", r"\$"))
 
 
 def plain(text: str) -> str:
@@ -207,6 +212,9 @@ def _texts(values: Any, size: int) -> list[str]:
 
 def _keep(ax: Any, label: str, kind: str, hue: str, **columns: Any) -> None:
     arrays = {name: np.atleast_1d(np.asarray(value, float)) for name, value in columns.items()}
+    known = np.concatenate([np.abs(array[np.isfinite(array)]) for array in arrays.values()])
+    if known.size and known.max() > LARGEST:
+        raise TooLarge(f"'{getattr(ax.figure, 'name', kind)}': {label or kind} reaches {known.max():.3g}; at most {LARGEST:g} can be drawn")
     if hasattr(ax.figure, "drawn"):
         ax.figure.drawn.append(Series(ax, label, kind, arrays, hue))
 

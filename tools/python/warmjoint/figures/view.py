@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,23 @@ VERDICTS = {"ok": "the numbers can be used", "not_converged": "the search did no
             "inadequate_model": "the model does not describe these data: do not use the numbers", "bad_data": "these data cannot be used"}
 
 
+# controls, marks of writing direction, and what XML 1.0 has no place for; tabs and line ends are of texts
+_ACTIVE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]")
+
+
+def printable(text: str) -> str:
+    """The text with characters that act, in a terminal or a file of XML, as their codes."""
+    return _ACTIVE.sub(lambda found: f"\\x{ord(found[0]):02X}" if ord(found[0]) < 0x80 else f"\\u{ord(found[0]):04X}", text)
+
+
 def unpacked(facts: Any, arrays: list[Any]) -> Any:
-    """The facts with arrays in the places of their marks."""
+    """The facts with arrays in the places of their marks, and texts that are printable."""
+    if isinstance(facts, str):
+        return printable(facts)
     if isinstance(facts, dict):
         if facts.keys() == {"array", "shape"}:
             return np.asarray(arrays[facts["array"]], float).reshape(facts["shape"])
-        return {key: unpacked(value, arrays) for key, value in facts.items()}
+        return {printable(key): unpacked(value, arrays) for key, value in facts.items()}
     return [unpacked(one, arrays) for one in facts] if isinstance(facts, list) else facts
 
 

@@ -7,6 +7,7 @@ named, or "one". On standard output: a line of JSON, {columns[{name, unit, count
 {text, notes[]} with a table of text behind it, which the program's reader reads, or {error}.
 """
 
+import ctypes
 import importlib
 import json
 import pathlib
@@ -19,6 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 from refusal import Refusal, first_line, sentence
 
+PR_SET_PDEATHSIG = 1  # of Linux, the only system that this package is for
 MEMORY = 8 << 30  # bytes of address space, as readers of HDF5 in the program have
 PATIENCE = 60  # s, and one more for each MB: a bag of messages is decoded in Python
 MOST_FILES = 10_000  # of a folder
@@ -49,7 +51,8 @@ def size_of(path):
 
 
 def limit(size):
-    """Bounds on memory and time, which end this process: its parent says so."""
+    """Bounds on memory and time, which end this process: its parent says so. It ends with its parent, too."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     seconds = PATIENCE + size // 1_000_000
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
