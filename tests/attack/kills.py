@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Kills, signals and full disks: whatever ends a run, the same command goes on, and every file of the run directory but its
-database becomes what an undisturbed run makes. kills.py WARMJOINT [KILLS SIGNALS DISKS]      default: 100 30 10
+database becomes what an undisturbed run makes. kills.py WARMJOINT [KILLS SIGNALS DISKS OUTPUTS]      default: 100 30 10 60
 
 The suite has an identifier from outside, none of whose processes and directories may outlive the run. The undisturbed run is
+Of commands with several outputs, killed anywhere, each output is whole or absent, and no child lives on. The undisturbed run is
 made on 1, 2 and 8 threads, in three shards that are merged, and in a run that is killed ten times. Full disks are small file
 systems in memory, which only root can make; without root they are limits on the size of files."""
 
@@ -15,7 +16,8 @@ import subprocess
 import sys
 import time
 
-from attack import Attack, processes, suite
+from attack import Attack, children, processes, suite
+from robots import LOG, URDF
 
 MARK = f"8{os.getpid()}"
 IDENTIFIER = f"""#!/bin/sh
@@ -149,10 +151,48 @@ def full_disks(attack, count, draws):
     print(f"full disks: {count}", flush=True)
 
 
+def outputs(attack, count, draws):
+    """Kills identify-robot with all of its outputs, and report, which have a Python draw."""
+    attack.file("r.urdf", URDF)
+    attack.file("log.csv", LOG)
+    attack.run(["identify-robot", "r.urdf", "log.csv", "-o", "good.json"])
+    commands = [["identify-robot", "r.urdf", "log.csv", "-o", "o.json", "--mjcf", "m.xml", "--plot", "pictures"], ["report", "good.json", "-o", "page.html"]]
+    seconds = []
+    for one in commands:
+        begin = time.monotonic()
+        attack.run(one, 300)
+        seconds.append(time.monotonic() - begin)
+    attack.clear([name for name in attack.state() if name in ("r.urdf", "log.csv", "good.json")])
+    before = attack.state()
+    for i in range(count):
+        which = draws.randrange(len(commands))
+        run = subprocess.Popen([attack.program, *commands[which]], cwd=attack.work, env=attack.environment, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        # most at the end, where outputs are made
+        time.sleep(seconds[which] * draws.choice((draws.uniform(0, 1), draws.uniform(0.8, 1.02))))
+        run.send_signal(signal.SIGKILL)
+        run.wait(60)
+        attack.count += 1
+        for _ in range(40):
+            if not (alive := children(attack)):
+                break
+            time.sleep(0.05)
+        if alive:
+            attack.fault(f"kill {i} of {commands[which][0]}", f"processes live on: {alive}")
+        attack.expect_files(f"kill {i} of {commands[which][0]}", before)
+        attack.clear(before)
+    print(f"outputs: {count}", flush=True)
+
+
 def main():
-    counts = [int(argument) for argument in sys.argv[2:]] or [100, 30, 10]
+    counts = [int(argument) for argument in sys.argv[2:]] or [100, 30, 10, 60]
     draws = random.Random(16)
     with Attack(sys.argv[1], sum(counts)) as attack:
+        if len(counts) > 3:
+            outputs(attack, counts[3], draws)
+            attack.clear([])
+        if not any(counts[:3]):
+            return
         make(attack)
         ten_kills(attack, draws)
         kills(attack, counts[0], [signal.SIGKILL], "kill -9", draws)
