@@ -235,6 +235,19 @@ bool ClearOwnFriction(mjsJoint& joint) {
   return any;
 }
 
+bool ClearPlasticSpring([[maybe_unused]] mjsJoint& joint) {
+#if mjVERSION_HEADER >= 4000000
+  const bool stiff =
+      std::ranges::any_of(joint.stiffness, [](double coefficient) { return coefficient != 0; });
+  if (!(joint.springyield > 0) || !stiff) return false;
+  // its yield stays, so that keyframes keep the length of their plastic states
+  std::ranges::fill(joint.stiffness, 0.0);
+  return true;
+#else
+  return false;
+#endif
+}
+
 void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
                        const Place& place) {
   std::vector<std::string> armatures;

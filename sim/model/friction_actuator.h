@@ -24,13 +24,17 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 /// default classes. Of the options form, sensors and numbers count; sensors and arrays stand in the
 /// order of `frictions`, which in the passive form must be the model's order of joints.
 /// viscous: by_damping where each joint's damping is its friction's viscous already.
-/// What else would act as friction, or clip it, is the caller's to remove: see ClearOwnFriction.
+/// What else would act as friction, or clip it, is the caller's to remove: see ClearOwnFriction, ClearPlasticSpring.
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
                  const AttachOptions& options = {}, Viscous viscous = Viscous::by_plugin);
 
 /// Takes from a joint the friction that the model gives it: damping and frictionloss.
 /// Returns whether there was any.
 bool ClearOwnFriction(mjsJoint& joint);
+
+/// Takes from a joint the stiffness of a spring that yields (`springyield`, MuJoCo 4.0), which resists as dry friction does: up to
+/// stiffness times yield in either direction, N.m or N. Returns whether there was one.
+bool ClearPlasticSpring(mjsJoint& joint);
 
 /// Refuses, from `place` and with one remedy for all, joints whose inertia cannot carry their
 /// friction at the model's step: the armature to set on each of them (`attach --armature`), and the

@@ -125,6 +125,19 @@ bool HasOwnFriction(const mjModel* m, int actuator) {
   return m->actuator_biastype[actuator] == mjBIAS_DCMOTOR && (bias[3] > 0 || bias[4] > 0);
 }
 
+/// By what a tendon resists motion as friction does.
+std::vector<const char*> ResistanceOf(const mjModel& m, int tendon) {
+  std::vector<const char*> found;
+  if (m.tendon_frictionloss[tendon] > 0) found.push_back("frictionloss");
+  if (m.tendon_damping[tendon] > 0) found.push_back("damping");
+#if mjVERSION_HEADER >= 4000000
+  if (m.tendon_springyield[tendon] > 0 && m.tendon_stiffness[tendon] > 0) {
+    found.push_back("the spring with a yield");
+  }
+#endif
+  return found;
+}
+
 }  // namespace
 
 void Note(const std::vector<std::string>& names, const char* sentence,
@@ -136,15 +149,20 @@ void Note(const std::vector<std::string>& names, const char* sentence,
 void MakeRoom(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, FrictionForm form,
               const Place& place, std::vector<std::string>& notices) {
   // the joints' own damping and dry friction, and what their motors add
-  std::vector<std::string> joints, replaced, motors;
+  std::vector<std::string> joints, replaced, springs, motors;
   for (const FrictionForJoint& friction : frictions) {
     joints.push_back(friction.joint);
     mjsJoint* joint = FindJoint(spec, friction.joint, place);
     if (ClearOwnFriction(*joint)) replaced.push_back(friction.joint);
+    if (ClearPlasticSpring(*joint)) springs.push_back(friction.joint);
     if (ClearMotorDamping(spec, friction.joint)) motors.push_back(friction.joint);
     joint->damping[0] = JointFriction(friction.friction).viscous();
   }
   Note(replaced, "damping and frictionloss of the model were removed; the friction replaces them",
+       notices);
+  Note(springs,
+       "the stiffness of the model's spring with a yield was removed, since it resists as dry "
+       "friction does; the friction replaces it",
        notices);
   Note(motors, "damping of the actuators was removed; the friction replaces it", notices);
   // passive forces are not clipped by limits on actuators
@@ -168,12 +186,9 @@ std::vector<std::string> NoticesOfOthers(const mjModel* m,
       }
     }
     for (int i = 0; i < m->ntendon; ++i) {
-      const bool dry = m->tendon_frictionloss[i] > 0, damped = m->tendon_damping[i] > 0;
-      if (!(dry || damped) || !Moves(bare.get(), i, joint)) continue;
-      others.push_back(fmt::format("{} of tendon '{}'",
-                                   dry && damped ? "frictionloss and damping"
-                                   : dry         ? "frictionloss"
-                                                 : "damping",
+      const std::vector<const char*> resists = ResistanceOf(*m, i);
+      if (resists.empty() || !Moves(bare.get(), i, joint)) continue;
+      others.push_back(fmt::format("{} of tendon '{}'", fmt::join(resists, " and "),
                                    NameIn(m, mjOBJ_TENDON, i)));
     }
     if (others.empty()) continue;

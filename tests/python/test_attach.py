@@ -312,6 +312,21 @@ def test_a_number_out_of_its_bounds_warns_once(tmp_path, monkeypatch):
     assert log.count("numeric 'friction/coulomb' of joint 'joint2' is -3; it must be a number of at least 0; 1 acts") == 1
 
 
+@pytest.mark.skipif(not mujoco.__version__.startswith("4."), reason="springs yield from MuJoCo 4.0 on")
+def test_a_spring_that_yields_gives_way_to_the_friction():
+    text = """<mujoco><compiler angle="radian"/><option timestep="1e-3" integrator="implicitfast"/><worldbody><body>
+    <joint name="axle" stiffness="20000" springyield="2.5e-4" damping=".6"/><inertial pos="0 0 0" mass="1.5" diaginertia=".8 .8 .8"/>
+    </body></worldbody></mujoco>"""
+    attached = attach(text, {"axle": {"law": "viscous_coulomb", "parameters": {"viscous": 0.6, "coulomb": 12}}})
+    assert any("axle: the stiffness of the model's spring with a yield was removed" in notice for notice in attached.notices)
+    model = attached.spec.compile()
+    for torque, slides in ((11.5, False), (12.5, True)):
+        data = mujoco.MjData(model)
+        data.qfrc_applied[0] = torque
+        mujoco.mj_step(model, data, 1000)
+        assert (abs(data.qvel[0]) > 0.01) == slides
+
+
 def test_a_second_attach_joins_the_first():
     once = attach(ROBOT, FRICTIONS).spec
     twice = attach(ROBOT, {"joint1": BIG})

@@ -74,8 +74,8 @@ struct Attached {
 
 /// Puts friction on joints of a model:
 /// - `joint` of each friction is a name or a pattern (MatchJoints);
-/// - the joint's own damping and frictionloss, and the damping of its actuators, which the friction replaces, are
-///   removed; the joint's damping is the friction's constant viscous from then on, which MuJoCo adds;
+/// - the joint's own damping and frictionloss, the stiffness of a spring that yields (MuJoCo 4.0) and the damping of its
+///   actuators, which the friction replaces, are removed; the joint's damping is the friction's constant viscous from then on, which MuJoCo adds;
 /// - a pattern leaves joints of the other kind than its friction's out (AttachOptions.kinds);
 /// - friction that the model has by an earlier call in the same form joins the new one's instance;
 /// - as actuators: an effort limit of the joint, which would clip friction too, is moved

@@ -153,8 +153,8 @@ def attach(
     integrator: Integrator | None = None,
     stiffest_drive: float = 0.0,
 ) -> Attached:
-    """Puts friction on joints of a robot; their own damping and frictionloss are taken away, and their damping is the
-    friction's constant viscous from then on.
+    """Puts friction on joints of a robot; their own damping, frictionloss and springs that yield (`springyield`) are taken away, and
+    their damping is the friction's constant viscous from then on.
 
     model: a spec, which is changed; a path to MJCF or URDF; or MJCF text.
     frictions: by a joint's name or a regular expression of whole names, as "joint[1-4]": a Friction or Estimate, a
