@@ -11,6 +11,7 @@ Angles are in rad, lengths in m, torques in N.m, forces in N, times in s. What c
 program's own sentence; a fit that fails is an Estimate whose `status` and `message` say so.
 """
 
+import contextlib
 import importlib
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,12 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
+
+
+# The plugin, so that models with friction load wherever the package is imported, as in a worker that unpickles one. Where there is no MuJoCo, or
+# none that a build fits, attach and bind say so once they are asked for.
+with contextlib.suppress(Exception):
+    importlib.import_module("warmjoint.mujoco_plugin")
 
 
 __all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",

@@ -184,8 +184,8 @@ class BoundFriction(_Sensed):
         worlds: a mujoco.batch.Batch of the bound model (MuJoCo 3.17 and later).
         ids: the worlds that draw, as those whose episode has ended; by default all. The others keep theirs.
         factors: for numbers of the friction, as coulomb=(0.7, 1.3): the least and the largest factor on the model's.
-        warm: the least and the largest share of the heat at which the world's own friction settles at `speed` (reset);
-            the worlds have it now and after each of their resets.
+        warm: the least and the largest share of the heat at which the world's own friction settles at `speed` (reset), from 0
+            cold to 1 settled; the worlds have it now and after each of their resets.
         Returns what was drawn, [ids x joints] each: factors by their names and the shares, "warm".
         Raises BadInput that names number, joint, world and bound, and changes nothing, where a number would be out of
         its bounds.
@@ -207,7 +207,7 @@ class BoundFriction(_Sensed):
                 self._check(name, i, new[number["field"]][:, number["place"]], chosen)
         self._check_static(new["numeric_data"], chosen)
         if warm is not None:
-            drawn["warm"] = random.uniform(*_range("warm", warm), shape)
+            drawn["warm"] = random.uniform(*_shares(warm), shape)
             self._warm(worlds, new, chosen, drawn["warm"], speed)
         for field, values in expanded.items():
             values[chosen] = new[field][chosen]
@@ -372,9 +372,20 @@ def _batch(worlds: Any) -> Any:
 def _range(argument: str, between: Any) -> tuple[float, float]:
     """The least and the largest of what is drawn."""
     found = numbers(argument, between)
-    if found.shape != (2,) or not np.isfinite(found).all() or found[0] > found[1]:
+    if found.shape != (2,) or not np.isfinite(found).all():
         raise BadInput(f"{argument} is {shown(between)}; give the least and the largest, as (0.7, 1.3)")
-    return float(found[0]), float(found[1])
+    least, largest = map(float, found)
+    if least > largest:
+        raise BadInput(f"{argument}: the least, {least:g}, is above the largest, {largest:g}; give ({largest:g}, {least:g})")
+    return least, largest
+
+
+def _shares(warm: Any) -> tuple[float, float]:
+    """The least and the largest share of the settled heat."""
+    least, largest = _range("warm", warm)
+    if least < 0 or largest > 1:
+        raise BadInput(f"warm: is from {least:g} to {largest:g}; give shares from 0, cold, to 1, settled at `speed`: a faster one is warmer")
+    return least, largest
 
 
 def _nearest(name: str, known: Sequence[str]) -> str:

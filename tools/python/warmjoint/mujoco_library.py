@@ -3,8 +3,10 @@ among those of the process."""
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import importlib.util
+import os
 import pathlib
 
 
@@ -15,6 +17,15 @@ def library(version: str = "") -> pathlib.Path | None:
         for path in sorted(pathlib.Path(folder).glob(f"libmujoco.so.{version}*")):
             return path
     return None
+
+
+def others() -> list[str]:
+    """The paths of further libraries of MuJoCo in this process, of which a plugin could not say which it serves."""
+    own = library()
+    with contextlib.suppress(OSError):
+        mapped = {line.split(maxsplit=5)[-1].strip() for line in pathlib.Path("/proc/self/maps").read_text(errors="replace").splitlines() if "libmujoco.so" in line}
+        return sorted(path for path in mapped if own is None or os.path.realpath(path) != os.path.realpath(own))
+    return []
 
 
 def share() -> None:

@@ -1,4 +1,4 @@
-"""The MuJoCo plugin `warmjoint.friction` for the MuJoCo of this Python, loaded when this module is imported.
+"""The MuJoCo plugin `warmjoint.friction` for the MuJoCo of this Python, loaded when this module is imported, which `import warmjoint` does.
 
 Each minor version of MuJoCo has a library of its own: VERSION/libwarmjoint_friction.so in the package's folder `plugins`, in
 build/plugins of a source tree, or in the folder that WARMJOINT_PLUGINS names.
@@ -43,6 +43,8 @@ def library_path(version: str) -> pathlib.Path:
 
 def _load() -> ctypes.CDLL:
     path = library_path(mujoco.__version__)
+    if others := mujoco_library.others():
+        raise ImportError(f"this process holds another MuJoCo, {', '.join(others)}, beside that of the package mujoco; run it with one")
     # MuJoCo loads it, which registers the plugin; then its functions are at hand
     mujoco_library.share()
     mujoco.mj_loadPluginLibrary(str(path))
