@@ -6,7 +6,7 @@ import pytest
 pytest.importorskip("matplotlib")
 import shown
 from warmjoint.figures import along_log, families, fit_page, friction, motor, residuals, robots, runs, speeds, steps
-from warmjoint.figures.numerals import hue_of, plain_number, significant, to_digits_of, unit_text
+from warmjoint.figures.numerals import hue_of, plain_number, range_text, significant, to_digits_of, unit_text
 from warmjoint.figures.sheet import Sheet, TooLarge, TooSmall, encode, math_text, page_size
 from warmjoint.figures.sheet import dots as draw_dots
 from warmjoint.figures.sheet import finish as finish_panel
@@ -167,7 +167,7 @@ def test_friction_with_maps_is_a_mean_at_each_speed_without_a_band():
 def test_warm_up_is_friction_at_a_speed_with_its_band_and_the_cold_model():
     sheet = look(friction.warm_up(shown.warm_view()))
     assert one(sheet, "cold model, without heat").columns["y"] == 17.5
-    band = one(sheet, "95 % interval").columns
+    band = one(sheet, "95 % interval, ± 0.20 N·m at most").columns
     np.testing.assert_allclose(band["upper"] - band["lower"], 2 * 1.96 * 0.1, rtol=1e-3)
     dots = one(sheet, "measured, brought to that speed").columns
     assert np.std(dots["y"] - one(sheet, "fit").columns["y"]) == pytest.approx(0.5, abs=0.05)
@@ -175,6 +175,25 @@ def test_warm_up_is_friction_at_a_speed_with_its_band_and_the_cold_model():
     assert friction.warm_up(shown.warm_view(warms=False)) is None
     mapped = look(friction.warm_up(View(shown.mapped_facts())))
     assert one(mapped, "E").columns["y"][0] == 0
+
+
+def test_a_band_lies_over_the_dots_and_below_its_line():
+    ax = look(friction.warm_up(shown.warm_view())).axes[0]
+    fit, = (line for line in ax.lines if line.get_label() == "fit")
+    dots = max(line.get_zorder() for line in ax.lines if line.get_marker() not in ("", "None") and np.size(line.get_xdata()))
+    assert dots < ax.collections[0].get_zorder() < fit.get_zorder()
+    # 0.39 N.m of interval are wider than the line
+    pixels = abs(np.diff(ax.transData.transform([(0, 0), (0, 0.39)])[:, 1])[0])
+    assert fit.get_linewidth() * ax.figure.dpi / 72 < pixels
+
+
+def test_torque_over_position_is_two_loops_at_either_end():
+    for facts in (shown.warm_facts(), {**shown.warm_facts(), "segments": np.zeros((0, 3))}):
+        sheet = look(along_log.hysteresis(View(facts)))
+        assert titles_of(sheet) == ["The beginning", "The end"]
+        for panel in titles_of(sheet):
+            # four holds of 20 s
+            assert one(sheet, "measured", panel).columns["x"].size == 80
 
 
 def test_several_estimates_share_a_picture():
@@ -447,6 +466,8 @@ def test_numbers_are_rounded_as_people_do():
     assert to_digits_of(5.00321, 0.06) == "5.003" and to_digits_of(600.7, 12) == "601" and to_digits_of(0.0035, None) == "0.003500"
     assert plain_number(0.003498, 4) == "0.003498" and plain_number(7.318e-4, 4) == "0.0007318" and plain_number(93.3, 4) == "93.30"
     assert unit_text("N.m.s^2/rad") == "N·m·s²/rad"
+    assert range_text(1.2e-18, [0, 0.41]) == "0 to 0.41" and range_text(-2, (-2, -1)) == "−2.0 to −1.0"
+    assert range_text(0.2, [0, 0.41]) is None and range_text(0.2, None) is None
 
 
 def test_medians_in_bins_have_gaps_where_samples_are_few():

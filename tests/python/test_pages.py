@@ -1,11 +1,16 @@
 """What the pages of `warmjoint report` hold, as data and words. Made-up views stand for those of C++ (shown.py)."""
 
+import base64
+import io
+
 import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
 import shown
-from warmjoint.figures import log_page, run_page
+from warmjoint.figures import friction, log_page, run_page
+from warmjoint.figures.sheet import encode
+from warmjoint.figures.style import use
 
 
 def test_the_page_of_a_log_says_why_it_was_refused_and_what_to_do():
@@ -53,6 +58,18 @@ def test_a_page_without_the_library_of_charts_says_so(monkeypatch):
     text = pages.fill("log", {"fit": facts, "check": {"faults": [], "excitation": []}, "commands": []})
     assert "sudo apt install libjs-dygraphs" in text and "<script" not in text
     assert text.count("<img ") == 6 and "a &lt;b&gt;c&lt;/b&gt;" in text
+    assert len(text) < 2_000_000  # a mail takes it
+
+
+def test_a_page_shows_a_picture_in_256_colours_that_look_alike():
+    pages = pytest.importorskip("warmjoint.figures.pages")
+    image = pytest.importorskip("PIL.Image")
+    with use("screen"):
+        sheet = friction.warm_up(shown.warm_view())
+        whole, small = encode(sheet), base64.b64decode(pages.embedded(sheet).partition(",")[2])
+    assert len(small) < 0.6 * len(whole)
+    a, b = (np.asarray(image.open(io.BytesIO(one)).convert("RGB"), int) for one in (whole, small))
+    assert a.shape == b.shape and np.abs(a - b).mean() < 1
 
 
 VISCOUS = {"value": 2.0, "std": 0.05, "interval95": [1.9, 2.1], "unit": "N.m.s/rad"}

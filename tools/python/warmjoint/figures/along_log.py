@@ -83,6 +83,20 @@ def window(view: View, which: str, segments: int = 6) -> Window:
     return max(0, begin - spare), min(n, end + spare)
 
 
+LOOPS, MOVES = 2, 0.05  # back and forth in a picture; share of the largest speed from which a joint moves
+
+
+def loops(view: View, which: str) -> Window:
+    """The first or the last times back and forth: the samples up to the turn of the direction that ends them."""
+    speed = np.nan_to_num(view.or_gap(view.velocity))
+    if which == "last":
+        speed = speed[::-1]
+    moving = np.flatnonzero(np.abs(speed) > MOVES * np.abs(speed).max())
+    turns = moving[1:][np.diff(np.sign(speed[moving])) != 0]
+    end = int(turns[2 * LOOPS - 1]) if turns.size >= 2 * LOOPS else speed.size
+    return (0, end) if which == "first" else (speed.size - end, speed.size)
+
+
 def torque_limits(view: View, *windows: Window) -> tuple[float, float]:
     """Limits that hold the torque of windows at constant speed: accelerations may leave the picture."""
     kept = np.concatenate([view.or_gap(view.torque)[slice(*one)] for one in windows])
@@ -110,12 +124,12 @@ def hysteresis(view: View) -> Sheet | None:
     kept = view.kept(view.velocity)
     if not kept.size or kept.min() >= 0 or kept.max() <= 0:
         return None
-    parts = window(view, "first", 4), window(view, "last", 4)
+    parts = loops(view, "first"), loops(view, "last")
     limits = torque_limits(view, *parts)
     taken = f"; the torque is less {view.taken_off}" if view.taken_off else ""
     fig = Sheet("hysteresis", "Torque over position, back and forth", view.origin + taken,
                 "The height of the loop is twice the friction; from the first to the last it changes by what the joint has warmed.")
-    titles = ("First segments", "Last segments") if view.segments else ("The begin", "The end")
+    titles = ("The beginning", "The end")
     for ax, part, title in zip(fig.panels((340, [1, 1])), parts, titles):
         own = slice(*part)
         draw.line(ax, view.position[own], view.torque[own], "measured", "grey", 1.4)

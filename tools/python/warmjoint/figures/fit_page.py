@@ -6,7 +6,7 @@ from typing import Any
 
 from . import along_log, friction, residuals
 from . import sheet as draw
-from .numerals import significant, to_digits_of, unit_text
+from .numerals import range_text, significant, to_digits_of, unit_text
 from .sheet import PAGE, Sheet
 from .view import VERDICTS, Answer, View
 
@@ -65,8 +65,8 @@ def parameter_rows(answer: Answer, symbols: bool = True) -> list[list[str]]:
     for row in answer.facts["shown"]:
         interval = row.get("interval95")
         ends = " … ".join(to_digits_of(end, row.get("std")) for end in interval) if interval else "–"
-        rows.append([answer.symbols.with_name(row["name"]) if symbols else row["name"], to_digits_of(row["value"], row.get("std")), ends,
-                     unit_text(row["unit"])])
+        value = range_text(row["value"], interval) or to_digits_of(row["value"], row.get("std"))
+        rows.append([answer.symbols.with_name(row["name"]) if symbols else row["name"], value, ends, unit_text(row["unit"])])
     return rows
 
 
@@ -92,7 +92,7 @@ def fit(view: View) -> Sheet:
     along_log.level_over_time(next(axes), view, "Level of friction over time" if view.has_fit else "Torque in the direction of motion")
     parts = along_log.window(view, "first"), along_log.window(view, "last")
     limits = along_log.torque_limits(view, *parts)
-    for part, name in zip(parts, ("first segments", "last segments") if view.segments else ("begin", "end")):
+    for part, name in zip(parts, ("first segments", "last segments") if view.segments else ("beginning", "end")):
         along_log.close_up(next(axes), view, part, limits, f"The {name}")
     friction.over_velocity(next(axes), view, "Friction over velocity")
     if view.warms:

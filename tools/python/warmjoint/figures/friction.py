@@ -87,8 +87,11 @@ def while_warming(ax: Any, view: View, title: str = "") -> None:
     limits = draw.bulk([view.kept(curve) + left], 0.01)
     draw.dots(ax, view.kept(view.clock), view.kept(curve) + left, "measured, brought to that speed" if at else "(torque − F_{n}) · sign(v)")
     if deviation is not None and deviation.size:
-        draw.band(ax, view.clock, curve - Z95 * deviation, curve + Z95 * deviation, "95 % interval", "vermilion", 0.35)
-    draw.line(ax, view.clock, curve, view.fit_name if at else "E (void)" if view.void else "E", "vermilion", 2.0, view.dash)
+        half = Z95 * deviation
+        # an interval may be thinner than any line
+        label = f"95 % interval, ± {significant(half.max(), 2)} {view.torque_unit} at most"
+        draw.band(ax, view.clock, curve - half, curve + half, label, "vermilion", 0.5)
+    draw.line(ax, view.clock, curve, view.fit_name if at else "E (void)" if view.void else "E", "vermilion", 1.0, view.dash)
     if at:
         draw.level(ax, at["cold"], "cold model, without heat", "blue", 1.6)
     reach = (curve.min(), curve.max(), at["cold"] if at else 0.0)

@@ -42,6 +42,24 @@ def to_digits_of(value: float, deviation: float | None) -> str:
     return significant(value, min(6, max(2, digits)))
 
 
+def range_at_bound(value: float, interval: Sequence[float] | None) -> tuple[float, float] | None:
+    """The interval of a value that rests at one of its ends, since a bound holds it: all that is known of it. None of other values."""
+    if not interval:
+        return None
+    lower, upper = interval
+    at_end = 0.01 * (upper - lower)
+    if value - lower > at_end and upper - value > at_end:
+        return None
+    # what is 0 but for rounding
+    return tuple(0.0 if abs(end) < 1e-9 * (upper - lower) else end for end in (lower, upper))
+
+
+def range_text(value: float, interval: Sequence[float] | None) -> str | None:
+    """"0 to 0.41" of such a value."""
+    ends = range_at_bound(value, interval)
+    return " to ".join(significant(end, 2) for end in ends) if ends else None
+
+
 def unit_text(unit: str) -> str:
     """A unit as set in print: "N·m·s²/rad" for "N.m.s^2/rad"."""
     return unit.replace("^2", "²").replace(".", "·")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import io
 import json
 import pathlib
 import re
@@ -59,6 +60,15 @@ def prepare(table: dict[str, Any]) -> dict[str, Any]:
     return {**table, "head": head, "kinds": kinds, "heads": heads}
 
 
+def embedded(sheet: Sheet) -> str:
+    """A figure as the address of an image, by a palette of 256 colours: few lines have more, and a page is to fit into a mail."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.open(io.BytesIO(encode(sheet))).quantize(256, dither=Image.Dither.NONE).save(file, "png", compress_level=9)
+    return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode()
+
+
 class Picture:
     """A figure in the page's light and dark look."""
 
@@ -72,7 +82,7 @@ class Picture:
                     return
                 self.there, self.name, self.title, self.finding = True, sheet.name, sheet.title, sheet.finding
                 self.width, self.height = (round(72 * side) for side in sheet.get_size_inches())
-                self._urls[style] = "data:image/png;base64," + base64.b64encode(encode(sheet)).decode()
+                self._urls[style] = embedded(sheet)
 
     def url(self, style: str) -> str:
         return self._urls[style]

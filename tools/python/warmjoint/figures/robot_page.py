@@ -10,7 +10,7 @@ import numpy as np
 
 from . import sheet as draw
 from .fit_page import sentence
-from .numerals import significant, to_digits_of, unit_text
+from .numerals import range_text, significant, to_digits_of, unit_text
 from .sheet import Sheet
 from .view import VERDICTS
 
@@ -72,6 +72,8 @@ def _shown(parameter: dict[str, Any] | None) -> str:
     if not parameter["interval95"]:
         return value
     lower, upper = parameter["interval95"]
+    if at_bound := range_text(parameter["value"], (lower, upper)):
+        return at_bound
     return f"{value} ± {significant((upper - lower) / 2, 2)}"
 
 

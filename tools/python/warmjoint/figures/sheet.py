@@ -257,9 +257,9 @@ def _uncrowded(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def band(ax: Any, x: Any, lower: Any, upper: Any, label: str = "", hue: str = "blue", opacity: float = 0.25) -> None:
-    """The area between two curves."""
+    """The area between two curves, over dots and below lines."""
     _keep(ax, label, "band", hue, x=x, lower=lower, upper=upper)
-    ax.fill_between(x, lower, upper, color=colour(hue), alpha=opacity, linewidth=0, label=math_text(label) or None)
+    ax.fill_between(x, lower, upper, color=colour(hue), alpha=opacity, linewidth=0, label=math_text(label) or None, zorder=1.95)
 
 
 def bar(ax: Any, x: float, height: float, label: str = "", hue: str = "blue", opacity: float = 1.0) -> None:
