@@ -92,6 +92,16 @@ def test_an_estimate_is_a_container(estimate):
     assert table.loc["coulomb", "lower"] == estimate["coulomb"].ci95[0]
 
 
+def test_a_value_at_its_bound_is_shown_as_a_range(estimate):
+    data = copy.deepcopy(estimate.data)
+    data["parameters"]["viscous"].update(value=1.2e-18, interval95=[0, 0.41])
+    held = wj.Estimate(data)
+    assert repr(held["viscous"]) == "viscous = 0 to 0.41 N.m.s/rad" and "  viscous = 0 to 0.41 N.m.s/rad\n" in repr(held)
+    assert "<td>0 to 0.41</td>" in held._repr_html_()
+    assert held["viscous"].value == 1.2e-18  # the number is as it was
+    assert " (" in repr(estimate["viscous"]) and max(map(len, repr(estimate).splitlines())) <= 100
+
+
 def test_a_log_is_cut_drawn_and_shown(log, columns):
     part = log[200:2200]
     np.testing.assert_array_equal(part.torque, columns["torque"][200:2200])

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import sys
+import textwrap
 import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -18,6 +19,7 @@ import numpy.typing as npt
 
 from warmjoint import _core
 from warmjoint.export import EngineFormat, Export, export_frictions
+from warmjoint.figures.numerals import range_at_bound
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
 from warmjoint.values import Array, kind_of, number, numbers, path_of, shown
@@ -48,8 +50,8 @@ class Parameter:
     ci95: tuple[float, float] | None
 
     def __repr__(self) -> str:
-        interval = f" ({self.ci95[0]:.6g} .. {self.ci95[1]:.6g})" if self.ci95 else ""
-        return f"{self.name} = {self.value:.6g}{interval} {self.unit}"
+        interval = f" ({self.ci95[0]:.6g} .. {self.ci95[1]:.6g})" if self.ci95 and not range_at_bound(self.value, self.ci95) else ""
+        return f"{self.name} = {_value(self, 6)}{interval} {self.unit}"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -315,11 +317,12 @@ class Estimate:
 
     def __repr__(self) -> str:
         return "\n".join([f"<Estimate by {self.identifier}: {self.status}>", *(f"  {one!r}" for one in self.friction_at_speeds),
-                          *(f"  {one!r}" for one in self._shown()), f"  {self.message}"])
+                          *(f"  {one!r}" for one in self._shown()),
+                          textwrap.fill(self.message, 100, initial_indent="  ", subsequent_indent="  ", break_long_words=False)])
 
     def _repr_html_(self) -> str:
         at_speeds = [Parameter(repr(one).split(" = ")[0], one.value, one.unit, one.std, one.ci95) for one in self.friction_at_speeds]
-        rows = "".join(f"<tr><th>{one.name}</th><td>{one.value:.5g}</td><td>{_interval(one)}</td><td>{one.unit}</td></tr>"
+        rows = "".join(f"<tr><th>{one.name}</th><td>{_value(one, 5)}</td><td>{_interval(one)}</td><td>{one.unit}</td></tr>"
                        for one in [*at_speeds, *self._shown()])
         return (f"<p><b>{self.status}</b> ({html.escape(self.identifier)}): {html.escape(self.message)}</p>"
                 f"<table><tr><th>parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>{rows}</table>")
@@ -492,6 +495,12 @@ def _word(name: str, value: Any) -> str:
 
 def _number(value: float | None) -> float:
     return math.nan if value is None else float(value)
+
+
+def _value(one: Parameter, digits: int) -> str:
+    """The value, or the range of one at its bound."""
+    ends = range_at_bound(one.value, one.ci95)
+    return f"{ends[0]:.2g} to {ends[1]:.2g}" if ends else f"{one.value:.{digits}g}"
 
 
 def _interval(one: Parameter) -> str:
