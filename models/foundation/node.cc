@@ -245,7 +245,18 @@ Node ParseJsonNode(const std::string& text, const std::string& file) {
 }
 
 Tree ReadJsonFile(const std::filesystem::path& path) {
-  return ParseJson(ReadWholeFile(path, kLargestJson), path.string());
+  const std::string text = ReadWholeFile(path, kLargestJson);
+  // of all that is given in place of such a file, a recording is the likeliest
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8, which some editors write
+  const std::string_view content =
+      Trimmed(std::string_view(text).substr(text.starts_with(mark) ? mark.size() : 0));
+  if (!content.empty() && content.front() != '{' && content.front() != '[') {
+    Refuse({path.string()},
+           "is no JSON file; if it is a recording, identify it first: warmjoint identify {} -o "
+           "estimate.json",
+           path.string());
+  }
+  return ParseJson(text, path.string());
 }
 
 Tree ParseJson(const std::string& text, const std::string& file) {

@@ -24,6 +24,7 @@ using Values = Eigen::VectorXd;
 constexpr const char* kTime = "time";
 constexpr const char* kTemperature = "temperature";
 constexpr const char* kPosition = "position";
+constexpr const char* kVelocity = "velocity";
 constexpr const char* kTorque = "torque";
 
 /// Parts of the names that foreign files give to columns, in lower case, the likeliest first.
@@ -87,7 +88,8 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
   return std::nullopt;
 }
 
-/// names: of all columns; free: of those that no other column of ours has
+/// missing: the columns that are needed, and others that the file may hold under another name; names: of all columns; free: of those that
+/// no other column of ours has
 [[noreturn]] void RefuseMissing(const std::vector<const RecordingColumn*>& missing,
                                 const std::vector<std::string>& names,
                                 const std::vector<std::string>& free, const Place& place,
@@ -97,7 +99,7 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
   std::string unit;  // of a torque that is something else
   for (const RecordingColumn* column : missing) {
     const std::string likely = LikelyName(*column, free).value_or("NAME");
-    lacking.push_back(fmt::format("'{}'", column->name));
+    if (column->required) lacking.push_back(fmt::format("'{}'", column->name));
     remedy.push_back(column->name + "=" + likely);
     const StandIn* const stand_in = column->name == kTorque ? StandInOf(likely) : nullptr;
     if (stand_in && !SplitUnit(likely).unit)
@@ -408,6 +410,15 @@ std::vector<ColumnSource> FindColumns(const std::vector<FileColumn>& columns,
   for (std::size_t i = 0; i < header.names.size(); ++i) {
     if (!header.given[i]) free.push_back(header.names[i]);
   }
+  // a velocity under another name is worth naming, too, in the order of the columns
+  const RecordingColumn& velocity =
+      *std::ranges::find(RecordingColumns(), kVelocity, &RecordingColumn::name);
+  const bool is_open =
+      std::ranges::none_of(sources,
+                           [&](const ColumnSource& one) { return one.column == &velocity; }) &&
+      !layout.map.contains(kVelocity);
+  if (is_open && LikelyName(velocity, free)) missing.push_back(&velocity);
+  std::ranges::sort(missing);
   RefuseMissing(missing, header.names, free, place, there);
 }
 

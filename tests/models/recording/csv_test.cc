@@ -175,6 +175,10 @@ TEST(ReadCsv, RefusesWhatIsNoRecordingAtItsPlace) {
       // columns
       {"t_s,q_m,q_ref_m,force_N\n0,0,0,1\n1,1,1,2\n2,2,2,3\n",
        "log.csv:1: ", "--map time=t_s,position=q_m,torque=force_N"},
+      {"t_s,q_m,speed,force_N\n0,0,0,1\n1,1,1,2\n2,2,2,3\n",
+       "log.csv:1: ", "--map time=t_s,position=q_m,velocity=speed,torque=force_N"},
+      {"time,position,velocity,force_N,speed\n0,0,0,1,0\n1,1,1,2,1\n2,2,2,3,2\n",
+       "log.csv:1: ", "--map torque=force_N"},
       {"time,position,torque,torque\n0,0,1,1\n", "log.csv:1: ", "'torque'"},
       {"time,position,velocity,torque" + wide + "\n", "log.csv:1: ", "5000004"},
       {header + "0" + wide + "\n", "log.csv:2: ", "5000001"},
