@@ -143,7 +143,7 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
     none.refusal = Refusal{estimate.status, kHoldsNoFriction};
     Inference told;
     told.status = estimate.status;
-    estimate.diagnostics = FindLackOfFit(identifier, given, none, told, judging).diagnostics;
+    estimate.diagnostics = FindLackOfFit(identifier, given, none, told, {}, judging).diagnostics;
     return;
   }
   const Fit fit = FitOf(estimate, given.measurements);
@@ -151,7 +151,11 @@ void CheckEstimate(const PreparedLog& log, const LackOfFitSettings& judging, Est
   const IdentifierInput input = followed ? given.On(*followed) : given;
   const Inference claimed = InferenceOf(estimate, fit);
   // the lack of fit of the law, and whether the same law with other parameters could follow the log better
-  auto [diagnostics, causes, model] = FindLackOfFit(identifier, input, fit, claimed, judging);
+  std::optional<FittedModel> model;
+  if (claimed.status == Status::ok) {
+    model = EvaluateModel(fit, claimed, input.measurements, input.selection);
+  }
+  auto [diagnostics, causes] = FindLackOfFit(identifier, input, fit, claimed, model, judging);
   if (claimed.status == Status::ok && !IsRefused(causes)) {
     auto misfit = OwnLawCause(fit, claimed, input.measurements, input.selection, judging);
     if (misfit) causes.push_back(std::move(*misfit));

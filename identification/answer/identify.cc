@@ -222,9 +222,14 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
     // the motion that the model follows
     const auto followed = FollowedOf(answer.fit, input);
     const IdentifierInput seen = followed ? input.On(*followed) : input;
-    found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, judging);
+    std::optional<FittedModel> model;
+    if (answer.inferred.status == Status::ok) {
+      model = EvaluateModel(answer.fit, answer.inferred, seen.measurements, seen.selection);
+    }
     answer.by_noise.at_speeds =
-        SpeedFiguresOf(answer.fit, answer.inferred, found.model, seen.measurements, seen.selection);
+        SpeedFiguresOf(answer.fit, answer.inferred, model, seen.measurements, seen.selection);
+    answer.inferred.at_speeds = answer.by_noise.at_speeds;
+    found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, model, judging);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
       auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
       if (floor) found.causes.push_back(std::move(*floor));

@@ -57,7 +57,10 @@ Candidates WithEnoughRows(const std::vector<Finding*>& findings, const Bins& bin
   for (Finding* const finding : findings) {
     Features features = finding->test->features(bins, circumstances, fit);
     const Index more = features.columns.cols();
-    if (more == 0) continue;
+    if (more == 0) {
+      if (!features.absent.empty()) finding->reason = features.absent;
+      continue;
+    }
     if (kRowsAColumn * (columns + more) > bins.size()) {
       finding->reason = ExplainFewRowsOfTest(bins.size());
       continue;

@@ -143,9 +143,9 @@ Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
 Features OfSpeedMemory(const Bins& bins, const Circumstances& circumstances,
                        const GrowingFit& fit) {
   // without a warming in the fit, the heat would look like such friction, since it follows the speed late, too
-  if (circumstances.past.empty() || circumstances.heating.slope.cols() == 0) {
-    return {MatrixXd(bins.size(), 0)};
-  }
+  Features none{.columns = MatrixXd(bins.size(), 0)};
+  if (circumstances.heating.slope.cols() == 0) none.absent = kNoWarming;
+  if (circumstances.past.empty() || !none.absent.empty()) return none;
   const MatrixXd& all = circumstances.late_speeds;
   // the time constant that explains most in addition to the fit
   Index best = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "identification/inference/apply.h"
 #include "identification/lack_of_fit/examine.h"
 #include "identification/lack_of_fit/remedies.h"
 #include "identification/lack_of_fit/rounding.h"
@@ -127,6 +128,23 @@ std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
   return rows;
 }
 
+/// How much the rows of findings change the friction, at the speed where they change it most, as a share of it; of an answer without
+/// friction at speeds, or with findings that change all of it alike: the share of the worst, rms.
+double LargestChange(const Examined& of, const Examination& examination, double worst) {
+  std::vector<Cause> rows;
+  for (const Cause& cause : examination.causes) {
+    if (cause.source != Source::findings) continue;
+    rows.push_back(cause);
+    rows.back().action = Action::widen;
+  }
+  double largest = worst;
+  for (const SpeedFigure& one : of.by_noise.at_speeds) {
+    const double reach = ChangeOf(rows, one.derivatives, About::friction).reach;
+    largest = std::max(largest, reach / std::abs(one.at.value));
+  }
+  return largest;
+}
+
 /// Adds the row of all findings: it refuses an answer that they make wrong, else it widens the intervals.
 void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examination& examination) {
   Cause* const row = Row(Source::findings, examination);
@@ -167,7 +185,8 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
   }
   if (Finds(examination, HeatRelation::starts)) widen(Source::open_start);
   const bool without_warming = drifts && of.fit.RowOf(Role::heat);
-  row->sentence = explain(ExplainWidened(worst.harm) + (without_warming ? kAbsorbedByWarming : ""));
+  row->sentence = explain(ExplainWidened(worst.harm, LargestChange(of, examination, worst.harm)) +
+                          (without_warming ? kAbsorbedByWarming : ""));
 }
 
 /// Acts on the belief about the start. Where the start is unknown, intervals cover a warm one. Where it is taken to be
@@ -236,22 +255,21 @@ void ExplainLog(const Examined& of, Examination& examination) {
 }  // namespace
 
 LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
-                        const Inference& by_noise, const LackOfFitSettings& judging) {
+                        const Inference& by_noise, const std::optional<FittedModel>& model,
+                        const LackOfFitSettings& judging) {
   const std::string& unit = input.measurements.torque_unit;
   // a fit that is not ok has nothing to examine
   if (by_noise.status != Status::ok) {
     Examination none;
     none.findings = NotMade(ExplainNotExamined(StatusName(by_noise.status)));
-    return {DiagnosticsOf(none, fit, unit), {}, {}};
+    return {DiagnosticsOf(none, fit, unit), {}};
   }
-  std::optional<FittedModel> model =
-      EvaluateModel(fit, by_noise, input.measurements, input.selection);
   Examination examination = ExamineResidual(model, fit, by_noise, input.measurements);
   const Examined of{identifier, input, fit, by_noise};
   ActOnStart(of, judging.start, examination);
   ExplainLog(of, examination);
   ActOnFindings(of, judging, examination);
-  return {DiagnosticsOf(examination, fit, unit), std::move(examination.causes), std::move(model)};
+  return {DiagnosticsOf(examination, fit, unit), std::move(examination.causes)};
 }
 
 }  // namespace warmjoint

@@ -24,7 +24,6 @@ struct LackOfFitSettings {
 struct LackOfFit {
   std::vector<Diagnostic> diagnostics;  // of every test
   std::vector<Cause> causes;
-  std::optional<FittedModel> model;  // that was examined; none where the fit was refused
 };
 
 /// Examines a fit by the table of tests for lack of fit (table.h), made at one error level for the log
@@ -35,8 +34,10 @@ struct LackOfFit {
 /// what the parameters would change if the features were part of the model. No interval of the warming is given where there is
 /// lack of fit over time or energy, since it is uncertain how much of that the warming took up. Where a start that is taken to
 /// be cold matters, a row says how much. Noise that is coloured is no lack of fit: the intervals account for it.
-/// Of a fit that is not ok no test is made. input: what the identifier saw; by_noise: what noise says of the fit.
+/// Of a fit that is not ok no test is made. input: what the identifier saw; by_noise: what noise says of the fit, with the friction at
+/// speeds, by which a sentence says how much findings change it; model: EvaluateModel of these.
 LackOfFit FindLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
-                        const Inference& by_noise, const LackOfFitSettings& judging);
+                        const Inference& by_noise, const std::optional<FittedModel>& model,
+                        const LackOfFitSettings& judging);
 
 }  // namespace warmjoint

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string_view>
 #include <vector>
 
 #include "identification/lack_of_fit/orthonormal.h"
@@ -12,9 +13,10 @@ namespace warmjoint {
 
 /// Features that a residual may depend on, which are tested together. They are the best of several candidates.
 struct Features {
-  Eigen::MatrixXd columns;  // [m x q]; q = 0: nothing to test
-  int candidates = 1;       // of which these explain most
-  double period = 0;        // of those, or time constant, s; 0 where they have none
+  Eigen::MatrixXd columns;       // [m x q]; q = 0: nothing to test
+  int candidates = 1;            // of which these explain most
+  double period = 0;             // of those, or time constant, s; 0 where they have none
+  std::string_view absent = {};  // why there are none, where TestWords::absent does not say it
 };
 
 /// A fit over rows each of which is the mean of some samples, decomposed once (QR) for all that is asked about

@@ -116,7 +116,7 @@ std::string Describe(const ColumnAgainstSlope& column, JointKind joint) {
     how += fmt::format("{}is off by {:.3g} {}, its speed at rest", how.empty() ? "" : " and ",
                        column.offset, kVelocityUnit.For(joint));
   }
-  return fmt::format("the velocity column {}: the slope of the positions is used instead", how);
+  return fmt::format("the velocity column {}, so the velocity is computed from the positions", how);
 }
 
 }  // namespace warmjoint

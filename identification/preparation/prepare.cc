@@ -164,17 +164,17 @@ struct PreparedLog::Maker {
                        const SampleMask& keep) {
     const std::string contradiction = SayContradiction(paths);
     if (!AgreesOnSpeeds(*positions.constant_speed, column.raw.measurements, keep)) {
-      column.warnings.push_back(
-          contradiction +
-          ", but by themselves these give other speeds: the clock jitters, or the positions are "
-          "spoilt, and the column is used");
+      column.warnings.push_back(contradiction +
+                                ", but the constant speeds of the two differ, too: the clock "
+                                "jitters, or the positions are "
+                                "spoilt, so the velocity column is kept");
       return column;
     }
     KeepAlso(keep, positions.raw);
     KeepAlso(keep, *positions.constant_speed);
     positions.warnings.push_back(contradiction +
-                                 ": it is filtered, late, scaled or sampled too seldom, and the "
-                                 "positions are used instead");
+                                 ": it is filtered, late, scaled or sampled too seldom, so the "
+                                 "velocity is computed from the positions");
     return positions;
   }
 };

@@ -244,11 +244,11 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   return of;
 }
 
-/// The parts of the half widths of intervals, for each that has several parts.
+/// The parts of the half widths of all intervals.
 std::vector<HalfWidthPart> HalfWidths(const Fit& fit, const Inference& inference) {
   std::vector<HalfWidthPart> all;
   const auto add = [&](const std::string& name, const std::vector<WidthPart>& parts) {
-    if (name.empty() || parts.size() < 2) return;
+    if (name.empty()) return;
     for (const WidthPart& part : parts) {
       all.push_back({name, std::string(NameOf(part.by)), part.half_width});
     }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace warmjoint {
 namespace {
 
@@ -15,7 +17,8 @@ constexpr AssumptionWords kAssumptions[] = {
     {Source::cold_start,
      "the joint was cold at the start, not at a tenth of the warmth that it reaches"},
     {Source::open_start,
-     "the joint was cold at the start, though for all that this log tells E(0) may be {:.2g} {}"},
+     "the joint was cold at the start, though a start whose friction differs by {:.2g} {} from "
+     "that of a cold joint would stay unseen"},
     {Source::slow_drift, "nothing outside of the model changed the friction by 1 % over the log"},
     {Source::open_drift,
      "nothing outside of the model changed the friction slowly, though this log cannot rule it "
@@ -54,7 +57,7 @@ std::vector<Assumption> AssumptionsOf(const std::vector<Cause>& causes, const Fi
     }
     if (!first) continue;
     assumptions.push_back({std::string(NameOf(words.source)),
-                           fmt::format(fmt::runtime(words.meaning), first->size, unit),
+                           fmt::format(fmt::runtime(words.meaning), std::abs(first->size), unit),
                            NamedMoves(first->rows, moves, fit)});
   }
   return assumptions;

@@ -40,7 +40,11 @@ std::string ExplainSimplest(const ComparedStructure& chosen, const ComparedStruc
 }
 
 std::string ExplainOnlyOne(std::string_view chosen) {
-  return fmt::format("chose {}: it outdoes every other structure", chosen);
+  return fmt::format(
+      "chose {}: every other structure that was tried gives no answer, leaves a larger residual, "
+      "or "
+      "needs more parameters for the same",
+      chosen);
 }
 
 std::string ExplainChosenByBic(std::string_view chosen, int blocks) {

@@ -20,6 +20,7 @@ struct TestWords {
 inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
 inline constexpr std::string_view kNoMapOrOneSpeed =
     "the fit has no map over it, or the log one speed";
+inline constexpr std::string_view kNoWarming = "the fit has no warming";
 inline constexpr std::string_view kNoHolds = "no segments of constant speed are known";
 
 inline constexpr TestWords kTestOfDirection{
@@ -42,7 +43,7 @@ inline constexpr TestWords kTestOfEnergy{
         "Warming is not followed: try --identifier energy-ml, on a log that begins cold and lasts "
         "until the torque settles."};
 inline constexpr TestWords kTestOfInitialEnergy{
-    .absent = "E(0) is estimated, or the fit knows no warming",
+    .absent = "the heat at the start is estimated, or the fit has no warming",
     .question = "Was the joint warm when the log began?",
     .advice =
         "The joint seems warm at the start: try --start estimated, or let it cool down for an hour "
@@ -61,11 +62,11 @@ inline constexpr TestWords kTestOfTime{
     .advice =
         "Friction drifts: try a model that warms (--identifier energy-ml), or record for longer."};
 inline constexpr TestWords kTestOfSpeedByEnergy{
-    .absent = "the fit knows no warming",
+    .absent = kNoWarming,
     .question = "Does the slope over speed change with warmth?",
     .advice = "The slope changes as the joint warms: try --identifier lpv-energy."};
 inline constexpr TestWords kTestOfSpeedMemory{
-    .absent = "the fit knows no warming, or the segments are too long for the log",
+    .absent = "the log has no segments of constant speed that are short beside it",
     .question = "Does friction follow the speed late?",
     .advice =
         "Friction still depends on the speed of a while ago: hold each speed for longer, so that "

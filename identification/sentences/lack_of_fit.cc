@@ -40,10 +40,11 @@ std::string ExplainTooMuchTogether(double share, double most) {
                      100 * most);
 }
 
-std::string ExplainWidened(double largest) {
+std::string ExplainWidened(double worst, double largest) {
   return fmt::format(
-      ": it changes the friction by {:.2g} % at most; intervals were widened to cover this",
-      100 * largest);
+      ": it changes the friction by {:.2g} % rms{}; intervals were widened to cover this",
+      100 * worst,
+      largest > worst ? fmt::format(", and by up to {:.2g} % at a speed", 100 * largest) : "");
 }
 
 std::string ExplainUnadjusted(const std::vector<std::string>& quantities,

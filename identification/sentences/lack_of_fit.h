@@ -39,8 +39,9 @@ std::string ExplainFindings(const std::vector<FoundPart>& found, const std::stri
 /// The effect of findings that change the friction too much: the worst by --relevance, or all together. harm: share
 std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance);
 std::string ExplainTooMuchTogether(double share, double most);
-/// The effect of findings for which intervals were widened. largest: share by which one changes the friction.
-std::string ExplainWidened(double largest);
+/// The effect of findings for which intervals were widened. worst: share by which one changes the friction, rms over the log; largest: the
+/// share by which they change it at the speed where they change it most
+std::string ExplainWidened(double worst, double largest);
 inline constexpr const char* kAbsorbedByWarming =
     ", and the parameters of warming have none, since they may have absorbed part of it";
 

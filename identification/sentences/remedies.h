@@ -21,7 +21,7 @@ inline constexpr const char* kRecordMoreWarmUps =
 // of a warming, and of a start that may have been warm
 inline constexpr const char* kEstimateStart = "try --start estimated";
 inline constexpr const char* kRecordFromCold =
-    "record it from cold, or learn E(0) by energy-ml with --start estimated";
+    "record it from cold, or estimate the heat at the start: energy-ml with --start estimated";
 inline constexpr const char* kWarmStartOrOneStage =
     "if the joint was warm at the start, try --start estimated; else one time constant is too few, "
     "or the surroundings change their temperature";

@@ -35,7 +35,9 @@ void Judge(benchmark::State& state, const char* name) {
   const Fit fit = identifier.fit(input);
   const Inference inferred = Infer(fit);
   for (auto _ : state) {
-    const LackOfFit found = FindLackOfFit(identifier, input, fit, inferred, {});
+    const LackOfFit found =
+        FindLackOfFit(identifier, input, fit, inferred,
+                      EvaluateModel(fit, inferred, input.measurements, input.selection), {});
     benchmark::DoNotOptimize(Apply(inferred, found.causes));
   }
 }

@@ -1,13 +1,17 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
+#include "identification/sentences/friction.h"
 #include "models/friction/sign.h"
 #include "tests/support/judging.h"
 
@@ -208,6 +212,39 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   }
   EXPECT_NEAR(noise, 0.5 * (narrow[1] - narrow[0]), 1e-9);
   EXPECT_NEAR(noise + found, 0.5 * (wide[1] - wide[0]), 1e-9);
+}
+
+TEST(Judge, GivesThePartsOfEveryHalfWidth) {
+  const Estimate estimate = Answer("nominal-ls", RecordHour(Cold(), 1));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  std::map<std::string, double> sum;
+  for (const HalfWidthPart& part : estimate.half_widths) sum[part.parameter] += part.half_width;
+  for (const EstimatedParameter& one : estimate.parameters) {
+    const auto& [lower, upper] = *one.interval95;
+    EXPECT_NEAR(sum[one.name], 0.5 * (upper - lower), 1e-9) << one.name;
+  }
+  EXPECT_EQ(sum.size(), estimate.parameters.size() + estimate.friction_at_speeds.size());
+}
+
+TEST(Judge, SaysTheLargestChangeOfTheFrictionAtASpeed) {
+  // of a log with small structure: what stands in the half width of a speed, as a share of its friction
+  Measurements m = RecordHour(Cold(), 1, 0.1);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double v = m.velocity[i];
+    m.torque[i] += std::copysign(0.4 * std::exp(-std::pow(v / 0.2, 2)), v);
+  }
+  const Estimate estimate = Answer("nominal-ls", m);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  double largest = 0;
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    for (const HalfWidthPart& part : estimate.half_widths) {
+      if (part.parameter != NameOfFriction(one) || part.by != "findings") continue;
+      largest = std::max(largest, part.half_width / std::abs(one.value));
+    }
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_THAT(estimate.warnings.at(0),
+              HasSubstr(fmt::format("by up to {:.2g} % at", 100 * largest)));
 }
 
 TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "identification/lack_of_fit/features.h"
+#include "identification/sentences/findings.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -184,6 +185,21 @@ TEST(SpeedMemory, IsNotMadeWhereAHoldIsTooLongForTheLog) {
   const Estimate estimate =
       test::Answer("nominal-ls", test::RecordFriction(test::Cold(), 1, velocity, 0.5, 1));
   EXPECT_FALSE(test::Asked(estimate, "speed_memory").made);
+}
+
+TEST(SpeedMemory, SaysWhyItIsNotMade) {
+  // a fit without warming, and one that warms on a log without holds that are short beside it
+  const auto reason = [](const char* identifier, const Eigen::VectorXd& velocity) {
+    const Diagnostic asked =
+        Asked(Answer(identifier, test::RecordFriction(test::TableOne(), 1, velocity, 0.1, 1)),
+              "speed_memory");
+    EXPECT_FALSE(asked.made);
+    return asked.reason;
+  };
+  Eigen::VectorXd two(3600);
+  for (Eigen::Index i = 0; i < 3600; ++i) two[i] = i < 1800 ? 0.5 : -0.8;
+  EXPECT_EQ(reason("nominal-ls", test::AlternatingSpeeds(3600, 1)), kNoWarming);
+  EXPECT_EQ(reason("energy-ml", two), kTestOfSpeedMemory.absent);
 }
 
 }  // namespace
