@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
@@ -15,8 +16,10 @@ namespace warmjoint {
 namespace {
 
 std::string Head(const Leaderboard& board) {
-  return fmt::format("{} realizations. NPE: relative error over all parameters of the truth (26).",
-                     board.finished);
+  return fmt::format(
+      "{} realizations. NPE: relative error over all parameters of the truth, Eq. (26) of the "
+      "paper.",
+      board.finished);
 }
 
 /// Every identifier of every run, of a ladder in each of its variants.
@@ -39,7 +42,8 @@ Table SideBySide(const std::vector<NamedBoard>& boards) {
 }
 
 /// Who is how good, how well torques agree and parameters are known, and what remains to be said.
-std::string TablesAndNotes(const Leaderboard& board, std::string (*write)(const Table&, size_t),
+std::string TablesAndNotes(const Leaderboard& board,
+                           const std::function<std::string(const Table&, size_t)>& write,
                            const char* bullet) {
   std::string text = write(RankingTable(board), 2) + "\n";
   // variants beside each other, where there are some
@@ -114,33 +118,39 @@ const std::vector<BoardFormat>& BoardFormats() {
   return formats;
 }
 
-std::string BoardToText(const Leaderboard& board) {
+std::string BoardToText(const Leaderboard& board, const Page& page) {
+  const auto write = [&page](const Table& table, size_t left) {
+    return TableToText(table, left, page);
+  };
   return PrintableLines(fmt::format("{}: {}\n{}\n{}\n\n{}", board.suite, board.question,
                                     Verdict(board), Head(board),
-                                    TablesAndNotes(board, TableToText, "*")));
+                                    TablesAndNotes(board, write, "*")));
 }
 
-std::string BoardToMarkdown(const Leaderboard& board) {
+std::string BoardToMarkdown(const Leaderboard& board, const Page& /*page*/) {
   return Harmless(fmt::format("### {}\n\n{}\n\n**{}** {}\n\n{}", board.suite, board.question,
                               Verdict(board), Head(board),
                               TablesAndNotes(board, TableToMarkdown, "-")));
 }
 
-std::string BoardToJson(const Leaderboard& board) { return WriteFields(board).dump(2) + "\n"; }
+std::string BoardToJson(const Leaderboard& board, const Page& /*page*/) {
+  return WriteFields(board).dump(2) + "\n";
+}
 
-std::string BoardsToText(const std::vector<NamedBoard>& boards) {
-  std::string text = PrintableLines(TableToText(SideBySide(boards), 2));
-  for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToText(named.board));
+std::string BoardsToText(const std::vector<NamedBoard>& boards, const Page& page) {
+  std::string text = PrintableLines(TableToText(SideBySide(boards), 2, page));
+  for (const NamedBoard& named : boards)
+    text += fmt::format("\n{}", BoardToText(named.board, page));
   return text;
 }
 
-std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards) {
+std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards, const Page& /*page*/) {
   std::string text = Harmless(TableToMarkdown(SideBySide(boards), 2));
   for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToMarkdown(named.board));
   return text;
 }
 
-std::string BoardsToJson(const std::vector<NamedBoard>& boards) {
+std::string BoardsToJson(const std::vector<NamedBoard>& boards, const Page& /*page*/) {
   Tree runs = Tree::array();
   for (const NamedBoard& named : boards) {
     runs.push_back({{"run", named.run}});
@@ -149,9 +159,11 @@ std::string BoardsToJson(const std::vector<NamedBoard>& boards) {
   return Tree{{"runs", std::move(runs)}}.dump(2) + "\n";
 }
 
-std::string BoardToCsv(const Leaderboard& board) { return Header() + Rows(board, ""); }
+std::string BoardToCsv(const Leaderboard& board, const Page& /*page*/) {
+  return Header() + Rows(board, "");
+}
 
-std::string BoardsToCsv(const std::vector<NamedBoard>& boards) {
+std::string BoardsToCsv(const std::vector<NamedBoard>& boards, const Page& /*page*/) {
   std::string csv = "run," + Header();
   for (const NamedBoard& named : boards) csv += Rows(named.board, CsvCell(named.run) + ",");
   return csv;
@@ -178,7 +190,7 @@ std::string FormatLeaderboard(const std::filesystem::path& directory, const std:
   std::vector<std::string> known;
   for (const BoardFormat& one : BoardFormats()) {
     known.push_back(one.name);
-    if (one.name == format) return one.write(ReadLeaderboard(directory));
+    if (one.name == format) return one.write(ReadLeaderboard(directory), {});
   }
   Refuse({"--format"}, "is '{}'{}", Excerpt(format), Suggestion(format, known));
 }

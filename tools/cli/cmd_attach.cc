@@ -165,6 +165,9 @@ Command AddAttachCommand(CLI::App& program) {
   // the model, and whose friction goes where
   auto arguments = std::make_shared<AttachArguments>();
   CLI::App* parser = program.add_subcommand("attach", "Friction onto the joints of any robot");
+  GiveExample(*parser, "warmjoint attach robot.xml --joint elbow=estimate.json -o warm.xml");
+  AddValue(*parser, "-o,--output", "FILE", arguments->output, "the model with friction, MJCF")
+      ->required();
   AddValue(*parser, "MODEL", "MODEL", arguments->model,
            "MJCF or URDF file, or one of: warmjoint list robots")
       ->required();
@@ -191,10 +194,9 @@ Command AddAttachCommand(CLI::App& program) {
   parser->add_flag("--numbers", arguments->options.numbers,
                    "the frictions' numbers as arrays of the model, which may change at run time");
 
-  // the rest of the model, and where it goes
+  // the rest of the model
+  BeginGroup(*parser, "What else changes in the model");
   AddModelOptions(*parser, *arguments);
-  AddValue(*parser, "-o,--output", "FILE", arguments->output, "the model with friction, MJCF")
-      ->required();
   return {parser, [arguments] { return Attach(*arguments); }};
 }
 

@@ -71,7 +71,7 @@ std::string VerdictOn(const CheckedFile& file) {
 }
 
 /// A row for each of several recordings, with what may differ between them.
-std::string TableOf(const std::vector<CheckedFile>& files) {
+std::string TableOf(const std::vector<CheckedFile>& files, const Page& page) {
   Table table{{"file", "samples", "rate Hz", "duration s", "segments", "from", "to", "torque in",
                "faults", "verdict"},
               {}};
@@ -94,13 +94,13 @@ std::string TableOf(const std::vector<CheckedFile>& files) {
            std::to_string(file.check->faults.size()),
            VerdictOn(file)};
   }
-  return TableToText(table, 1);
+  return TableToText(table, 1, page);
 }
 
 /// Of one recording its check; of several a table, and each by itself.
-std::string Text(const std::vector<CheckedFile>& files) {
+std::string Text(const std::vector<CheckedFile>& files, const Page& page) {
   if (files.size() == 1) return CheckToText(*files.front().check);
-  std::string text = TableOf(files);
+  std::string text = TableOf(files, page);
   for (const CheckedFile& file : files) {
     text += "\n" + (file.check ? CheckToText(*file.check)
                                : fmt::format("recording   {}\n", file.unreadable));
@@ -160,7 +160,7 @@ ExitStatus Check(const CheckArguments& arguments) {
     if (arguments.format == "json") {
       fmt::print(words, "{}\n", Json(files).dump(2));
     } else {
-      fmt::print(words, "{}", Text(files));
+      Say(words, "{}", Text(files, PageOf(words)));
     }
     if (!arguments.plot.empty() && !files.front().check) {
       Say(stderr, "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
@@ -180,14 +180,15 @@ Command AddCheckCommand(CLI::App& program) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* parser =
       program.add_subcommand("check", "What a log holds, and what can be identified from it");
-  // how recordings are read, then what is made of them
-  AddRecordingOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.prepare);
-  AddValue(*parser, "--segments", "FILE", arguments->segments,
-           "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI");
+  GiveExample(*parser, "warmjoint check log.csv --map torque=tau_Nm --unit position=deg");
+  // what is made of recordings, then how they are read
   AddValue(*parser, "--plot", "FILE", arguments->plot,
            "picture of the (first) recording with its kept segments: .png, .svg or .pdf");
+  AddValue(*parser, "--segments", "FILE", arguments->segments,
+           "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
+  AddRecordingOptions(*parser, arguments->recording);
+  AddHoldOptions(*parser, arguments->recording.prepare);
   // the project file counts before anything is read
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);

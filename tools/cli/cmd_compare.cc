@@ -10,6 +10,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/typed_options.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {
@@ -41,19 +42,28 @@ std::string CompareWithTruth(const std::string& file, const std::string& truth,
   return FormatCompared(estimate, ReadFriction(truth), format);
 }
 
+/// Text for people, broken at the width of their terminal; all else as it is, for programs.
+void Print(const std::string& text, const std::string& format) {
+  if (format == "text") return SayText(stdout, text);
+  fmt::print("{}", text);
+}
+
 ExitStatus Compare(const CompareArguments& arguments) {
   const std::vector<std::string>& files = arguments.runs;
   if (std::filesystem::is_regular_file(files[0])) {
     if (files.size() != 2)
       Refuse({files[0]}, "is no run; give an estimate and its truth, two files");
-    fmt::print("{}", CompareWithTruth(files[0], files[1], arguments.format));
+    Print(CompareWithTruth(files[0], files[1], arguments.format), arguments.format);
     return ExitStatus::done;
   }
   const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);
   // the format that was asked for; several runs stand in one table
   for (const BoardFormat& format : BoardFormats()) {
     if (format.name != arguments.format) continue;
-    fmt::print("{}", boards.size() == 1 ? format.write(boards[0].board) : format.join(boards));
+    const Page page = PageOf(stdout);
+    const std::string text =
+        boards.size() == 1 ? format.write(boards[0].board, page) : format.join(boards, page);
+    Print(text, format.name);
   }
   return ExitStatus::done;
 }
@@ -64,6 +74,7 @@ Command AddCompareCommand(CLI::App& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
       program.add_subcommand("compare", "Leaderboard of a run, or an estimate beside its truth");
+  GiveExample(*parser, "warmjoint compare runs/table1");
   AddValue(*parser, "RUN", "RUN", arguments->runs,
            "run directories, or estimate.json and truth.json")
       ->required();

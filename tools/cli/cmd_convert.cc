@@ -125,8 +125,10 @@ Command AddConvertCommand(CLI::App& program) {
       ->required();
   AddValue(*parser, "-o,--output", "FILE", arguments->output, "log to write: .h5 or .csv")
       ->required();
+  GiveExample(*parser, "warmjoint convert drive.mcap --joint elbow -o log.h5");
   AddLayoutOptions(*parser, arguments->recording.read);
   parser->remove_option(parser->get_option("--joint"));
+  BeginGroup(*parser, "Options");
   AddValue(*parser, "--joint", "NAME", arguments->joint,
            "joint of a bag's JointState, by default all; of a table of text rotary or linear");
   AddValue(*parser, "--topic", "TOPIC", arguments->topic,

@@ -53,6 +53,7 @@ Command AddExportCommand(CLI::App& program) {
   AddValue(*parser, "FILE", "FILE", arguments->file,
            "estimate.json of identify, robot.json of identify-robot, or a friction file")
       ->required();
+  GiveExample(*parser, "warmjoint export estimate.json --to isaaclab --joint elbow -o elbow.py");
   AddChoice(*parser, "--to", arguments->request.to, "whose numbers")->required();
 
   // how warm the joint is, and what it is called

@@ -176,7 +176,7 @@ void Deliver(const IdentifyArguments& arguments, Identified identified, const Pr
       if (!IsStandardOutput(arguments.output)) fmt::print(words, "{}", file);
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
-      fmt::print(words, "{}", EstimateToText(estimate, measurements, PageOf(words), detail));
+      SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
     }
   });
 }
@@ -188,7 +188,7 @@ void PrintSeveral(const IdentifyArguments& arguments, const std::vector<Answered
     for (const Answered& one : answers) {
       if (!one.message.empty()) Say(stderr, "{}: {}\n", one.name, one.message);
     }
-    fmt::print(stdout, "{}", EstimatesToText(answers, unit));
+    Say(stdout, "{}", EstimatesToText(answers, unit, PageOf(stdout)));
     return;
   }
   Tree estimates = Tree::array();
@@ -253,13 +253,52 @@ void AddOutputOptions(CLI::App& parser, IdentifyArguments& arguments) {
   AddValue(parser, "--plot", "FILE", arguments.plot,
            "picture of data, fit and verdict: .png, .svg or .pdf");
   AddValue(parser, "--mjcf", "FILE", arguments.mjcf, "MuJoCo model of a joint with this friction");
-  AddChoice(parser, "--format", arguments.format, {"text", "json"},
-            "of what is printed; json: as in estimate.json");
   parser.add_flag("-v,--explain", arguments.explain,
                   "every remark, every test for lack of fit and every assumption");
+  AddChoice(parser, "--format", arguments.format, {"text", "json"},
+            "of what is printed; json: as in estimate.json");
+}
+
+/// Which identifier, on which samples.
+void AddIdentifierOptions(CLI::App& parser, IdentifyArguments& arguments) {
+  AddChoice(parser, "--gravity", arguments.settings.gravity,
+            "what gravity does to the torque: nothing, a sine of the angle, or what both "
+            "directions share at each position");
+  AddValue(parser, "--identifier", "NAME", arguments.identifiers,
+           "see: warmjoint list identifiers; or a command of your own, as 'mine=python3 mine.py "
+           "{recording} {estimate}'; given several times: a table with a row for each")
+      ->take_all()
+      ->capture_default_str();
+  AddValue(parser, "--set", "KEY=VALUE", arguments.set,
+           "option of the identifier, as law=asymmetric")
+      ->take_all();
+}
+
+/// What the verdict and its figures go by.
+void AddVerdictOptions(CLI::App& parser, IdentifyArguments& arguments) {
+  BeginGroup(parser, "What is assumed and asked");
+  AddChoice(parser, "--start", arguments.settings.start,
+            "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
+            "far as a slightly warm start moves them; estimated: the heat at the start is fitted",
+            {{"warm", "unknown"}, {"hot", "unknown"}});
+  AddFollowOptions(parser, arguments.earlier);
+  AddChoice(parser, "--motion", arguments.settings.motion,
+            "constant: samples at constant speed; any: all that move, with the inertia and the "
+            "friction; chosen: any where the log holds no speeds");
+  AddHoldOptions(parser, arguments.recording.prepare);
+  AddValue(parser, "--holdout", "SHARE/FILE", arguments.holdout,
+           "share of the record's end, or another file, for figures on unseen data; 0: none")
+      ->capture_default_str();
+  AddValue(parser, "--relevance", "NUMBER", arguments.settings.relevance,
+           "change of the friction by lack of fit, as a share, from which a model is refused")
+      ->capture_default_str();
   parser.add_flag("--force", arguments.force,
-                  "show the numbers of an inadequate model with their intervals and write its\n"
+                  "show the numbers of an inadequate model with their intervals and write its "
                   "friction, all void; status and exit status 3 stay");
+  parser.add_flag_callback(
+      "--unconfined", [&arguments] { arguments.confinement = Confinement::none; },
+      "run a command of your own without the sandbox: where the kernel has none, or they need a "
+      "GPU");
 }
 
 }  // namespace
@@ -267,45 +306,12 @@ void AddOutputOptions(CLI::App& parser, IdentifyArguments& arguments) {
 Command AddIdentifyCommand(CLI::App& program) {
   auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* parser = program.add_subcommand("identify", "Friction from a log of one joint");
-  // how the recording is read
-  AddRecordingOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.prepare);
-
-  // which identifier, and what it is told
-  AddValue(*parser, "--identifier", "IDENTIFIER", arguments->identifiers,
-           "see: warmjoint list identifiers; or a command of your own, as 'mine=python3 mine.py "
-           "{recording} {estimate}'; given several times: a table with a row for each")
-      ->take_all()
-      ->capture_default_str();
-  AddChoice(*parser, "--gravity", arguments->settings.gravity,
-            "what gravity does to the torque: nothing, a sine of the angle, or what both "
-            "directions share at each position");
-  AddChoice(*parser, "--motion", arguments->settings.motion,
-            "constant: samples at constant speed; any: all that move, with the inertia and the "
-            "friction; chosen: any where the log holds no speeds");
-
-  // what else the verdict and its figures go by
-  AddValue(*parser, "--holdout", "SHARE/FILE", arguments->holdout,
-           "share of the record's end, or another file, for figures on unseen data; 0: none")
-      ->capture_default_str();
-  AddChoice(*parser, "--start", arguments->settings.start,
-            "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
-            "far as a slightly warm start moves them; estimated: E(0) is fitted",
-            {{"warm", "unknown"}, {"hot", "unknown"}});
-  AddFollowOptions(*parser, arguments->earlier);
-  AddValue(*parser, "--relevance", "NUMBER", arguments->settings.relevance,
-           "change of the friction by lack of fit, as a share, from which a model is refused")
-      ->capture_default_str();
-  AddValue(*parser, "--set", "KEY=VALUE", arguments->set,
-           "option of the identifier, as law=asymmetric")
-      ->take_all();
-
-  parser->add_flag_callback(
-      "--unconfined", [arguments] { arguments->confinement = Confinement::none; },
-      "run a command of your own without the sandbox: where the kernel has none, or they need a "
-      "GPU");
-
+  GiveExample(*parser, "warmjoint identify log.csv --unit position=deg -o estimate.json");
+  // what most need first
   AddOutputOptions(*parser, *arguments);
+  AddIdentifierOptions(*parser, *arguments);
+  AddRecordingOptions(*parser, arguments->recording);
+  AddVerdictOptions(*parser, *arguments);
   // the project file counts before anything is read
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);

@@ -236,7 +236,7 @@ ExitStatus IdentifyRobotCommand(const RobotArguments& arguments) {
   activity.Aside([&] {
     for (const std::string& notice : notices) SayNotice("notice: {}\n", notice);
     if (arguments.format != "json") {
-      fmt::print(words, "{}", RobotToText(answer, PageOf(words)));
+      SayText(words, RobotToText(answer, PageOf(words)));
     } else if (!IsStandardOutput(arguments.output)) {
       fmt::print(words, "{}", text);
     }
@@ -261,14 +261,19 @@ Command AddIdentifyRobotCommand(CLI::App& program) {
       "table of text, HDF5 or MATLAB file with columns for each joint; several, each from a cold "
       "start")
       ->required();
-  AddReadingOptions(*parser, *arguments);
-  AddRobotOptions(*parser, *arguments);
+  GiveExample(*parser,
+              "warmjoint identify-robot robot.urdf log.csv --map "
+              "'position=q_{j},torque=tau_{j},time=t' -o robot.json");
   AddValue(*parser, "-o,--output", "FILE", arguments->output, "robot.json; -: standard output");
   AddValue(*parser, "--mjcf", "FILE", arguments->mjcf,
            "the robot with the frictions that are known in N.m or N, MJCF");
   AddValue(*parser, "--plot", "DIR", arguments->plot, "folder for a picture of each joint");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"},
             "of what is printed; json: as in robot.json");
+  BeginGroup(*parser, "How the log is read");
+  AddReadingOptions(*parser, *arguments);
+  BeginGroup(*parser, "What is known of the robot");
+  AddRobotOptions(*parser, *arguments);
   return {parser, [arguments] { return IdentifyRobotCommand(*arguments); }};
 }
 

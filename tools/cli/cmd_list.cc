@@ -59,7 +59,7 @@ std::string LawText(const ordered_json& law) {
                           info["unit"]["linear"], BoundText(info["lower"], "-inf"),
                           BoundText(info["upper"], "inf"), info["meaning"]});
   }
-  if (!table.rows.empty()) text += TableToText(table, table.header.size());
+  if (!table.rows.empty()) text += TableToText(table, table.header.size(), PageOf(stdout));
   // maps have words in the place of numbers
   for (const char* key : {"quantities", "kernels", "factors"}) {
     if (law.contains(key)) text += fmt::format("  {}: {}\n", key, Words(law[key]));
@@ -146,7 +146,7 @@ std::string RobotText(const ordered_json& robot) {
              ? fmt::format("gear {:g}", friction["gear"].get<double>())
              : ""});
   }
-  return head + TableToText(table, 2);
+  return head + TableToText(table, 2, PageOf(stdout));
 }
 
 // --- suites -------------------------------------------------------------------------------------
@@ -239,7 +239,7 @@ ExitStatus List(const ListArguments& arguments) {
     } else if (arguments.format == "json") {
       fmt::print("{}\n", Members(family, arguments.member).dump(2));
     } else {
-      fmt::print("{}", Text(family, arguments));
+      Say(stdout, "{}", Text(family, arguments));
     }
   }
   return ExitStatus::done;
@@ -251,6 +251,7 @@ Command AddListCommand(CLI::App& program) {
   auto arguments = std::make_shared<ListArguments>();
   CLI::App* parser =
       program.add_subcommand("list", "What there is: laws, identifiers, robots, suites");
+  GiveExample(*parser, "warmjoint list identifiers energy-ml");
 
   std::vector<std::string> names;
   for (const Family& family : Families()) names.push_back(family.name);

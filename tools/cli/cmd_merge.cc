@@ -63,6 +63,7 @@ ExitStatus Merge(const MergeArguments& arguments) {
 Command AddMergeCommand(CLI::App& program) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* parser = program.add_subcommand("merge", "Put the shards of a run together");
+  GiveExample(*parser, "warmjoint merge shard1 shard2 -o runs/whole");
   AddValue(*parser, "SHARD", "RUN", arguments->shards,
            "run directories made with --shard, or one that was planned")
       ->required();

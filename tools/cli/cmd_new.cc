@@ -73,6 +73,7 @@ Command AddNewCommand(CLI::App& program) {
   auto arguments = std::make_shared<NewArguments>();
   CLI::App* parser =
       program.add_subcommand("new", "A commented scenario, suite or identifier to begin with");
+  GiveExample(*parser, "warmjoint new scenario mine");
   // kinds are those of the templates
   std::vector<std::string> kinds;
   for (const Template& one : kTemplates) kinds.emplace_back(one.kind);

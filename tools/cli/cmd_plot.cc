@@ -39,7 +39,7 @@ void WriteAll(Drawn drawn, const std::vector<fs::path>& folders, std::vector<fs:
     words += fmt::format("{}: {}\n", path.string(), file.finding);
   }
   outputs.Write();
-  activity.Aside([&] { PrintLines(stdout, words); });
+  activity.Aside([&] { SayLines(stdout, words); });
 }
 
 /// The folder of each source: DIR for one, DIR/NAME for several.
@@ -110,6 +110,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
 Command AddPlotCommand(CLI::App& program) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG, SVG or PDF files");
+  GiveExample(*parser, "warmjoint plot estimate.json --figure fit -o pictures");
   // what is drawn, and where to
   AddValue(*parser, "SOURCE", "SOURCE", arguments->sources,
            "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
@@ -122,11 +123,11 @@ Command AddPlotCommand(CLI::App& program) {
   // whose data is shown
   AddValue(*parser, "--recording", "RECORDING", arguments->recording.files,
            "data of an estimate, instead of the files that it remembers");
-  AddLayoutOptions(*parser, arguments->recording.read);
 
   // how it looks
   AddPictureOptions(*parser, arguments->pictures);
   parser->add_flag("--data", arguments->data, "also what each picture shows, as NAME.csv");
+  AddLayoutOptions(*parser, arguments->recording.read);
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
             return PlotSources(*arguments);

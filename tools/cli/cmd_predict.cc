@@ -47,7 +47,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
         std::isfinite(metrics.fit) ? fmt::format("{:.2f}", metrics.fit) : "-"}}};
   std::string text = fmt::format("{} of {} ({})\n\n", stored.identifier, arguments.estimate,
                                  StatusName(stored.status)) +
-                     TableToText(table, 1);
+                     TableToText(table, 1, PageOf(stdout));
   // how warm the joint has become
   if (stored.model.friction.thermal) {
     const std::string words =
@@ -92,7 +92,7 @@ ExitStatus Predict(PredictArguments arguments) {
       if (begin.follows) told["follows"] = WriteFields(*begin.follows);
       fmt::print(words, "{}\n", told.dump(2));
     } else {
-      fmt::print(words, "{}", PredictedToText(arguments, stored, predicted, begin));
+      Say(words, "{}", PredictedToText(arguments, stored, predicted, begin));
     }
   });
   return ExitStatus::done;
@@ -108,21 +108,19 @@ Command AddPredictCommand(CLI::App& program) {
   AddValue(*parser, "ESTIMATE", "ESTIMATE", arguments->estimate,
            "estimate.json of identify, or a friction file")
       ->required();
-  AddRecordingOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.prepare);
-
-  // with which heat it begins
+  GiveExample(*parser, "warmjoint predict estimate.json other.csv -o predictions.csv");
+  // what is written and printed, and with which heat it begins
+  AddValue(*parser, "-o,--output", "FILE", arguments->output,
+           "CSV of time, position, velocity, torque, predicted, residual, energy and "
+           "whether the sample was compared");
   AddValue(*parser, "--initial", "cold|end|settled:SPEED", arguments->initial,
            "heat at the first sample: cold; end, that at the end of the estimate's own "
            "recording; settled:SPEED, that of sliding at SPEED for long")
       ->capture_default_str();
   AddFollowOptions(*parser, arguments->earlier);
-
-  // what is written and printed
-  AddValue(*parser, "-o,--output", "FILE", arguments->output,
-           "CSV of time, position, velocity, torque, predicted, residual, energy and "
-           "whether the sample was compared");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
+  AddRecordingOptions(*parser, arguments->recording);
+  AddHoldOptions(*parser, arguments->recording.prepare);
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
             return Predict(*arguments);

@@ -181,6 +181,7 @@ Command AddReportCommand(CLI::App& program) {
       ->required();
   AddValue(*parser, "-o,--output", "FILE", arguments->output,
            "the page; RUN/report.html where it is not given for a run");
+  GiveExample(*parser, "warmjoint report estimate.json -o report.html");
   AddValue(*parser, "--identifier", "IDENTIFIER", arguments->settings.identifier, "of a recording")
       ->capture_default_str();
   AddValue(*parser, "--set", "KEY=VALUE", arguments->set,

@@ -74,8 +74,8 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
   WriteWholeFile(plan.script(),
                  ArrayScript(plan, arguments.sbatch, jobs, ForEachShard(arguments, suite)));
   WritePlan(plan);
-  fmt::print("{}: {} realizations in {} shards\n", run.string(),
-             suite.realizations * suite.variants(), shards);
+  Say(stdout, "{}: {} realizations in {} shards\n", run.string(),
+      suite.realizations * suite.variants(), shards);
   return plan;
 }
 
@@ -90,13 +90,13 @@ ExitStatus RunHere(const Plan& plan, const RunArguments& arguments) {
   const LocalEnd end = RunLocally(plan, static_cast<int>(*arguments.local_shards),
                                   ForEachShard(arguments, plan.suite));
   if (end.interrupted) {
-    fmt::print(stderr, "interrupted: {} of {} shards are finished; the same command goes on\n",
-               plan.shards - plan.Open().size(), plan.shards);
+    Say(stderr, "interrupted: {} of {} shards are finished; the same command goes on\n",
+        plan.shards - plan.Open().size(), plan.shards);
     return ExitStatus::interrupted;
   }
   if (end.failed != 0) {
-    fmt::print(stderr, "shard {} of {} ended with status {}; the same command starts it again\n",
-               end.failed, plan.shards, end.status);
+    Say(stderr, "shard {} of {} ended with status {}; the same command starts it again\n",
+        end.failed, plan.shards, end.status);
     return static_cast<ExitStatus>(end.status > 128 ? 1 : end.status);
   }
   return Conclude(plan);
@@ -109,13 +109,15 @@ ExitStatus SubmitAll(const Plan& plan) {
     Refuse({plan.run.string()}, "is submitted already; see `warmjoint status {}`",
            plan.run.string());
   }
-  fmt::print(stdout, "submitted: shards {}; see: warmjoint status {}\n", Ranges(submitted),
-             plan.run.string());
+  Say(stdout, "submitted: shards {}; see: warmjoint status {}\n", Ranges(submitted),
+      plan.run.string());
   return ExitStatus::done;
 }
 
 /// The options of a run in shards.
 void AddShardOptions(CLI::App& parser, RunArguments& arguments) {
+  AddValue(parser, "--shard", "TEXT", arguments.shard, "part i of n, to be merged later: i/n")
+      ->capture_default_str();
   // where the shards are computed
   parser.add_flag("--slurm", arguments.slurm, "as tasks of a Slurm cluster; see `status`")
       ->group("In shards");
@@ -188,7 +190,7 @@ ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task) {
            arguments.shard, arguments.output, plan.shards);
   }
   const auto say = [&](const char* what) {
-    fmt::print(stdout, "shard {} of {}: {}\n", number, plan.run.string(), what);
+    Say(stdout, "shard {} of {}: {}\n", number, plan.run.string(), what);
     return ExitStatus::done;
   };
   if (plan.IsDone(number)) return say("its results are there already");
@@ -223,8 +225,8 @@ ExitStatus RunCommand(RunArguments arguments) {
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
   const RunOutcome outcome = RunAndTell(arguments, task, arguments.keep, store);
   if (outcome.interrupted) {
-    fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
-               outcome.finished, outcome.total);
+    Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
+        outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
   // tables and words of a run that is over; a shard says little by itself
@@ -238,6 +240,7 @@ Command AddRunCommand(CLI::App& program) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* parser = program.add_subcommand(
       "run", "Run a suite: realizations, identifiers, scores; resumes where it stopped");
+  GiveExample(*parser, "warmjoint run table1 --realizations 20 -o runs/table1");
   // what is run, and where it is kept
   AddValue(*parser, "SUITE", "SUITE", arguments->suite,
            "suite file (YAML), or one of: warmjoint list suites")
@@ -256,9 +259,7 @@ Command AddRunCommand(CLI::App& program) {
            "'name=command {recording} {estimate}'; +NAME or '+name=command ...' adds to "
            "those of the suite; repeatable");
 
-  // which part of it, and what commands may do
-  AddValue(*parser, "--shard", "TEXT", arguments->shard, "part i of n, to be merged later: i/n")
-      ->capture_default_str();
+  // what commands may do
   parser->add_flag("--allow-commands", arguments->allow_commands,
                    "run the commands that the suite names as identifiers");
   parser->add_flag_callback(
@@ -266,6 +267,7 @@ Command AddRunCommand(CLI::App& program) {
       "run commands of identifiers without the sandbox: where the kernel has none, or they need a "
       "GPU");
   parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
+  BeginGroup(*parser, "Many machines");
   AddShardOptions(*parser, *arguments);
   return {parser, [arguments] { return RunCommand(*arguments); }};
 }

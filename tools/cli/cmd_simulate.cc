@@ -140,6 +140,10 @@ Command AddSimulateCommand(CLI::App& program) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* parser =
       program.add_subcommand("simulate", "Simulate a scenario: a recording and its truth");
+  GiveExample(*parser, "warmjoint simulate scenario.yaml --seed 8 -o runs/scenario");
+  AddValue(*parser, "-o,--output", "DIR", arguments->output,
+           "directory for the files, made as a whole")
+      ->required();
   // what is simulated: a scenario, a run's realization or a log's motion
   AddValue(*parser, "SCENARIO", "SCENARIO", arguments->scenario, "scenario file (YAML)");
   AddValue(*parser, "--from", "RUN", arguments->from, "run directory: replay its --realization");
@@ -147,7 +151,6 @@ Command AddSimulateCommand(CLI::App& program) {
   AddValue(*parser, "--motion", "RECORDING", arguments->motion.files,
            "CSV or HDF5 file whose motion is replayed")
       ->expected(1);
-  AddLayoutOptions(*parser, arguments->motion.read);
 
   // what changes of it
   AddValue(*parser, "--set", "ENTRY=VALUE", arguments->set,
@@ -158,11 +161,8 @@ Command AddSimulateCommand(CLI::App& program) {
   AddWholeNumber(*parser, "--realization", arguments->realization, 0, largest,
                  "which of the seed's realizations; default: 0");
 
-  // what is written
   AddChoice(*parser, "--format", arguments->format, {"csv", "h5"}, "of the recording; h5: HDF5");
-  AddValue(*parser, "-o,--output", "DIR", arguments->output,
-           "directory for the files, made as a whole")
-      ->required();
+  AddLayoutOptions(*parser, arguments->motion.read);
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->motion);
             return Simulate(*arguments);

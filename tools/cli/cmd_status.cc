@@ -83,16 +83,19 @@ nlohmann::json StatusJson(const RunStatus& status) {
 void Resubmit(const Plan& plan) {
   const DirectoryLock lock(plan.folder());
   const std::vector<int> again = SubmitOpen(plan);
-  fmt::print(stderr, "{}\n",
-             again.empty() ? "nothing is missing" : "submitted again: shards " + Ranges(again));
+  Say(stderr, "{}\n",
+      again.empty() ? "nothing is missing" : "submitted again: shards " + Ranges(again));
 }
 
 ExitStatus ShowStatus(const StatusArguments& arguments) {
   const Plan plan = ReadPlan(arguments.run);
   if (arguments.resubmit) Resubmit(plan);
   const RunStatus status = StatusOf(plan, AskQueue(plan));
-  fmt::print("{}", arguments.format == "json" ? StatusJson(status).dump(2) + "\n"
-                                              : StatusText(plan, status));
+  if (arguments.format == "json") {
+    fmt::print("{}\n", StatusJson(status).dump(2));
+  } else {
+    Say(stdout, "{}", StatusText(plan, status));
+  }
   return ExitStatus::done;
 }
 
@@ -101,6 +104,7 @@ ExitStatus ShowStatus(const StatusArguments& arguments) {
 Command AddStatusCommand(CLI::App& program) {
   auto arguments = std::make_shared<StatusArguments>();
   CLI::App* parser = program.add_subcommand("status", "Which shards of a planned run have results");
+  GiveExample(*parser, "warmjoint status runs/planned");
   AddValue(*parser, "RUN", "RUN", arguments->run, "directory of `run --slurm` or --local-shards")
       ->required();
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
 
 #include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
@@ -24,8 +27,10 @@ Table ParameterTable(const Estimate& estimate) {
   Table table{{heading, "value", "unit", "std", "95 % interval"}, {}};
   // what is not known is a dash
   for (const EstimatedParameter& one : ShownParameters(estimate)) {
-    table.rows.push_back({one.name, fmt::format("{:.6g}", one.value), one.unit,
-                          one.std ? fmt::format("{:.2g}", *one.std) : "-",
+    // of a value at its bound the range is all that is known
+    const std::optional<std::string> range = RangeAtBound(one);
+    table.rows.push_back({one.name, range.value_or(fmt::format("{:.6g}", one.value)), one.unit,
+                          one.std && !range ? fmt::format("{:.2g}", *one.std) : "-",
                           one.interval95 ? Interval(*one.interval95) : "-"});
   }
   return table;
@@ -58,29 +63,36 @@ std::string RemarksText(const Estimate& estimate, Detail detail) {
   return text;
 }
 
-Table DiagnosticTable(const Estimate& estimate) {
-  Table table{{"test for lack of fit", "p", "effect", "verdict", "finding"}, {}};
-  // a test that was not made has no figures, only a reason
+/// The tests that were made, and below them those that were not, by what they lack.
+std::string TestsText(const Estimate& estimate, const Page& page) {
+  Table table{{"test for lack of fit", "verdict", "finding", "p of all", "effect"}, {}};
+  std::map<std::string, std::vector<std::string>> not_made;
   for (const Diagnostic& one : estimate.diagnostics) {
-    table.rows.push_back({one.test, one.made ? fmt::format("{:.2g}", one.p_adjusted) : "-",
-                          one.made ? fmt::format("{:.2g} {}", one.effect, one.effect_unit) : "-",
-                          !one.made      ? "not made"
-                          : one.rejected ? "lack of fit"
-                                         : "passed",
-                          one.reason});
+    if (!one.made) {
+      not_made[one.reason].push_back(one.test);
+      continue;
+    }
+    table.rows.push_back({one.test, one.rejected ? "lack of fit" : "passed", one.reason,
+                          fmt::format("{:.2g}", one.p_adjusted),
+                          fmt::format("{:.2g} {}", one.effect, one.effect_unit)});
   }
-  return table;
+  std::string text;
+  if (!table.rows.empty()) text += "\n" + TableToText(table, 3, page);
+  if (!not_made.empty()) text += "\ntests that were not made\n";
+  for (const auto& [reason, tests] : not_made) {
+    text += fmt::format("  {}: {}\n", fmt::join(tests, ", "), Printable(reason));
+  }
+  return text;
 }
 
 /// The structures that were tried.
 Table TrialTable(const StructureChoice& choice, const std::string& unit) {
-  Table table{{"structure", "parameters", fmt::format("held-out RMSE {}", unit), "remark"}, {}};
+  Table table{{"structure", "remark", "parameters", fmt::format("held-out RMSE {}", unit)}, {}};
   // which was chosen, and why others were no contenders
   for (const StructureTrial& one : choice.trials) {
-    table.rows.push_back({one.name,
+    table.rows.push_back({one.name, one.name == choice.chosen ? "chosen" : one.dropped,
                           one.parameters > 0 ? fmt::format("{:.3g}", one.parameters) : "-",
-                          one.rmse ? fmt::format("{:.4g}", *one.rmse) : "-",
-                          one.name == choice.chosen ? "chosen" : one.dropped});
+                          one.rmse ? fmt::format("{:.4g}", *one.rmse) : "-"});
   }
   return table;
 }
@@ -100,22 +112,35 @@ std::string AssumptionsText(const Estimate& estimate) {
   return text.empty() ? "" : "\nassumptions\n" + text;
 }
 
-/// What makes intervals reach farther than noise.
+/// The half width of each interval with its parts, the largest first.
 Table HalfWidthTable(const Estimate& estimate) {
-  Table table{{"half width of the interval", "by", "value"}, {}};
+  Table table{{"95 % interval of", "made of", "half width"}, {}};
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<HalfWidthPart>> parts;
   for (const HalfWidthPart& part : estimate.half_widths) {
-    table.rows.push_back({part.parameter, part.by, fmt::format("{:.2g}", part.half_width)});
+    if (!parts.contains(part.parameter)) order.push_back(part.parameter);
+    parts[part.parameter].push_back(part);
+  }
+  for (const std::string& name : order) {
+    std::vector<HalfWidthPart>& of = parts[name];
+    std::ranges::stable_sort(of, std::greater(), &HalfWidthPart::half_width);
+    std::vector<std::string> words;
+    double all = 0;
+    for (const HalfWidthPart& part : of) {
+      words.push_back(fmt::format("{} {:.2g}", part.by, part.half_width));
+      all += part.half_width;
+    }
+    table.rows.push_back(
+        {name, fmt::format("{}", fmt::join(words, ", ")), fmt::format("{:.2g}", all)});
   }
   return table;
 }
 
 /// What intervals are made of, every test for lack of fit and every assumption.
-std::string Explanation(const Estimate& estimate) {
-  std::string text;
-  for (const Table& table : {HalfWidthTable(estimate), DiagnosticTable(estimate)}) {
-    if (!table.rows.empty()) text += "\n" + TableToText(table, table.header.size());
-  }
-  return text + AssumptionsText(estimate);
+std::string Explanation(const Estimate& estimate, const Page& page) {
+  const Table widths = HalfWidthTable(estimate);
+  const std::string text = widths.rows.empty() ? "" : "\n" + TableToText(widths, 2, page);
+  return text + TestsText(estimate, page) + AssumptionsText(estimate);
 }
 
 Colour ColourOf(Status status) {
@@ -160,9 +185,10 @@ std::string FormatCompared(const Estimate& estimate, const Friction& truth,
     return csv;
   }
   return fmt::format(
-      "{}: {}. NPE {:.3g} %: relative error over all parameters of the truth (26).\n\n{}",
+      "{}: {}. NPE {:.3g} %: the relative error over all parameters of the truth, Eq. (26) of the "
+      "paper.\n\n{}",
       Printable(estimate.identifier), StatusName(estimate.status), 100 * npe,
-      format == "text" ? TableToText(table, 1) : TableToMarkdown(table, 1));
+      format == "text" ? TableToText(table, 1, PageOf(stdout)) : TableToMarkdown(table, 1));
 }
 
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
@@ -178,7 +204,7 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   text += RemarksText(estimate, detail);
   // numbers, void or not
   if (!estimate.parameters.empty())
-    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1));
+    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page));
 
   const std::string& unit = measurements.torque_unit;
   if (estimate.gravity && estimate.gravity->kind == GravityKind::paired) {
@@ -191,19 +217,20 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
               {}};
   AddMetrics(table, "all data", estimate.metrics);
   AddMetrics(table, "held out", estimate.holdout);
-  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1));
+  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1, page));
   if (!estimate.without_holdout.empty()) {
     text += fmt::format("\nno held-out figures: {}\n", Printable(estimate.without_holdout));
   }
   // all that the verdict rests on
   if (detail == Detail::full && estimate.choice) {
-    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1);
+    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 2, page);
   }
-  if (detail == Detail::full) text += Explanation(estimate);
+  if (detail == Detail::full) text += Explanation(estimate, page);
   return text;
 }
 
-std::string EstimatesToText(const std::vector<Answered>& answers, const std::string& unit) {
+std::string EstimatesToText(const std::vector<Answered>& answers, const std::string& unit,
+                            const Page& page) {
   Table table{{"identifier", "verdict", "RMSE " + unit, "held-out RMSE"}, {}};
   // a column for each parameter that one of them has
   std::vector<std::string> names;
@@ -229,10 +256,11 @@ std::string EstimatesToText(const std::vector<Answered>& answers, const std::str
     if (estimate.holdout) cells[3] = fmt::format("{:.4g}", estimate.holdout->rmse);
     for (const EstimatedParameter& one : OwnParameters(estimate)) {
       const auto column = std::ranges::find(names, one.name) - names.begin();
-      cells[4 + static_cast<size_t>(column)] = fmt::format("{:.4g}", one.value);
+      cells[4 + static_cast<size_t>(column)] =
+          RangeAtBound(one).value_or(fmt::format("{:.4g}", one.value));
     }
   }
-  return TableToText(table, 2);
+  return TableToText(table, 2, page);
 }
 
 }  // namespace warmjoint

@@ -32,7 +32,8 @@ struct Answered {
 
 /// A table with a row for each: verdict, RMSE on all data and on the part held out, and a column for each parameter.
 /// unit: of the torque.
-std::string EstimatesToText(const std::vector<Answered>& answers, const std::string& unit);
+std::string EstimatesToText(const std::vector<Answered>& answers, const std::string& unit,
+                            const Page& page);
 
 /// An estimate beside the truth, with the NPE and a row for each parameter of the truth: estimate, 95 % interval, truth,
 /// whether the interval holds it, relative error. format: text, markdown, json or csv.

@@ -29,11 +29,11 @@ void HoldStandardFiles() {
   }
 }
 
-/// One line on stderr, whatever the message holds; where that is full too, nothing can be said.
+/// One paragraph on stderr, whatever the message holds; where that is full too, nothing can be said.
 void Complain(const char* kind, const std::string& message) {
   const std::string painted =
       warmjoint::Paint(kind, warmjoint::Colour::red, warmjoint::PageOf(stderr));
-  std::fputs(fmt::format("{}: {}\n", painted, warmjoint::Printable(message)).c_str(), stderr);
+  warmjoint::SayText(stderr, fmt::format("{}: {}\n", painted, warmjoint::Printable(message)));
 }
 
 ExitStatus Run(int argc, char** argv) {

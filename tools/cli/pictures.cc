@@ -104,6 +104,10 @@ PictureSource SourceOf(const std::string& source, const RecordingSource& recordi
 }
 
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
+  AddValue(parser, "--figure", "NAME|N", arguments.figures,
+           "only this one, by its name, or by the number (3 to 12) of the paper's figure "
+           "that it repeats")
+      ->take_all();
   // format and style
   AddChoice(parser, "--format", arguments.setting.format, "of the pictures");
   AddChoice(parser, "--style", arguments.setting.style, {"screen", "dark", "paper"},
@@ -116,17 +120,13 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
   AddNumber(parser, "--dpi", arguments.setting.dpi, {30, 1200, "30 to 1200"},
             "pixels an inch of PNG; the style's where it is not given");
 
-  // titles, and which figures
+  // titles
   const auto show = [&arguments](const std::string& choice) {
     arguments.setting.titled = choice == "shown";
   };
   AddChoice(parser, "--title", show, {"shown", "none"},
             "of the figures, which papers give in the caption")
       ->default_str("shown");
-  AddValue(parser, "--figure", "NAME|N", arguments.figures,
-           "only this one, by its name, or by the number (3 to 12) of the paper's figure "
-           "that it repeats")
-      ->take_all();
 }
 
 PictureSetting SettingOf(const PictureArguments& arguments) {

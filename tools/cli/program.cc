@@ -1,6 +1,10 @@
 // The command line as a whole: its subcommands, and what is said of words that none takes.
 
 #include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -12,14 +16,69 @@ namespace warmjoint {
 namespace {
 
 constexpr const char* kHelp =
-    "Friction of robot joints that warm up: puts it into MuJoCo, recovers it from logs of\n"
+    "Friction of robot joints that warm up: puts it into MuJoCo, recovers it from logs of "
     "position, velocity and torque, and shows against known truth which identifier to trust.";
 
 constexpr const char* kFooter =
     "`warmjoint COMMAND --help` explains each command.\n\n"
-    "Exit status: 0 done, 1 internal error, 2 bad input, 3 identified nothing trustworthy,\n"
-    "4 output could not be written, 5 an identifier answered in no realization of a run,\n"
+    "Exit status: 0 done, 1 internal error, 2 bad input, 3 identified nothing trustworthy, "
+    "4 output could not be written, 5 an identifier answered in no realization of a run, "
     "130 interrupted.";
+
+constexpr const char* kGeneral = "General";  // the group of options that every command has
+
+/// Help as wide as its reader's page: what it is for, how it is called, an example (the footer of a command), the options by group in the
+/// order in which they were added, those of every command last.
+class Help : public CLI::Formatter {
+ public:
+  explicit Help(const Page& page) : width_(static_cast<size_t>(page.width)) {
+    column_width(std::min<size_t>(30, width_ / 2));
+  }
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    const bool is_command = app->get_parent() != nullptr;
+    std::string text = make_description(app) + make_usage(app, std::move(name));
+    if (is_command && !app->get_footer().empty()) text += "Example: " + app->get_footer() + "\n";
+    text += make_positionals(app) + Groups(app) + make_subcommands(app, mode);
+    if (!is_command) text += "\n" + make_footer(app);
+    return Wrapped(text, width_);
+  }
+
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return Row(make_option_name(option, is_positional) + make_option_opts(option),
+               make_option_desc(option));
+  }
+
+  std::string make_subcommand(const CLI::App* command) const override {
+    return Row(command->get_name(), command->get_description());
+  }
+
+ private:
+  /// The options by group, those of every command last.
+  std::string Groups(const CLI::App* app) const {
+    std::vector<std::string> groups = app->get_groups();
+    std::ranges::stable_partition(groups, [](const std::string& one) { return one != kGeneral; });
+    std::string text;
+    for (const std::string& group : groups) {
+      const auto options = app->get_options([&group](const CLI::Option* option) {
+        return option->get_group() == group && option->nonpositional();
+      });
+      if (!options.empty()) text += make_group(group, false, options);
+    }
+    return text;
+  }
+
+  /// A name and what it means: beside it where two blanks part them, else below.
+  std::string Row(const std::string& name, const std::string& meaning) const {
+    const std::string head = "  " + name;
+    const bool fits = head.size() + 2 <= get_column_width();
+    const std::string blanks(get_column_width() - (fits ? head.size() : 0), ' ');
+    return head + (fits ? "" : "\n") + blanks + meaning + "\n";
+  }
+
+  size_t width_;
+};
 
 /// Adds all subcommands to the program's command line.
 std::vector<Command> AddCommands(CLI::App& program) {
@@ -34,8 +93,11 @@ std::vector<Command> AddCommands(CLI::App& program) {
 }
 
 void AddQuiet(CLI::App& parser) {
-  parser.add_flag_callback("-q,--quiet", BeQuiet,
-                           "no progress and no notices; results, warnings and errors stay");
+  parser
+      .add_flag_callback("-q,--quiet", BeQuiet,
+                         "no progress and no notices; results, warnings and errors stay")
+      ->group(kGeneral);
+  parser.get_help_ptr()->group(kGeneral);
 }
 
 /// Throws BadInput for arguments that the parser refused.
@@ -68,8 +130,10 @@ void AddQuiet(CLI::App& parser) {
 
 ExitStatus RunProgram(int argc, const char* const* argv) {
   CLI::App program{kHelp, "warmjoint"};
+  program.formatter(std::make_shared<Help>(PageOf(stdout)));
   program.set_help_flag("-h,--help", "this help");
-  program.set_version_flag("-V,--version", "warmjoint " + Version(), "the program's version");
+  program.set_version_flag("-V,--version", "warmjoint " + Version(), "the program's version")
+      ->group(kGeneral);
 
   // all subcommands, each with --quiet
   program.require_subcommand(1);

@@ -156,8 +156,9 @@ void AddRecordingOptions(CLI::App& parser, RecordingSource& source) {
 }
 
 void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
+  BeginGroup(parser, "How the file is read");
   // columns: their names, units and factors
-  AddPairs(parser, "--map", "columns of the file, as torque=force_N,time=t_s",
+  AddPairs(parser, "--map", "columns of the file, as position=q,velocity=dq,torque=tau,time=t",
            [&settings](const auto& column, const auto& text) { settings.map[column] = text; })
       ->type_name("COLUMN=NAME");
   AddPairs(parser, "--unit", "units of the file, as position=deg,time=ms",
@@ -174,6 +175,18 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
            scale)
       ->type_name("COLUMN=NUMBER");
 
+  // the joint and its drive
+  AddChoice(
+      parser, "--joint", settings.joint,
+      "kind of the joint: rotary, with position in rad and torque in N.m, or linear, with m "
+      "and N",
+      {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});
+  AddValue(parser, "--gear", "NUMBER", settings.gear, "motor turns for each joint turn")
+      ->capture_default_str();
+  AddValue(parser, "--torque-constant", "NUMBER", settings.torque_constant,
+           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m or N "
+           "of --unit torque=A");
+
   // files without a header, or without a clock
   const auto columns = [&settings](const std::string& list) {
     std::vector<std::string_view> names;
@@ -189,16 +202,6 @@ void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
   // sensors that wrap
   AddValue(parser, "--wrap", "NUMBER", settings.wrap,
            "range after which the position starts again, in its unit; a turn is undone anyway");
-
-  // the joint and its drive
-  AddChoice(
-      parser, "--joint", settings.joint, "kind of the joint",
-      {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});
-  AddValue(parser, "--gear", "NUMBER", settings.gear, "motor turns for each joint turn")
-      ->capture_default_str();
-  AddValue(parser, "--torque-constant", "NUMBER", settings.torque_constant,
-           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m or N "
-           "of --unit torque=A");
   parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "models/foundation/excerpt.h"
+#include "tools/shown/shown_estimate.h"
 
 namespace warmjoint {
 namespace {
@@ -14,6 +15,7 @@ std::string Shown(const Estimate& estimate, const char* name) {
   const EstimatedParameter* one = estimate.Find(name);
   if (!one) return "-";
   if (!one->interval95) return fmt::format("{:.3g}", one->value);
+  if (const auto range = RangeAtBound(*one)) return *range;
   const auto& [lower, upper] = *one->interval95;
   return fmt::format("{:.3g} +-{:.1g}", one->value, (upper - lower) / 2);
 }
@@ -47,7 +49,7 @@ std::string RobotToText(const RobotEstimate& robot, const Page& page) {
          Shown(e, "load_gain"), Gain(s), e.parameters.empty() ? "-" : WarmingText(e),
          Number(s.rms_held_out), Number(s.rms_moving), Number(s.rms_without_friction)});
   }
-  std::string text = TableToText(table, 2);
+  std::string text = TableToText(table, 2, page);
   for (const RobotJointEstimate& one : robot.joints) {
     const Colour colour = one.estimate.status == Status::ok ? Colour::green : Colour::yellow;
     text += fmt::format("{}: {}\n", Paint(Printable(one.summary.joint), colour, page),

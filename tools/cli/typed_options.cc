@@ -10,6 +10,12 @@
 
 namespace warmjoint {
 
+void GiveExample(CLI::App& parser, const std::string& command) { parser.footer(command); }
+
+void BeginGroup(CLI::App& parser, const std::string& heading) {
+  parser.option_defaults()->group(heading);
+}
+
 CLI::Option* AddChoice(CLI::App& parser, const std::string& name,
                        const std::function<void(const std::string& choice)>& take,
                        const std::vector<std::string>& choices, const std::string& description,

@@ -14,6 +14,12 @@
 
 namespace warmjoint {
 
+/// What help shows under "Usage": a command that works as it stands, but for the names of files.
+void GiveExample(CLI::App& parser, const std::string& command);
+
+/// Options that are added from here on stand under this heading of the help; without one under "Options", the first.
+void BeginGroup(CLI::App& parser, const std::string& heading);
+
 /// Adds an option, or an argument, whose value is taken as it is written. form: what help shows of the value, "FILE".
 template <typename T>
 CLI::Option* AddValue(CLI::App& parser, const std::string& name, const std::string& form, T& value,

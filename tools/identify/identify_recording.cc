@@ -9,6 +9,7 @@
 #include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 
 namespace warmjoint {
 namespace {
@@ -29,14 +30,42 @@ std::string AbleBy() {
   return Able([](const Options& options) { return (options.Find<Groups>() || ...); });
 }
 
+/// The option of any identifier that a mistyped name means; nothing where none is near, or the identifier's own is as near.
+std::optional<std::string> MeantElsewhere(const std::string& name, const Identifier& identifier) {
+  std::optional<std::string> nearest;
+  // half of the letters right at least
+  int least = static_cast<int>(name.size()) / 2 + 1;
+  const auto look = [&](const Identifier& one) {
+    for (const OptionInfo& info : one.options.List()) {
+      const int distance = EditDistance(name, info.name);
+      if (distance < least) {
+        nearest = info.name;
+        least = distance;
+      }
+    }
+  };
+  look(identifier);
+  for (const Identifier& one : Identifiers()) look(one);
+  if (nearest && identifier.options.Has(*nearest)) return std::nullopt;
+  return nearest;
+}
+
 /// --set. Refuses what this identifier has no option for and others have.
 Options ReadOptions(const std::map<std::string, std::string>& given, const Identifier& identifier) {
   for (const auto& [name, value] : given) {
     if (identifier.options.Has(name)) continue;
-    const std::string able = Able([&](const Options& options) { return options.Has(name); });
-    if (able.empty()) continue;
-    Refuse({"--set"}, "{} has no option '{}'; name one that has it with --identifier: {}",
-           identifier.name, name, able);
+    const auto able = [](const std::string& option) {
+      return Able([&](const Options& options) { return options.Has(option); });
+    };
+    if (const std::string those = able(name); !those.empty()) {
+      Refuse({"--set"}, "{} has no option '{}'; name one that has it with --identifier: {}",
+             identifier.name, name, those);
+    }
+    if (const auto meant = MeantElsewhere(name, identifier)) {
+      Refuse({"--set"},
+             "{} has no option '{}'; did you mean '{}'? Name one that has it with --identifier: {}",
+             identifier.name, Excerpt(name), *meant, able(*meant));
+    }
   }
   return identifier.options.Read(given, {"--set"});
 }
@@ -48,7 +77,7 @@ Options WithStart(const IdentifySettings& settings, const Identifier& identifier
   const char* option = settings.follows ? "--follows" : "--start";
   const auto* group = options.Find<InitialEnergyOptions>();
   if (!group) {
-    Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name,
+    Refuse({option}, "{} cannot estimate the heat at the start; use one of: {}", identifier.name,
            AbleBy<InitialEnergyOptions>());
   }
   // only one option may say how warm the joint is at the start

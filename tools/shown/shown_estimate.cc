@@ -96,6 +96,18 @@ std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate) {
   return shown;
 }
 
+std::optional<std::string> RangeAtBound(const EstimatedParameter& one) {
+  if (!one.interval95) return std::nullopt;
+  const auto [lower, upper] = *one.interval95;
+  // an interval that no bound cuts has its value in the middle, or for a logarithm near it
+  const double at_end = 0.01 * (upper - lower);
+  if (one.value - lower > at_end && upper - one.value > at_end) return std::nullopt;
+  const auto end = [&](double value) {
+    return std::abs(value) < 1e-9 * (upper - lower) ? 0 : value;
+  };
+  return fmt::format("{:.2g} to {:.2g}", end(lower), end(upper));
+}
+
 std::string AsSentence(std::string clause) {
   const std::size_t word = clause.find_first_of(" :_.=");
   const bool is_word = word == std::string::npos || clause[word] == ' ' || clause[word] == ':';

@@ -3,6 +3,7 @@
 
 #include <warmjoint/estimate.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ std::vector<EstimatedParameter> OwnParameters(const Estimate& estimate);
 
 /// The rows of every table of one estimate: friction at speeds first, "friction forwards at 0.3 rad/s", then its parameters.
 std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate);
+
+/// "0 to 0.41" of a value that rests at an end of its interval, since a bound holds it: all that is known is how far it may reach. Nothing
+/// of other values.
+std::optional<std::string> RangeAtBound(const EstimatedParameter& one);
 
 /// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
 std::string AsSentence(std::string clause);

@@ -318,14 +318,13 @@ void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
   if (std::ranges::none_of(identifiers, is_command)) return;
   // that there is no sandbox is a warning, which --quiet keeps
   const std::string words = DescribeSandbox(confinement);
-  if (confinement == Confinement::none) return fmt::print(stderr, "{}\n", words);
+  if (confinement == Confinement::none) return Say(stderr, "{}\n", words);
   SayNotice("{}\n", words);
   for (const SuiteIdentifier& identifier : identifiers) {
     for (const fs::path& secret : secrets) {
       if (!is_command(identifier) || SandboxHides(secret, ReadableBy(identifier))) continue;
-      fmt::print(stderr,
-                 "warning: {} can read {}, which lies in a folder that it may read; move it\n",
-                 identifier.label, secret.string());
+      Say(stderr, "warning: {} can read {}, which lies in a folder that it may read; move it\n",
+          identifier.label, secret.string());
     }
   }
 }

@@ -31,13 +31,21 @@ void BeQuiet();
 
 bool IsQuiet();
 
-/// Prints lines of which no terminal acts on a character (PrintableLines).
-void PrintLines(std::FILE* stream, const std::string& lines);
+/// The text with each line of more than `width` columns broken at blanks; a word that is longer stays whole. What follows begins below the
+/// text of the line: behind its leading blanks, a bullet "* ", or a name with two blanks or more after it.
+std::string Wrapped(std::string_view text, size_t width);
 
-/// Prints a sentence that names what came from outside.
+/// Prints words for people, which may be painted. On a terminal no line is wider than it (Wrapped); a pipe and a file get lines as they
+/// are.
+void SayText(std::FILE* stream, const std::string& text);
+
+/// The same of lines of which no terminal acts on a character (PrintableLines).
+void SayLines(std::FILE* stream, const std::string& lines);
+
+/// The same of a sentence.
 template <typename... Args>
 void Say(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
-  PrintLines(stream, fmt::format(format, std::forward<Args>(args)...));
+  SayLines(stream, fmt::format(format, std::forward<Args>(args)...));
 }
 
 /// What is good to know and asks for nothing: on stderr, unless --quiet.
@@ -52,9 +60,9 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Columns aligned with blanks: the first `left` ones to the left, the others to the right. Those that 80 columns of a terminal have no
-/// room for stand in further tables below, behind the first `left` ones again.
-std::string TableToText(const Table& table, size_t left);
+/// Columns aligned with blanks: the first `left` ones to the left, the others to the right. Those that the page has no room for stand in
+/// further tables below, after the first `left` ones again; where these alone are wider, the widest column is broken at blanks.
+std::string TableToText(const Table& table, size_t left, const Page& page = {});
 
 /// The same as a Markdown table.
 std::string TableToMarkdown(const Table& table, size_t left);

@@ -171,7 +171,7 @@ TEST_F(FollowTest, RefusesWhatCannotFollow) {
               HasSubstr("name that with --follows"));
   EXPECT_THAT(Refusal(With(follows, {"--pause", "-1"})), HasSubstr("0 or more"));
   EXPECT_THAT(Refusal(With(paused, {"--identifier", "nominal-ls"})),
-              HasSubstr("nominal-ls cannot estimate E(0); use one of: energy-ml"));
+              HasSubstr("nominal-ls cannot estimate the heat at the start; use one of: energy-ml"));
   EXPECT_THAT(Refusal(With(paused, {"--start", "estimated"})), HasSubstr("leave one of them"));
   EXPECT_THAT(Refusal({"identify", "day1.csv", "day2.csv", "--follows", "day1.json"}),
               HasSubstr("is for one recording"));

@@ -61,6 +61,8 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"identify", "log.csv", "--identifier", "energyml"}, "'energy-ml'"},
       {{"identify", "log.csv", "--identifier", "energy-ml", "--set", "lw=coulomb"}, "'law'"},
       {{"identify", "log.csv", "--set", "law=coulomb"}, "energy-ml"},
+      {{"identify", "log.csv", "--set", "lawn=coulomb"}, "'law'? Name one that has it"},
+      {{"identify", "log.csv", "--set", "block=6"}, "'blocks'"},
       {{"identify", "log.csv", "--identifier", "energy-ml", "--set", "law=asymetric"},
        "'asymmetric'"},
       {{"identify", "log.csv", "--gravity", "sin"}, "'sincos'"},
@@ -112,6 +114,8 @@ const std::vector<WrongUsage>& WrongUsages() {
       // robots
       {{"attach", "pendulm", "--joint", "hinge=f.json", "-o", "d.xml"}, "'pendulum'"},
       {{"attach", "pendulum", "--joint", "hinge", "-o", "d.xml"}, "NAME=FILE"},
+      {{"attach", "pendulum", "--joint", "hinge=log.csv", "-o", "d.xml"},
+       "warmjoint identify log.csv -o estimate.json"},
       {{"attach", "pendulum", "--joint", "hinge=f.json", "-o", "d.xml", "--as", "pasive"},
        "'passive'"},
       {{"attach", "pendulum", "--joint", Pendulum("hing"), "-o", "d.xml"}, "'hinge'"},

@@ -1,12 +1,17 @@
 // The program on a terminal and in a pipe: colours, progress.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <regex>
+#include <sstream>
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/folders.h"
 #include "tests/tools/cli/in_a_folder.h"
 #include "tests/tools/cli/little_files.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {
@@ -55,6 +60,75 @@ class OnTerminal : public Terminal {
     return RunOnTerminal(arguments, columns, {scratch_.path(), environment});
   }
 };
+
+/// The columns of the widest line, without colours.
+size_t WidestLine(const std::string& text) {
+  size_t widest = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    line = std::regex_replace(line, std::regex("\033\\[[0-9;]*[mK]|\r"), "");
+    widest = std::max(widest, line.size());
+  }
+  return widest;
+}
+
+/// The words of a text without how they are laid out.
+std::vector<std::string> WordsOf(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+TEST(Wrapped, BreaksAtBlanksBelowTheTextOfALine) {
+  EXPECT_EQ(Wrapped("one two three", 9), "one two\nthree");
+  EXPECT_EQ(Wrapped("  one two three\nfour\n", 9), "  one two\n  three\nfour\n");
+  EXPECT_EQ(Wrapped("* one two three", 9), "* one two\n  three");
+  EXPECT_EQ(Wrapped("key  one two three", 12), "key  one two\n     three");
+  EXPECT_EQ(Wrapped("a_word_that_is_long and more", 8), "a_word_that_is_long\nand more");
+  // what takes no column does not count
+  EXPECT_EQ(Wrapped("\033[1;32mok\033[0m it is \xc2\xb0", 10),
+            "\033[1;32mok\033[0m it is \xc2\xb0");
+  EXPECT_EQ(Wrapped("", 9), "");
+}
+
+TEST(TableToText, BreaksTheWidestCellWhereThePageIsTooNarrow) {
+  const Table table{{"name", "finding"}, {{"a", "one two three four five six seven"}, {"b", "-"}}};
+  EXPECT_EQ(TableToText(table, 2, {.width = 30}),
+            "name  finding\n------------------------------\na     one two three four five\n"
+            "      six seven\nb     -\n");
+}
+
+TEST_F(Terminal, HelpFitsAndBeginsWithAnExample) {
+  for (const char* command :
+       {"list", "new", "simulate", "convert", "check", "identify", "identify-robot", "predict",
+        "attach", "run", "status", "merge", "compare", "plot", "report", "export"}) {
+    const std::string help = Call({command, "--help"}).out;
+    EXPECT_LE(WidestLine(help), 80u) << help;
+    const size_t example = help.find(std::string("Example: warmjoint ") + command);
+    EXPECT_LT(example, help.find("\nOptions:")) << help;
+    EXPECT_LT(help.find("\nOptions:"), help.find("--help")) << command;
+  }
+  EXPECT_LE(WidestLine(Call({"--help"}).out), 80u);
+}
+
+TEST_F(OnTerminal, WordsAreBrokenAtItsWidthAndNowhereElse) {
+  WriteLog(600);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"check", "log.csv"},
+        {"identify", "log.csv", "--identifier", "nominal-ls", "--explain"},
+        {"identify", "log.csv", "--set", "law=asymmetric"},
+        {"identify", "--help"}}) {
+    const ProgramAnswer shown = On(100, command, {{"TERM", "dumb"}});
+    EXPECT_LE(WidestLine(shown.out), 100u) << shown.out;
+    const ProgramAnswer piped = Program(command);
+    EXPECT_EQ(shown.status, piped.status);
+  }
+  // a file has each sentence on a line
+  const std::vector<std::string> refused{"identify", "log.csv", "--set", "law=asymmetric"};
+  const std::string said = Program(refused).err;
+  EXPECT_EQ(std::ranges::count(said, '\n'), 1);
+  EXPECT_GT(said.size(), 50u);
+  EXPECT_EQ(WordsOf(On(50, refused, {{"TERM", "dumb"}}).out), WordsOf(said));
+}
 
 TEST_F(OnTerminal, VerdictHasItsColourWhereOneIsWanted) {
   WriteLog(600);

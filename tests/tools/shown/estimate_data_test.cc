@@ -9,6 +9,7 @@
 
 #include "tests/tools/shown/warm_recording.h"
 #include "tools/shown/kernel_example.h"
+#include "tools/shown/shown_estimate.h"
 
 namespace warmjoint::shown {
 namespace {
@@ -30,6 +31,19 @@ TEST(ShownData, IsALineOfJsonAndTheArraysBehindIt) {
   EXPECT_TRUE(std::isnan(numbers[2]));
   EXPECT_THAT(std::vector<double>(numbers + 3, numbers + 9),
               testing::ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST(RangeAtBound, StandsForAValueThatABoundHolds) {
+  const auto range = [](double value, double lower, double upper) {
+    return RangeAtBound({"viscous", value, "N.m.s/rad", 0.2, {{lower, upper}}});
+  };
+  EXPECT_EQ(range(1.2e-18, 0, 0.41), "0 to 0.41");
+  EXPECT_EQ(range(0, 0, 0.41), "0 to 0.41");
+  EXPECT_EQ(range(3, 1, 3), "1 to 3");
+  EXPECT_FALSE(range(0.2, 0, 0.41));
+  EXPECT_FALSE(range(0.02, 0, 0.41))
+      << "within the interval: its bound cuts it, and the value is known";
+  EXPECT_FALSE(RangeAtBound({"viscous", 0, "N.m.s/rad", {}, {}}));
 }
 
 TEST(ViewFacts, HoldsColumnsAndWhatTestsAskAndAdvise) {
