@@ -13,6 +13,14 @@ View ViewFor(const Identifier& identifier, const IdentifierInput& input) {
 
 }  // namespace
 
+Options WithoutInertia(const Options& options) {
+  const auto* given = options.Find<MotionOption>();
+  if (!given) return options;
+  MotionOption without = *given;
+  without.inertia = PartFit::none;
+  return options.With(without);
+}
+
 const LogView& SeenThrough(View view, const PreparedLog& log) {
   switch (view) {
     case View::raw:

@@ -11,17 +11,23 @@
 
 namespace warmjoint {
 
-/// The option of an identifier that can follow motion of any kind.
+/// The options of an identifier that can follow motion of any kind.
 struct MotionOption {
   MotionKind motion = MotionKind::chosen;
+  PartFit inertia = PartFit::estimated;
 
   template <class A>
   void Serialize(A* a) {
     a->Field("motion", &motion,
              {.meaning = "constant: samples at constant speed; any: all that move, with inertia "
                          "beside friction; chosen: any where the log holds no speeds"});
+    a->Field("inertia", &inertia,
+             {.meaning = "torque for acceleration, in motion of any kind, or none"});
   }
 };
+
+/// The same options with an inertia of 0, where an inertia may be asked for.
+Options WithoutInertia(const Options& options);
 
 /// The loss of the residuals that a fit minimises.
 enum class LossKind { squares, huber };

@@ -32,6 +32,12 @@ Eigen::VectorXd FrictionIn(const Fit& fit, const LogSamples& m) {
   return force;
 }
 
+/// Whether any figure is known to be above 0.
+bool IsKnown(const std::vector<SpeedFigure>& at_speeds) {
+  return std::ranges::any_of(at_speeds,
+                             [](const SpeedFigure& one) { return one.at.interval95[0] > 0; });
+}
+
 Cause Floor(Source source, Status status, std::string sentence) {
   return {.source = source,
           .action = Action::refuse,
@@ -41,7 +47,12 @@ Cause Floor(Source source, Status status, std::string sentence) {
 
 }  // namespace
 
-std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& inference) {
+bool LeavesTooMuch(double left, double friction, double others) {
+  return friction >= others && left > kMostLeft * friction;
+}
+
+std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& by_noise,
+                                double relevance) {
   const auto used = static_cast<double>(fit.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {
@@ -49,24 +60,26 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
                  ExplainFewSamples(used, moving, kFewest, kLeastShare,
                                    m.acceleration ? MotionKind::any : MotionKind::constant));
   }
-  const double friction = RootMeanSquare(FrictionIn(fit, m));
+  const Eigen::VectorXd along = FrictionIn(fit, m);
+  const double friction = RootMeanSquare(along);
   const double share = friction / RootMeanSquare(fit.torque);
   if (share < kNoFriction) {
     return Floor(Source::no_friction, Status::inadequate_model, ExplainNoFriction(share));
   }
-  if (const auto row = fit.RowOf(Role::inertia)) {
-    const auto& interval = inference.parameters[*row].interval95;
-    if (interval && (*interval)[1] < 0) {
-      return Floor(Source::impossible, Status::inadequate_model,
-                   ExplainNegativeInertia(fit.parameters[*row], *interval));
-    }
+  // an inertia below 0 that was taken out, without which the friction is another
+  const auto inertia = std::ranges::find(fit.causes, Source::findings, &Cause::source);
+  if (inertia != fit.causes.end() && inertia->size > relevance * friction) {
+    return Floor(Source::impossible, Status::inadequate_model,
+                 ExplainInertiaMatters(
+                     inertia->sentence, relevance,
+                     IsKnown(by_noise.at_speeds) ? TorqueSign::known : TorqueSign::doubtful));
   }
 
   // how much of the torque is explained, and how large the residual is relative to the friction
   const double left = fit.residual().squaredNorm();
   const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
   const double explained = 100 * (1 - std::sqrt(left / by_mean));
-  if (left - by_mean > kWorse * inference.uncertainty.noise.variance_inflation * left / used) {
+  if (left - by_mean > kWorse * by_noise.uncertainty.noise.variance_inflation * left / used) {
     return Floor(Source::worse_than_mean, Status::inadequate_model,
                  ExplainWorseThanMean(explained, fit));
   }
@@ -77,13 +90,13 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
                  ExplainPoorFit(explained, kLeastFit, fit));
   }
   const double beside = std::sqrt(left / used);
-  if (beside <= kMostLeft * friction) return std::nullopt;
+  if (!LeavesTooMuch(beside, friction, RootMeanSquare(fit.fitted - along))) return std::nullopt;
   return Floor(Source::worse_than_mean, Status::inadequate_model,
                ExplainMuchLeft(beside, friction, fit));
 }
 
-std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool several_speeds, const Fit& fit) {
-  if (!several_speeds || held_out.n < kFewest || held_out.fit >= 0) return std::nullopt;
+std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool varied, const Fit& fit) {
+  if (!varied || held_out.n < kFewest || held_out.fit >= 0) return std::nullopt;
   return Floor(Source::worse_than_mean, Status::inadequate_model,
                ExplainWorseHeldOut(held_out.fit, fit));
 }

@@ -14,6 +14,7 @@
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/apply.h"
+#include "identification/inference/bounds.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
@@ -137,7 +138,7 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
     return std::make_shared<const Selection>(WithoutSettling(input.selection, time, settling));
   };
   const auto fit_to = [&](const Selection& samples) {
-    return EnforceBounds(identifier.fit(input.With(samples)), input.measurements);
+    return FitWithinBounds(identifier.fit, input.With(samples));
   };
   SettledFit settled{fit_to(input.selection)};
   Fit plain;  // to all samples
@@ -231,7 +232,7 @@ LackOfFit FindCauses(const Identifier& identifier, const IdentifierInput& input,
     answer.inferred.at_speeds = answer.by_noise.at_speeds;
     found = FindLackOfFit(identifier, seen, answer.fit, answer.inferred, model, judging);
     if (answer.inferred.status == Status::ok && !IsRefused(found.causes)) {
-      auto floor = FloorCause(answer.fit, seen.measurements, answer.inferred);
+      auto floor = FloorCause(answer.fit, seen.measurements, answer.by_noise, judging.relevance);
       if (floor) found.causes.push_back(std::move(*floor));
       auto late_torque = DelayCause(identifier, input, answer.fit);
       if (late_torque) found.causes.push_back(std::move(*late_torque));
@@ -289,9 +290,9 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   return answer;
 }
 
-void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer) {
+void JudgeHeldOut(const Metrics& held_out, bool varied, Answer& answer) {
   if (answer.judged.status != Status::ok) return;
-  auto floor = FloorOfHeldOut(held_out, several_speeds, answer.fit);
+  auto floor = FloorOfHeldOut(held_out, varied, answer.fit);
   if (!floor) return;
   std::vector<Cause> causes = answer.judged.causes;
   causes.push_back(std::move(*floor));
@@ -317,7 +318,7 @@ Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& i
 
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& given) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  Fit fit = EnforceBounds(identifier.fit(input), input.measurements);
+  Fit fit = FitWithinBounds(identifier.fit, input);
   NameOneSpeed(input.measurements, input.selection, fit);
   Inference by_noise = ByNoise(fit);
   const std::vector<Cause> causes = OwnCauses(fit, by_noise);

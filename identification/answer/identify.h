@@ -38,7 +38,7 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& input,
                    const LackOfFitSettings& judging = {});
 
 /// Refuses an answer that figures on samples which a fit to others has not seen contradict (FloorOfHeldOut).
-void JudgeHeldOut(const Metrics& held_out, bool several_speeds, Answer& answer);
+void JudgeHeldOut(const Metrics& held_out, bool varied, Answer& answer);
 
 /// The judged answer as an estimate: FitAndCheck, ReportFit.
 Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& input,

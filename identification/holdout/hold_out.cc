@@ -37,10 +37,11 @@ Selection Within(Selection first, const Selection& chosen) {
   return first;
 }
 
-/// Whether speeds, of one direction or both, differ by more than a tenth. test: keeps one sample at least
-bool MovesAtSeveralSpeeds(const LogSamples& m, const Selection& test) {
-  const Eigen::ArrayXd speed = Kept(m.velocity, test).cwiseAbs();
-  return speed.maxCoeff() > 1.1 * speed.minCoeff();
+/// Whether the joint moves in both directions, at speeds that differ by more than a tenth. test: keeps one sample at least
+bool IsVaried(const LogSamples& m, const Selection& test) {
+  const Eigen::ArrayXd velocity = Kept(m.velocity, test), speed = velocity.abs();
+  const bool both = velocity.minCoeff() < 0 && velocity.maxCoeff() > 0;
+  return both && speed.maxCoeff() > 1.1 * speed.minCoeff();
 }
 
 }  // namespace
@@ -62,8 +63,8 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   const bool steady = input.view == View::constant_speed;
   const Selection chosen = steady ? Within(all.selection, input.selection) : all.selection;
   const IdentifierInput seen = all.With(chosen);
-  Fit fit = all_data.structure ? all_data.structure(seen) : identifier.fit(seen);
-  return FirstPart{split, EnforceBounds(std::move(fit), seen.measurements)};
+  const MakeFit make = all_data.structure ? all_data.structure : identifier.fit;
+  return FirstPart{split, FitWithinBounds(make, seen)};
 }
 
 HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, double fraction,
@@ -84,7 +85,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
     if (unseen != starts.end()) test.keep.tail(input.measurements.size() - *unseen) = false;
   }
   if (auto metrics = Evaluate(first->fit, input.measurements, test, first->fit.Start())) {
-    return {std::move(metrics), "", MovesAtSeveralSpeeds(input.measurements, test)};
+    return {std::move(metrics), "", IsVaried(input.measurements, test)};
   }
 
   // a fit without friction predicts nothing; else the rest holds no sample to compare

@@ -31,8 +31,8 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
 struct HeldOut {
   std::optional<Metrics> metrics;
   std::string why_none;  // a clause; empty where there are figures
-  /// whether the joint moves at more than one speed in the samples of the figures
-  bool several_speeds = false;
+  /// whether the joint moves in both directions, at more than one speed, in the samples of the figures
+  bool varied = false;
 };
 
 /// FitFirstPart, evaluated on the kept samples of the

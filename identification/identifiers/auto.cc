@@ -19,6 +19,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/model_comparison.h"
 #include "identification/identifiers/structures.h"
+#include "identification/inference/bounds.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/preparation/check.h"
@@ -255,10 +256,15 @@ Fit FitChosen(const IdentifierInput& input) {
     chosen = chosen.With(LagOption{PartFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
-  Fit fit = FitOnAll(chosen, late, input);
+  const MakeFit make = [&](const IdentifierInput& other) { return FitOnAll(chosen, late, other); };
+  Fit fit = WithoutNegativeInertia(make(input), input, make);
 
   // what is reported, and the same structure for other samples
   reported.chosen = chosen.Name();
+  const auto inertia = fit.RowOf(Role::inertia);
+  if (inertia && !fit.parameters[*inertia].estimated) {
+    chosen.identifier.options = WithoutInertia(chosen.identifier.options);
+  }
   fit.identifier = kName;
   fit.summary = SummaryOfChoice(NotShown(fit, input.log), reported.reason, fit.summary);
   fit.choice = std::move(reported);

@@ -15,6 +15,7 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/lagged_rows.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/torque_delay.h"
 #include "models/friction/laws.h"
@@ -98,8 +99,10 @@ Structure Structure::Quick() const {
 }
 
 Options Structure::OptionsWith(const Options& input) const {
-  if (!identifier.options.Find<InitialEnergyOptions>()) return identifier.options;
-  return identifier.options.With(input.Get<InitialEnergyOptions>());
+  Options with = identifier.options;
+  if (with.Find<InitialEnergyOptions>()) with = with.With(input.Get<InitialEnergyOptions>());
+  if (input.OrDefault<MotionOption>().inertia == PartFit::none) with = WithoutInertia(with);
+  return with;
 }
 
 Fit Structure::Fitted(const IdentifierInput& input) const {

@@ -12,6 +12,9 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
+#include "identification/inference/apply.h"
+#include "identification/seen_samples.h"
+#include "identification/sentences/friction.h"
 #include "identification/sentences/law.h"
 #include "models/friction/parameter_rows.h"
 
@@ -45,6 +48,23 @@ bool RisesFromRest(const Friction& friction) {
 Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
   const auto followed = Followed(logged, fit.used, PartsOf(fit));
   return TorqueAlong(fit, followed ? followed->measurements : logged);
+}
+
+/// F of a fit along the motion of a log, at the samples that the fit used. [n] N.m or N
+Eigen::VectorXd FrictionOver(const Fit& fit, const LogSamples& logged, const Selection& used) {
+  const auto followed = Followed(logged, fit.used, {fit.friction, fit.gravity, fit.torque_delay});
+  const LogSamples& m = followed ? followed->measurements : logged;
+  return Kept(PredictFriction(fit.friction, m, fit.Start()).force, used);
+}
+
+/// The 95 % interval of an inertia that was fitted and lies below 0 with the whole of it.
+std::optional<std::array<double, 2>> IntervalBelowZero(const Fit& fit, std::size_t inertia) {
+  const FitParameter& row = fit.parameters[inertia];
+  if (!row.estimated || !(row.value < 0)) return std::nullopt;
+  const Inference inferred = Apply(ByNoise(fit), fit.causes);
+  if (inferred.status != Status::ok) return std::nullopt;
+  const auto& interval = inferred.parameters[inertia].interval95;
+  return interval && (*interval)[1] < 0 ? interval : std::nullopt;
 }
 
 /// Changes the table by changes of x, [p], and the model with it.
@@ -134,6 +154,40 @@ void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements,
   fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
   fit.end_energy = nullptr;
   fit.causes.push_back(Moved(fit.parameters, sentence));
+}
+
+Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit& make) {
+  const auto row = fit.RowOf(Role::inertia);
+  if (fit.refusal || IsRefused(fit.causes) || !row) return fit;
+  const auto interval = IntervalBelowZero(fit, *row);
+  if (!interval) return fit;
+  Fit without = make(input.With(WithoutInertia(input.options)));
+  const FitParameter& inertia = fit.parameters[*row];
+  if (without.refusal) {
+    fit.causes.push_back(
+        Invalidate(Status::inadequate_model, ExplainNegativeInertia(inertia, *interval)));
+    return fit;
+  }
+
+  // what the inertia changes of law and heat, and of the friction along the log
+  Cause cause{.source = Source::findings, .action = Action::widen};
+  for (std::size_t i = 0; i < without.parameters.size(); ++i) {
+    const FitParameter& one = without.parameters[i];
+    const auto other = std::ranges::find(fit.parameters, one.name, &FitParameter::name);
+    if (!one.estimated || one.name.empty() || other == fit.parameters.end()) continue;
+    cause.Add(i, other->value - one.value);
+  }
+  const LogSamples& m = input.measurements;
+  const Eigen::VectorXd friction = FrictionOver(without, m, without.used);
+  const Eigen::VectorXd change = FrictionOver(fit, m, without.used) - friction;
+  cause.size = std::sqrt(change.squaredNorm() / static_cast<double>(change.size()));
+  cause.sentence = ExplainHeldInertia(inertia, *interval, change.norm() / friction.norm());
+  without.causes.push_back(std::move(cause));
+  return without;
+}
+
+Fit FitWithinBounds(const MakeFit& make, const IdentifierInput& input) {
+  return EnforceBounds(WithoutNegativeInertia(make(input), input, make), input.measurements);
 }
 
 }  // namespace warmjoint

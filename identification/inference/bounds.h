@@ -1,10 +1,12 @@
 // The physical bounds of a friction: whether the values of a fit keep them, and whether its intervals reach into them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "identification/fit.h"
+#include "identification/identifier.h"
 #include "identification/inference/cause.h"
 #include "identification/inference/inference.h"
 
@@ -27,5 +29,17 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 /// lies beyond its bound with its whole interval, and where it has maps (RepeatedFit holds their laws) or free gravity.
 /// by_noise: of the fit, whatever its bounds; measurements: of the fit.
 void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit);
+
+/// How a fit is made: of other samples, or with other options.
+using MakeFit = std::function<Fit(const IdentifierInput&)>;
+
+/// The fit itself, or, where it puts the inertia below 0 with its whole interval, which no joint has, the fit with an inertia
+/// of 0. A row of that fit widens by the differences of both, Source::findings; its size is by how much the friction along the log
+/// differs, rms over the samples that were used, N.m or N. Where there is no fit with an inertia of 0, the fit itself is refused.
+/// fit: made of the input by `make`
+Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit& make);
+
+/// A fit with its inertia and its friction within their bounds: WithoutNegativeInertia, EnforceBounds.
+Fit FitWithinBounds(const MakeFit& make, const IdentifierInput& input);
 
 }  // namespace warmjoint

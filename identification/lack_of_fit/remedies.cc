@@ -5,14 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/lack_of_fit/gears.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/preparation/check.h"
 #include "identification/sentences/remedies.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/robust_noise.h"
 #include "models/friction/laws.h"
 #include "models/friction/parameter_rows.h"
 #include "models/recording/measurements.h"
@@ -33,7 +38,6 @@ constexpr size_t kMostSpeedKernels = 64;  // for each direction; why: most that 
 constexpr size_t kKernelsAPeriod = 3;     // why: a wave has two coefficients, and kernels overlap
 constexpr double kOfAMotor =
     20;  // waves a turn; why: bearings and cams make fewer, gears of 10 and more as many
-constexpr double kMostOfAGear = 160;  // why: strain wave gears go so far
 
 /// What a model holds already, whoever fitted it: the advice for `auto` is not to try what it chose.
 bool HasMap(const Advice& advice, MapQuantity quantity) {
@@ -107,29 +111,16 @@ bool MayBeGravity(const Advice& advice) {
   return advice.input.measurements.joint == JointKind::rotary && slow && !advice.fit.gravity;
 }
 
-/// The gear of a motor whose ripple a test over the position found: the strongest wave returns 2, 4, 8, ... times in a turn of the
-/// motor, by the fewest that leave a common gear, and other waves that fit are multiples, too. 0: of no motor.
-int GearOf(const Advice& advice) {
+/// The gears of a motor whose ripple a test over the position found, by what the fit leaves; none of no motor.
+std::vector<int> GearsOf(const Advice& advice) {
   const LogSamples& m = advice.input.measurements;
-  const auto waves = [](double period) { return 2 * std::numbers::pi / period; };
-  const double strongest = waves(advice.finding.period);
-  if (m.joint != JointKind::rotary || KnowsMotorAngle(m)) return 0;
-  if (!(strongest >= kOfAMotor) || !std::isfinite(strongest)) return 0;
-  double times = 2;
-  while (strongest / times > kMostOfAGear) times *= 2;
-
-  // by least squares of multiple * gear - waves, of those that lie no farther off than half a step of the frequencies
-  const double travel = m.position.maxCoeff() - m.position.minCoeff();
-  const double half = std::numbers::pi / travel / 2;
-  double products = times * strongest, squares = times * times;
-  for (const double period : advice.finding.periods) {
-    const double gear = products / squares, multiple = std::round(waves(period) / gear);
-    if (period == advice.finding.period || multiple < 1) continue;
-    if (std::abs(waves(period) - multiple * gear) > half * (1 + multiple / times)) continue;
-    products += multiple * waves(period);
-    squares += multiple * multiple;
-  }
-  return static_cast<int>(std::lround(products / squares));
+  const double strongest = 2 * std::numbers::pi / advice.finding.period;
+  if (m.joint != JointKind::rotary || KnowsMotorAngle(m)) return {};
+  if (!(strongest >= kOfAMotor) || !std::isfinite(strongest)) return {};
+  const Selection& used = advice.fit.used;
+  const Eigen::VectorXd residual = advice.fit.residual();
+  if (used.keep.size() != m.size() || used.count() != residual.size()) return {};
+  return GearsOf(Kept(m.position, used), Kept(m.velocity, used), residual, MedianStep(m.time));
 }
 
 }  // namespace
@@ -311,10 +302,10 @@ Remedy RemedyForPosition(const Advice& advice) {
   constexpr size_t most = kMostKernels / kKernelsAPeriod;
 
   // ripple of a motor whose angle the log does not have
-  if (const int gear = GearOf(advice)) {
-    return Try(advice,
-               WithMap(advice, MapQuantity::motor_position).With("gear", std::to_string(gear)),
-               ExplainByMotor(acts, gear));
+  if (const std::vector<int> gears = GearsOf(advice); !gears.empty()) {
+    const std::string likeliest = std::to_string(gears.front());
+    return Try(advice, WithMap(advice, MapQuantity::motor_position).With("gear", likeliest),
+               ExplainByMotor(acts, gears));
   }
 
   // ripple that returns more often than a map has kernels for

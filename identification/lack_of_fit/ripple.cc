@@ -129,20 +129,6 @@ MatrixXd WavesOver(Index bins, double frequency) {
   return Waves(step * (Eigen::ArrayXd::LinSpaced(bins, 0, last) + 0.5));
 }
 
-/// |sum over n of x[n] exp(-2 pi i k n / length)|^2 for k = 0 to last < length. x: [n], n <= length: zeros follow; length: best
-/// a power of 2
-VectorXd PowerSpectrum(const VectorXd& x, Index length, Index last) {
-  VectorXd padded = VectorXd::Zero(length);
-  padded.head(x.size()) = x;
-  // one number is its own transform, which Eigen's is not made for
-  if (length == 1) return padded.cwiseAbs2();
-  // one transform a thread, which keeps its tables
-  static thread_local Eigen::FFT<double> transform;
-  Eigen::VectorXcd spectrum;
-  transform.fwd(spectrum, padded);
-  return spectrum.head(last + 1).cwiseAbs2();
-}
-
 /// The frequency that explains most if it covers the axis evenly, times the axis' step; 0 where none does. totals: of the bins
 int StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
                        const MatrixXd& totals) {
@@ -300,6 +286,18 @@ std::optional<Finding> TestAxis(const AngleAxis& axis, const VectorXd& velocity,
 }
 
 }  // namespace
+
+VectorXd PowerSpectrum(const VectorXd& x, Index length, Index last) {
+  VectorXd padded = VectorXd::Zero(length);
+  padded.head(x.size()) = x;
+  // one number is its own transform, which Eigen's is not made for
+  if (length == 1) return padded.cwiseAbs2();
+  // one transform a thread, which keeps its tables
+  static thread_local Eigen::FFT<double> transform;
+  Eigen::VectorXcd spectrum;
+  transform.fwd(spectrum, padded);
+  return spectrum.head(last + 1).cwiseAbs2();
+}
 
 std::optional<Finding> TestRipple(const LackOfFitTest& test, const FittedModel& model,
                                   const LogSamples& m, VectorXd& residual, ErrorLevel& level) {

@@ -12,6 +12,10 @@
 
 namespace warmjoint {
 
+/// |sum over n of x[n] exp(-2 pi i k n / length)|^2 for k = 0 to last < length. x: [n], n <= length: zeros follow; length: best
+/// a power of 2
+Eigen::VectorXd PowerSpectrum(const Eigen::VectorXd& x, Eigen::Index length, Eigen::Index last);
+
 /// Looks for ripple a cos(2 pi f phase) + b sin(2 pi f phase) along the motor's angle or along the
 /// travel, as the test is over, with a and b for each direction of motion, one frequency after the
 /// other: the strongest is tested by Hotelling's T^2 over kParts parts of the recording, its

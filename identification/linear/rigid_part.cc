@@ -8,6 +8,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/gravity.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/seen_samples.h"
 #include "identification/sentences/law.h"
 
 namespace warmjoint {
@@ -118,7 +119,8 @@ std::optional<Refusal> PrepareRigid(const IdentifierInput& input, RigidPart& fit
 
   // the inertia, after gravity
   const auto& acceleration = input.measurements.acceleration;
-  fit.inertia = acceleration.has_value();
+  const PartFit asked = input.options.OrDefault<MotionOption>().inertia;
+  fit.inertia = acceleration.has_value() && asked == PartFit::estimated;
   if (fit.inertia) fit.columns = ConcatColumns(fit.columns, *acceleration);
   return std::nullopt;
 }
@@ -130,9 +132,12 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
     fit.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};
     Append(GravityParameters(rigid.kind, values.head(q), measurements), fit);
   }
-  if (!rigid.inertia) return;
-  fit.inertia = values[q];
-  Append({InertiaParameter(values[q], measurements)}, fit);
+  if (!measurements.acceleration) return;
+  // without a column it is given, as 0
+  fit.inertia = rigid.inertia ? values[q] : 0;
+  FitParameter row = InertiaParameter(*fit.inertia, measurements);
+  row.estimated = row.has_interval = rigid.inertia;
+  Append({row}, fit);
 }
 
 Eigen::MatrixXd ConcatColumns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

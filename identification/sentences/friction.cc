@@ -17,6 +17,12 @@ std::string_view BesideFriction(const Fit& fit) {
                      : "is there gravity (--gravity sincos), or a wrong sign or unit?";
 }
 
+/// "inertia is -0.1 kg.m^2, below 0 with its whole 95 % interval, -0.2 to -0.05"
+std::string BelowZero(const FitParameter& inertia, const std::array<double, 2>& interval95) {
+  return fmt::format("inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}",
+                     inertia.value, inertia.unit, interval95[0], interval95[1]);
+}
+
 }  // namespace
 
 std::string ExplainDriving(double time, std::string_view remedy) {
@@ -77,10 +83,25 @@ std::string ExplainNoFriction(double share) {
 std::string ExplainNegativeInertia(const FitParameter& inertia,
                                    const std::array<double, 2>& interval95) {
   return fmt::format(
-      "inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}: the torque is "
-      "late or early against the motion, has the wrong sign (--scale torque=-1), or another load "
-      "acts",
-      inertia.value, inertia.unit, interval95[0], interval95[1]);
+      "{}, and there is no fit without it: the torque is late or early against the "
+      "motion, or another load acts",
+      BelowZero(inertia, interval95));
+}
+
+std::string ExplainHeldInertia(const FitParameter& inertia, const std::array<double, 2>& interval95,
+                               double share) {
+  return fmt::format(
+      "{}: it was fitted as 0, and intervals cover by how much that changes the friction, {:.2g} % "
+      "(rms)",
+      BelowZero(inertia, interval95), 100 * share);
+}
+
+std::string ExplainInertiaMatters(std::string_view held, double relevance, TorqueSign sign) {
+  return fmt::format(
+      "{}, of {:.3g} % at most (--relevance): the torque is late or early "
+      "against the motion{}, or another load acts",
+      held, 100 * relevance,
+      sign == TorqueSign::doubtful ? ", has the wrong sign (--scale torque=-1)" : "");
 }
 
 std::string NameOfFriction(const FrictionAtSpeed& at) {

@@ -28,10 +28,19 @@ std::string ExplainPoorFit(double fit_share, double least, const Fit& fit);
 std::string ExplainWorseHeldOut(double fit_share, const Fit& fit);
 /// The sentence about a fit that leaves much of the torque, relative to the friction that it finds. left, friction: rms
 std::string ExplainMuchLeft(double left, double friction, const Fit& fit);
-/// The sentence about a torque that holds no friction; the next is about an inertia below 0. share: of the friction in the torque
+/// The sentence about a torque that holds no friction. share: of the friction in the torque
 std::string ExplainNoFriction(double share);
+
+/// The sentence about an inertia below 0 without which there is no fit; the next is about one that was taken out. share: by which
+/// that changes the friction
 std::string ExplainNegativeInertia(const FitParameter& inertia,
                                    const std::array<double, 2>& interval95);
+std::string ExplainHeldInertia(const FitParameter& inertia, const std::array<double, 2>& interval95,
+                               double share);
+/// Whether the torque's sign may be turned: not where friction is known to brake.
+enum class TorqueSign { known, doubtful };
+/// The sentence about one that changes the friction by more than a share, `relevance`. held: ExplainHeldInertia
+std::string ExplainInertiaMatters(std::string_view held, double relevance, TorqueSign sign);
 
 /// "friction forwards at 0.5 rad/s, warm".
 std::string NameOfFriction(const FrictionAtSpeed& at);

@@ -1,6 +1,7 @@
 #include "identification/sentences/remedies.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace warmjoint {
 namespace {
@@ -63,9 +64,11 @@ std::string ExplainByLoad(RippleActs acts) {
   return fmt::format("{}a load does that depends on position: ", Begin(acts));
 }
 
-std::string ExplainByMotor(RippleActs acts, int gear) {
-  return fmt::format("{}it may be the motor's, with a gear of {} (or as its data sheet says): ",
-                     Begin(acts), gear);
+std::string ExplainByMotor(RippleActs acts, const std::vector<int>& gears) {
+  const std::string_view data_sheet =
+      gears.size() > 1 ? "its data sheet says which" : "or as its data sheet says";
+  return fmt::format("{}it may be the motor's, with a gear of {} ({}): ", Begin(acts),
+                     fmt::join(gears, " or "), data_sheet);
 }
 
 std::string RemedyForFineRipple(RippleActs acts, const FineRipple& ripple, JointKind joint) {

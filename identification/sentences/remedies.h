@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace warmjoint {
 
@@ -83,8 +84,8 @@ enum class RippleActs { alike, otherwise };
 /// A text before a command: gravity or a load acts in that way.
 std::string ExplainByGravity(RippleActs acts);
 std::string ExplainByLoad(RippleActs acts);
-/// A text before a command: the ripple is that of the motor.
-std::string ExplainByMotor(RippleActs acts, int gear);
+/// A text before a command: the ripple is that of the motor, with one of these gears, the likeliest first.
+std::string ExplainByMotor(RippleActs acts, const std::vector<int>& gears);
 /// A ripple that returns more often over the travel than a map can follow.
 struct FineRipple {
   double periods = 0;    // over the travel

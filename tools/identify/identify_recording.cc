@@ -94,7 +94,11 @@ Options WithStart(const IdentifySettings& settings, const Identifier& identifier
 /// With --motion.
 Options WithMotion(MotionKind motion, const Identifier& identifier, const Options& options) {
   if (motion == MotionKind::chosen) return options;
-  if (options.Find<MotionOption>()) return options.With(MotionOption{motion});
+  if (const auto* given = options.Find<MotionOption>()) {
+    MotionOption asked = *given;
+    asked.motion = motion;
+    return options.With(asked);
+  }
   if (motion == MotionKind::constant && identifier.view == View::constant_speed) return options;
   Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
          identifier.name, AbleBy<MotionOption>());
@@ -145,7 +149,7 @@ HeldOut HoldOutBeside(const Identifier& identifier, const IdentifierInput& input
   // the fit as it is, on another recording, or a second fit to the first part, on the rest
   if (source.other) return HoldOut(identifier, answer.fit, *source.other);
   HeldOut held = HoldOut(identifier, input, source.fraction, answer.fit);
-  if (held.metrics) JudgeHeldOut(*held.metrics, held.several_speeds, answer);
+  if (held.metrics) JudgeHeldOut(*held.metrics, held.varied, answer);
   return held;
 }
 
