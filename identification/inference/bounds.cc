@@ -52,7 +52,7 @@ Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
 
 /// F of a fit along the motion of a log, at the samples that the fit used. [n] N.m or N
 Eigen::VectorXd FrictionOver(const Fit& fit, const LogSamples& logged, const Selection& used) {
-  const auto followed = Followed(logged, fit.used, {fit.friction, fit.gravity, fit.torque_delay});
+  const auto followed = Followed(logged, fit.used, PartsOf(fit));
   const LogSamples& m = followed ? followed->measurements : logged;
   return Kept(PredictFriction(fit.friction, m, fit.Start()).force, used);
 }

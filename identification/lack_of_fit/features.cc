@@ -10,6 +10,7 @@
 
 #include "identification/lack_of_fit/rows_by_value.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/sentences/findings.h"
 
 namespace warmjoint {
 namespace {
