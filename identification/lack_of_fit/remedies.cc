@@ -112,7 +112,7 @@ bool MayBeGravity(const Advice& advice) {
 }
 
 /// The gears of a motor whose ripple a test over the position found, by what the fit leaves; none of no motor.
-std::vector<int> GearsOf(const Advice& advice) {
+std::vector<int> GearsOfRipple(const Advice& advice) {
   const LogSamples& m = advice.input.measurements;
   const double strongest = 2 * std::numbers::pi / advice.finding.period;
   if (m.joint != JointKind::rotary || KnowsMotorAngle(m)) return {};
@@ -302,7 +302,7 @@ Remedy RemedyForPosition(const Advice& advice) {
   constexpr size_t most = kMostKernels / kKernelsAPeriod;
 
   // ripple of a motor whose angle the log does not have
-  if (const std::vector<int> gears = GearsOf(advice); !gears.empty()) {
+  if (const std::vector<int> gears = GearsOfRipple(advice); !gears.empty()) {
     const std::string likeliest = std::to_string(gears.front());
     return Try(advice, WithMap(advice, MapQuantity::motor_position).With("gear", likeliest),
                ExplainByMotor(acts, gears));
