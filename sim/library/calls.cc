@@ -22,6 +22,7 @@
 #include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
+#include "sim/model/engine_warnings.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/plugin_instances.h"
@@ -75,11 +76,14 @@ Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
     const auto kind = KindOfUnits(units);
     if (kind) request.options.kinds.emplace(joint, *kind);
   }
+  std::vector<std::string> warnings;
+  const EngineWarnings taken([&](const std::string& warning) { warnings.push_back(warning); });
   // a copy goes first, so that what is refused leaves the model as it was
   const SpecPtr copy(mj_copySpec(&spec));
   if (!copy) Refuse({request.model}, "MuJoCo cannot copy it");
   AttachFriction(*copy, frictions, request.options, request.model, files);
-  const Attached attached = AttachFriction(spec, frictions, request.options, request.model, files);
+  Attached attached = AttachFriction(spec, frictions, request.options, request.model, files);
+  std::ranges::move(warnings, std::back_inserter(attached.notices));
   // each joint with the place of its friction in the request
   Tree joints = Tree::array();
   for (const std::string& name : attached.joints) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Some 3,600 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
+"""Some 6,000 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
 
-Each call gives an answer or raises an exception that says what is wrong: BadInput, TypeError of a wrong signature, KeyError of a name,
-Rejected. A RuntimeError, an exception of the inside, a text with options of the command line, or the end of the process is a fault.
+Each call gives an answer or raises an exception that says what is wrong: BadInput, TypeError that names an argument, KeyError of a name,
+Rejected. A RuntimeError, an exception of the inside, a text with options of the command line or with control characters, or the end of the
+process is a fault.
 """
 
 import array
@@ -20,6 +21,12 @@ import warnings
 
 SECONDS = 900  # of a group; files of other formats are read by a process each
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
+NAMES = re.compile(r"unexpected keyword argument|positional argument|a log is cut|^[a-z_]+: ")  # of a signature, or with the argument's name
+CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")  # line ends as well: a refusal is one line
+ROBOT = """<mujoco><compiler angle="radian"/><worldbody>
+  <body><joint name="shoulder" axis="0 1 0" range="-3 3"/><inertial pos="0 0 .2" mass="8" diaginertia=".1 .1 .02"/>
+    <body pos="0 0 .4"><joint name="elbow" axis="0 1 0" range="-3 3"/><inertial pos="0 0 .15" mass="3" diaginertia=".03 .03 .01"/>
+</body></body></worldbody></mujoco>"""
 
 
 def samples():
@@ -65,7 +72,7 @@ def oddities():
     for _ in range(60):
         laughs = [laughs, laughs]
     return {
-        "None": None, "True": True, "text": "x", "empty text": "", "bytes": b"\xff", "surrogate": "\udcff", "null": "a\0b", "huge": 10**30,
+        "None": None, "True": True, "text": "x", "empty text": "", "escapes": "a\x1b[31mb\n\u202ec", "int": 5, "negative": -1, "bytes": b"\xff", "surrogate": "\udcff", "null": "a\0b", "huge": 10**30,
         "longer": 10**5000, "nan": float("nan"), "inf": float("inf"), "complex": 1j, "object": object(), "type": int, "module": os,
         "function": len, "list": [], "tuple": (), "dict": {}, "set": {1}, "nested": [[1, [2]]], "held": held, "of itself": of_itself,
         "twice": twice, "deep": deep, "laughs": laughs, "generator": (i for i in range(3)), "range": range(3), "memory": memoryview(b"abc"),
@@ -106,6 +113,107 @@ def attach_calls(odd, friction):
         yield f"randomise({name})", lambda v=value: bound.randomise(v, coulomb=(0.5, 1))
         for argument in ("ids", "coulomb", "warm", "speed", "rng", "nonsense"):
             yield f"randomise({argument}={name})", lambda a=argument, v=value: bound.randomise(worlds, **{"warm": (0, 1), a: v})
+
+
+def robot_log(joints=2):
+    """20 s of a robot's joints, short enough to be refused or answered soon."""
+    import numpy as np
+
+    t = np.arange(0, 20, 0.02)
+    motion = [np.sin((1 + 0.3 * j) * t) for j in range(joints)]
+    return {"time": t, "position": np.stack(motion, axis=1), "torque": np.stack([2 * np.sign(np.gradient(one)) for one in motion], axis=1)}
+
+
+def robot_calls(odd, folder):
+    """(name, call) of whole robots."""
+    import mujoco
+    import numpy as np
+    import warmjoint as wj
+
+    model, log = os.path.join(folder, "r.xml"), robot_log()
+    with open(model, "w", encoding="utf-8") as file:
+        file.write(ROBOT)
+    robot = wj.identify_robot(model, log)
+    saved = os.path.join(folder, "robot.json")
+    robot.save(saved)
+    # a log that stops early, so that each call is short
+    few = {name: values[:4] for name, values in log.items()}
+    for name, value in odd.items():
+        yield f"identify_robot(model={name})", lambda v=value: wj.identify_robot(v, few)
+        yield f"identify_robot(log={name})", lambda v=value: wj.identify_robot(model, v)
+        yield f"identify_robot(log=[{name}])", lambda v=value: wj.identify_robot(model, [v])
+        for column in log:
+            yield f"identify_robot({column}={name})", lambda c=column, v=value: wj.identify_robot(model, {**few, c: v})
+        for argument in ("map", "unit", "scale", "columns", "rate", "joints", "gear", "inertials", "tool", "coupling", "cutoff", "torque_constant",
+                         "holdout", "nonsense"):
+            yield f"identify_robot({argument}={name})", lambda a=argument, v=value: wj.identify_robot(model, few, **{a: v})
+        for argument in ("gear", "torque_constant", "scale", "map", "unit", "tool"):
+            for key in ("shoulder", "position", "torque", "elbow.torque", "mass", "com", "a\x1b[2J\nb"):
+                given = {"mass": 1, key: value} if argument == "tool" and key == "com" else {key: value}
+                yield f"identify_robot({argument}[{key!r}]={name})", lambda a=argument, g=given: wj.identify_robot(model, few, **{a: g})
+        for argument in ("columns", "joints", "coupling"):
+            yield f"identify_robot({argument}=[{name}])", lambda a=argument, v=value: wj.identify_robot(model, few, **{a: [v]})
+        yield f"load_robot({name})", lambda v=value: wj.load_robot(v)
+        yield f"RobotEstimate({name})", lambda v=value: len(wj.RobotEstimate(v))
+        for method in ("plot", "__getitem__", "__contains__", "save", "export"):
+            yield f"robot.{method}({name})", lambda m=method, v=value: getattr(robot, m)(v)
+        for argument in ("warm", "speed"):
+            yield f"robot.export({argument}={name})", lambda a=argument, v=value: robot.export("mjcf", **{a: v})
+    for name, empty in (("list", []), ("tuple", ()), ("dict", {}), ("arrays", {key: values[:0] for key, values in log.items()}), ("time", {"time": log["time"]}),
+                        ("one", {key: values[:1] for key, values in log.items()}), ("set", set())):
+        yield f"identify_robot(empty {name})", lambda e=empty: wj.identify_robot(model, e)
+    for name, spoilt in (("nan", np.nan), ("zero", 0.0), ("back", -1.0), ("huge", 1e300), ("tiny", 1e-300), ("inf", np.inf)):
+        for column in log:
+            yield f"identify_robot({column} {name})", lambda c=column, f=spoilt: wj.identify_robot(model, {**log, c: log[c] * f})
+    yield "identify_robot(model of an engine)", lambda: wj.identify_robot(mujoco.MjModel.from_xml_string("<mujoco/>"), few)
+    yield "identify_robot(spec)", lambda: wj.identify_robot(mujoco.MjSpec.from_string("<mujoco><worldbody><body><joint/></body></worldbody></mujoco>"), few)
+
+
+def tool_calls(odd, log, estimate, friction):
+    """(name, call) of what stands beside identification: cuts, frames, comparisons, exports, arrays of friction."""
+    import mujoco
+    import warmjoint as wj
+
+    arm = """<mujoco><worldbody><body><joint name="elbow" armature="1"/><geom size="0.1"/></body></worldbody></mujoco>"""
+    attached = wj.attach(arm, {"elbow": friction})
+    model = attached.spec.compile()
+    data, other = mujoco.MjData(model), mujoco.MjModel.from_xml_string(arm)
+    bare, arrays = wj.split(attached)
+    yield "bind(other data)", lambda: wj.bind(model, mujoco.MjData(other))
+    yield "bind(other model)", lambda: wj.bind(other, data)
+    for name, value in odd.items():
+        yield f"bind({name})", lambda v=value: wj.bind(v, data)
+        yield f"bind(data={name})", lambda v=value: wj.bind(model, v)
+        yield f"attached.bind({name})", lambda v=value: attached.bind(v, data)
+        yield f"attached.bind(data={name})", lambda v=value: attached.bind(model, v)
+        yield f"attached.bind(prefix={name})", lambda v=value: attached.bind(model, data, v)
+        yield f"split({name})", lambda v=value: wj.split(v)
+        for number in ("coulomb", "viscous", "thermal_gain", "static", "nonsense"):
+            yield f"arrays.changed({number}={name})", lambda n=number, v=value: arrays.changed(**{n: v})
+        yield f"arrays.in_model({name})", lambda v=value: arrays.in_model(v)
+        yield f"arrays.in_model(prefix={name})", lambda v=value: arrays.in_model(bare, v)
+        yield f"compare({name})", lambda v=value: wj.compare(v)
+        yield f"compare(estimate, {name})", lambda v=value: wj.compare(estimate, v)
+        yield f"compare({name}, estimate)", lambda v=value: wj.compare(v, estimate)
+        yield f"laws({name})", lambda v=value: wj.laws(v)
+        for argument in ("to", "warm", "speed", "joint"):
+            yield f"export({argument}={name})", lambda a=argument, v=value: estimate.export(**{"to": "isaaclab", "joint": "j", a: v})
+        yield f"between({name})", lambda v=value: log.between(v, 5)
+        yield f"between(end={name})", lambda v=value: log.between(0, v)
+        yield f"log[{name}:]", lambda v=value: log[v:]
+        yield f"log.plot(style={name})", lambda v=value: log.plot(style=v)
+        for argument in ("ax", "style", "figure"):
+            yield f"plot({argument}={name})", lambda a=argument, v=value: estimate.plot(**{a: v})
+        yield f"from_frame({name})", lambda v=value: wj.Log.from_frame(v)
+        for argument in ("time", "position", "torque", "map", "unit", "scale"):
+            yield f"from_frame({argument}={name})", lambda a=argument, v=value: wj.Log.from_frame(samples(), **{a: v})
+        for argument in ("log", "force"):
+            yield f"load({argument}={name})", lambda a=argument, v=value: wj.load("estimate.json", **{a: v})
+        yield f"score(log={name})", lambda v=value: wj.score(estimate, {"friction": friction.data}, v)
+        yield f"score(estimate={name})", lambda v=value: wj.score(v, {"friction": friction.data})
+        for argument in ("position", "heat", "band", "load"):
+            yield f"estimate.friction({argument}={name})", lambda a=argument, v=value: estimate.friction(1.0, **{a: v})
+        yield f"reference.start({name})", lambda v=value: wj.reference.start(v)
 
 
 def calls(group, folder):
@@ -166,6 +274,10 @@ def calls(group, folder):
             yield f"log[{name}]", lambda v=value: log[v]
     elif group == "attach":
         yield from attach_calls(odd, friction)
+    elif group == "robot":
+        yield from robot_calls(odd, folder)
+    elif group == "tools":
+        yield from tool_calls(odd, log, estimate, friction)
     else:
         for name, value in odd.items():
             yield f"simulate({name})", lambda v=value: wj.simulate(v)
@@ -176,7 +288,7 @@ def calls(group, folder):
             yield f"run({name})", lambda v=value: wj.run(v, os.path.join(folder, "run"), realizations=1)
 
 
-GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "attach", "engine"]
+GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "attach", "robot", "tools", "engine"]
 
 
 def inside(group):
@@ -196,7 +308,9 @@ def inside(group):
                 print("fault", name, type(refusal).__name__, "says nothing, or a book")
             elif isinstance(refusal, wj.BadInput) and OPTION.search(text):
                 print("fault", name, "speaks of options:", text[:300])
-            elif isinstance(refusal, TypeError) and "incompatible function arguments" in text:
+            elif isinstance(refusal, wj.BadInput) and CONTROL.search(text):
+                print("fault", name, "speaks raw:", ascii(text)[:300])
+            elif isinstance(refusal, TypeError) and not NAMES.search(text):
                 print("fault", name, "a TypeError of the inside:", text[:300])
         except BaseException as fault:
             print("fault", name, type(fault).__name__, ascii(str(fault))[:300])

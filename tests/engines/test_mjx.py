@@ -180,6 +180,27 @@ def test_worlds_alike_are_equal_and_worlds_of_their_own_as_single_runs():
         np.testing.assert_allclose(found[1], e[world], rtol=0, atol=1e-6)
 
 
+@pytest.mark.parametrize("broken", [np.nan, np.inf, -np.inf])
+def test_what_is_no_finite_number_is_gone_once_the_engine_has_right_ones_again(broken):
+    bare, m, f, _ = hinge()
+    step = jax.jit(wj.mjx.step)
+    clean = mjx.make_data(bare)
+    pushed = clean.replace(qfrc_applied=jp.asarray([10.0]))
+
+    def run(state):
+        d = pushed
+        for _ in range(50):
+            d, state = step(m, d, f, state)
+        return float(d.qvel[0]), float(state.energy[0])
+
+    # a speed for one step, and a state
+    start = f.start(warm=0.5)
+    after = step(m, clean.replace(qvel=jp.asarray([broken])), f, start)[1]
+    assert after.energy == start.energy and after.force == 0
+    assert run(after) == run(start)
+    assert run(start._replace(stretch=jp.asarray([broken]), stages=jp.full_like(start.stages, broken))) == run(f.start(warm=0.0))
+
+
 GRADIENT = """
 import jax
 jax.config.update("jax_enable_x64", True)

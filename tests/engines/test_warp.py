@@ -188,6 +188,32 @@ def test_resets_of_some_worlds():
     np.testing.assert_allclose(f.energy.numpy()[:, 0], [0, 0, settled], atol=1e-3)
 
 
+@pytest.mark.parametrize("broken", [np.nan, np.inf, -np.inf])
+def test_what_is_no_finite_number_is_gone_once_the_engine_has_right_ones_again(broken):
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    m, d, f = engine(bare, friction, 3)
+    f.reset(warm=0.5)
+    # a speed of the first world, the load and the heat of the second
+    d.qvel.assign(np.array([[broken], [0], [0]], np.float32))
+    mjw.step(m, d)
+    before = f.energy.numpy()[2, 0]
+    assert f.energy.numpy()[0, 0] == before and f.force.numpy()[0, 0] == 0
+    f.put_state(np.array([[0.0], [broken], [0.0]]), np.array([[[before], [broken], [before]], [[0.0], [0.0], [0.0]]]))
+    d.qpos.zero_()
+    d.qvel.zero_()
+    d.qacc_warmstart.zero_()
+    d.qfrc_applied.assign(np.full((3, 1), 10.0, np.float32))
+    for _ in range(50):
+        mjw.step(m, d)
+    energy, speed = f.energy.numpy()[:, 0], d.qvel.numpy()[:, 0]
+    assert energy[0] == energy[2] and speed[0] == speed[2] > 0.1
+    m, d, cold = engine(bare, friction, 1)
+    d.qfrc_applied.assign(np.full((1, 1), 10.0, np.float32))
+    for _ in range(50):
+        mjw.step(m, d)
+    assert energy[1] == cold.energy.numpy()[0, 0] and speed[1] == d.qvel.numpy()[0, 0]
+
+
 @pytest.mark.parametrize("change, words", [("RK4", "RK4"), ("step", "timestep"), ("damper", "damper"), ("worlds", "worlds")])
 def test_what_the_port_does_not_step_is_refused(change, words):
     bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))

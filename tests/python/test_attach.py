@@ -16,7 +16,7 @@ mujoco = pytest.importorskip("mujoco")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-from warmjoint import attach, mujoco_attach, mujoco_plugin  # noqa: E402
+from warmjoint import attach, friction_arrays, mujoco_attach, mujoco_plugin  # noqa: E402
 
 ROBOT = """
 <mujoco model="arm">
@@ -376,6 +376,25 @@ def test_a_spring_that_yields_gives_way_to_the_friction():
         data.qfrc_applied[0] = torque
         mujoco.mj_step(model, data, 1000)
         assert (abs(data.qvel[0]) > 0.01) == slides
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_split_leaves_no_plugin_in_its_spec(form):
+    spec = attach(ROBOT, FRICTIONS, form=form).spec.copy()
+    friction_arrays._without_friction(spec)
+    assert not [body.name for body in spec.bodies if body.plugin.active]
+    text = spec.to_xml()
+    assert "plugin" not in text
+    assert mujoco.MjModel.from_xml_string(text).nplugin == spec.compile().nplugin == 0
+
+
+def test_bind_refuses_what_is_no_model_and_data_of_another():
+    model = attach(ROBOT, FRICTIONS).spec.compile()
+    other = mujoco.MjModel.from_xml_string(ROBOT)
+    for given, words in (((5, mujoco.MjData(model)), "^model: is a value of the type int"), ((model, None), "^data: is None"),
+                         ((model, mujoco.MjData(other)), "^data: is of another model")):
+        with pytest.raises(ValueError, match=words):
+            mujoco_attach.bind(*given)
 
 
 def test_a_second_attach_joins_the_first():

@@ -46,6 +46,7 @@ def test_copies_are_the_same_to_the_last_bit(log, estimate, recording, columns):
             same(wj.identify(other, "nominal-ls"), wj.identify(each, "nominal-ls"))
     other = pickle.loads(pickle.dumps(estimate))
     same(other, estimate)
+    same(copy.deepcopy(estimate), estimate)
     assert other.residuals.torque.tolist() == estimate.residuals.torque.tolist()
     friction = estimate.fitted
     assert pickle.loads(pickle.dumps(friction)) == copy.deepcopy(friction) == friction
@@ -133,11 +134,59 @@ def test_numbers_of_a_refused_answer_are_nan(columns, tmp_path):
         assert np.isfinite(forced["viscous"].value)
         turned.save(tmp_path / "estimate.json")
         assert np.isfinite(wj.load(tmp_path / "estimate.json", force=True)["viscous"].value)
-        # what a model leaves out voids its numbers, and they are there
-        inadequate = wj.identify(wj.Log(**columns), "nominal-ls")
-        assert inadequate.status == "inadequate_model" and np.isfinite(inadequate["viscous"].value)
+        assert np.isfinite(wj.identify(wj.Log(**columns), "nominal-ls", force=True)["viscous"].value)
+    # what a model leaves out voids its numbers as well
+    inadequate = wj.identify(wj.Log(**columns), "nominal-ls")
+    assert inadequate.status == "inadequate_model"
+    with pytest.warns(wj.Void, match="inadequate_model"):
+        assert np.isnan(inadequate["viscous"].value) and inadequate["viscous"].ci95 is None
     with pytest.warns(wj.Void):
         assert np.isnan(wj.load(tmp_path / "estimate.json")["viscous"].value)
+
+
+def test_a_pickled_estimate_of_files_is_small_and_reads_them_again(recording, log, estimate, tmp_path):
+    (tmp_path / "log.csv").write_bytes(recording.read_bytes())
+    of_file = wj.identify(wj.read(tmp_path / "log.csv"), "energy-ml")
+    columns = 4 * 8 * len(log)  # bytes of the log
+    assert len(pickle.dumps(of_file)) < len(pickle.dumps(estimate)) - columns
+    other = pickle.loads(pickle.dumps(of_file))
+    same(other, of_file)
+    assert other.residuals.torque.tolist() == of_file.residuals.torque.tolist()
+    alone = pickle.loads(pickle.dumps(estimate.without_log()))
+    same(alone, estimate)
+    assert len(pickle.dumps(alone)) < len(pickle.dumps(estimate)) - columns
+    with pytest.raises(wj.BadInput, match="log="):
+        alone.residuals  # noqa: B018
+    # where the file is gone the log stays
+    os.remove(tmp_path / "log.csv")
+    assert pickle.loads(pickle.dumps(of_file)).residuals.torque.tolist() == of_file.residuals.torque.tolist()
+
+
+def test_two_estimates_are_compared(log, estimate):
+    again = wj.identify(log, "energy-ml")
+    rows = {row["name"]: row for row in wj.compare(estimate, again)}
+    assert rows["coulomb"]["first"] == rows["coulomb"]["second"] == estimate["coulomb"].value
+    assert rows["coulomb"]["apart"] == rows["coulomb"]["difference"] == 0
+    cold = {row.speed: row for row in estimate.friction_at_speeds if not row.heat}
+    shown = [row for name, row in rows.items() if name.startswith("friction at")]
+    assert len(shown) == len(cold)
+    for row, known in zip(sorted(shown, key=lambda row: row["first"]), sorted(cold.values(), key=lambda known: known.value), strict=True):
+        assert row["first"] == pytest.approx(known.value) and row["first_lower"] == pytest.approx(known.ci95[0])
+    # halves of one log agree within their intervals, and each row says by how much
+    first, second = (wj.identify(one, "energy-ml", holdout=0) for one in (log[: len(log) // 2], log))
+    board = wj.compare(first, second)
+    row = next(row for row in board if row["name"] == "viscous")
+    halves = [(one["viscous"].ci95[1] - one["viscous"].ci95[0]) / 2 for one in (first, second)]
+    assert row["apart"] == pytest.approx(abs(first["viscous"].value - second["viscous"].value) / np.hypot(*halves))
+    assert "viscous" in board._repr_html_()
+    # a number that one of the two does not have, or that is void
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        void = {row["name"]: row for row in wj.compare(estimate, wj.identify(log, "nominal-ls"))}
+    assert np.isnan(void["viscous"]["second"]) and void["viscous"]["apart"] is None and void["thermal_gain"]["second"] is None
+    for wrong in ((estimate, "x"), (estimate,), ("x", estimate)):
+        with pytest.raises(wj.BadInput, match="two estimates"):
+            wj.compare(*wrong)
 
 
 def test_remedies_are_arguments(columns, log):

@@ -182,3 +182,34 @@ def test_what_cannot_be_used_is_refused(wrong, log):
         wj.identify_robot(wrong, log, joints=["shoulder", "elbw", "wrist"])
     with pytest.raises(KeyError, match="elbow"):
         wj.identify_robot(wrong, log)["elbw"]
+
+
+@pytest.mark.parametrize("given, words", [
+    ({"gear": "x"}, "^gear: "), ({"gear": {"elbow": 10**5000}}, "^gear: "), ({"gear": {5: 1}}, "^gear: has the key 5"), ({"cutoff": None}, "^cutoff: "),
+    ({"inertials": "some"}, "^inertials: "), ({"torque_constant": [1, 2]}, "^torque_constant: "), ({"holdout": "x"}, "^holdout: "), ({"rate": 1j}, "^rate: "),
+    ({"joints": [5]}, "^joints: is 5"), ({"coupling": 7}, "^coupling: is 7"), ({"columns": {1}}, "^columns: "), ({"scale": {"elbow.torqe": 1}}, "^scale: 'elbow.torqe'"),
+    ({"scale": {"elbow.torque": "x"}}, "^scale: "), ({"map": 5}, "^map: "), ({"unit": [1]}, "^unit: "), ({"tool": {"com": (0, 0, 0)}}, "^tool: "),
+    ({"tool": {"mass": 1, "com": (0, 0)}}, "^tool: com has the shape"), ({"tool": {"mass": 1, "centre": 0}}, "^tool: "), ({"tool": 5}, "^tool: is 5"),
+])
+def test_a_wrong_option_is_refused_by_its_name(wrong, log, given, words):
+    with pytest.raises(wj.BadInput, match=words):
+        wj.identify_robot(wrong, log, **given)
+
+
+@pytest.mark.parametrize("nothing", [[], ()])
+def test_no_recording_is_refused(wrong, nothing):
+    with pytest.raises(wj.BadInput, match="no recording is given"):
+        wj.identify_robot(wrong, nothing)
+
+
+def test_a_description_of_another_kind_is_refused(log):
+    for given in (None, 5, object()):
+        with pytest.raises(wj.BadInput, match=r"^model: is "):
+            wj.identify_robot(given, log)
+
+
+def test_files_that_are_no_robot_are_refused(tmp_path):
+    for text, words in (("{", "is no JSON"), ("5", "holds no map of joints"), ('{"identifier": "auto"}', "of one estimate Estimate or load")):
+        (tmp_path / "robot.json").write_text(text)
+        with pytest.raises(wj.BadInput, match=words):
+            wj.load_robot(tmp_path / "robot.json")

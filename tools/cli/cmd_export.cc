@@ -63,8 +63,7 @@ Command AddExportCommand(CLI::App& program) {
   AddNumber(*parser, "--speed", arguments->speed, {1e-9, most, "above 0, rad/s or m/s"},
             "rad/s or m/s; where not given the median of the log, else 1 rad/s or 0.1 m/s");
   AddValue(*parser, "--joint", "NAME", arguments->request.joint,
-           "the joint's name; robot.json has its own")
-      ->capture_default_str();
+           "the joint's name, which physx, isaaclab and mjlab need; robot.json has its own");
   AddValue(*parser, "-o,--output", "FILE", arguments->output, "instead of standard output");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is written");
   return {parser, [arguments] { return Export(*arguments); }};

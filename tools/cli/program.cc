@@ -9,6 +9,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/names.h"
+#include "sim/model/engine_warnings.h"
 #include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 
@@ -152,6 +153,9 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
     program.exit(error);
     return ExitStatus::done;
   }
+
+  // what MuJoCo warns of is a notice as others are
+  const EngineWarnings taken([](const std::string& one) { SayNotice("notice: {}\n", one); });
 
   // exactly one subcommand was given
   const auto chosen = std::find_if(commands.begin(), commands.end(),

@@ -228,6 +228,8 @@ SeenFriction SeenOf(const std::string& joint, const Estimate& estimate, const st
   }
   for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
     if (one.speed != 0) seen.speeds.push_back(std::abs(one.speed));
+    const double half = (one.interval95[1] - one.interval95[0]) / 2;
+    if (half > 0) seen.half_width = std::min(half, seen.half_width.value_or(half));
   }
   std::ranges::sort(seen.speeds);
   return seen;
@@ -235,8 +237,11 @@ SeenFriction SeenOf(const std::string& joint, const Estimate& estimate, const st
 
 EngineFriction InEngine(const SeenFriction& seen, const Warmth& warmth, EngineFormat format) {
   const bool linear = seen.kind == JointKind::linear;
-  EngineFriction found{
-      .joint = seen.joint, .kind = seen.kind, .warm = warmth.share, .left_out = {}};
+  EngineFriction found{.joint = seen.joint,
+                       .kind = seen.kind,
+                       .warm = warmth.share,
+                       .left_out = {},
+                       .half_width = seen.half_width};
   if (!std::isfinite(warmth.share) || warmth.share < 0) {
     Refuse({"--warm"}, "is {}; it must be a number of 0 or more, 1 settled", warmth.share);
   }

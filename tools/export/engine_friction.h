@@ -39,6 +39,8 @@ struct SeenFriction {
   JointKind kind = JointKind::rotary;
   std::vector<double> speeds{};     // |v| of a log, rad/s or m/s; empty: no log is known
   std::optional<double> inertia{};  // kg.m^2 or kg
+  std::optional<double>
+      half_width{};  // of the friction at the speed where it is known best, N.m or N
 };
 
 /// The friction of an estimate. Throws BadInput, from `file`, where it holds none, or one in amperes.
@@ -73,8 +75,9 @@ struct EngineFriction {
   double level = 0;         // while it slides, N.m or N
   double static_level = 0;  // at rest, not below `level`, N.m or N
   std::vector<Omission> left_out;
+  std::optional<double> half_width{};  // of SeenFriction, which a text's digits follow
 
-  /// Without its name, by which a file has it.
+  /// Without its name, by which a file has it, and with all digits.
   template <class A>
   void Serialize(A* a) {
     a->Field("kind", &kind);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "identification/estimate.h"
 #include "identification/robot/robot_estimate.h"
@@ -30,15 +32,43 @@ std::string Comment(const std::string& given, EngineFormat format) {
   return fmt::format("<!-- {} -->\n", text);
 }
 
-/// What a text says of a number: 12 digits, so that 5 is not written as 4.999999999999999.
-std::string Written(double value) { return fmt::format("{:.12g}", value); }
+/// What a joint without a name is called in comments and in JSON.
+std::string CalledIn(const EngineFriction& one) { return one.joint.empty() ? "joint" : one.joint; }
+
+/// What a text says of a number: 12 digits, so that 5 is not written as 4.999999999999999, or as many as a half width of its interval
+/// supports.
+std::string Written(double value, std::optional<double> half_width) {
+  // why: a digit behind the second of the half width would move the number by a twentieth of it at most
+  if (half_width) {
+    const double unit = std::pow(10, std::floor(std::log10(*half_width)) - 1);
+    value = std::round(value / unit) * unit;
+  }
+  return fmt::format("{:.12g}", value);
+}
+
+std::string Level(const EngineFriction& one) { return Written(one.level, one.half_width); }
+
+std::string StaticLevel(const EngineFriction& one) {
+  return Written(one.static_level, one.half_width);
+}
+
+/// At the fastest speed its last digit moves the friction by no more than that of the level.
+std::string Viscous(const EngineFriction& one) {
+  return Written(one.viscous,
+                 one.half_width ? std::optional(*one.half_width / one.fastest) : std::nullopt);
+}
+
+/// The attribute by which an element names its joint; of one without a name nothing.
+std::string NameAttribute(const EngineFriction& one) {
+  return one.joint.empty() ? "" : fmt::format(" name=\"{}\"", EscapeXml(one.joint));
+}
 
 std::string Head(const EngineFriction& one, EngineFormat format) {
   const std::string_view speed = kVelocityUnit.For(one.kind), torque = kTorqueUnit.For(one.kind);
   std::string text = Comment(fmt::format("{}: warm {:.3g} (E = {:.4g} {}; 1 has settled at {:.4g} "
                                          "{}), over {:.3g} to {:.3g} {}",
-                                         one.joint, one.warm, one.energy, torque, one.speed, speed,
-                                         one.slowest, one.fastest, speed),
+                                         CalledIn(one), one.warm, one.energy, torque, one.speed,
+                                         speed, one.slowest, one.fastest, speed),
                              format);
   for (const Omission& left : one.left_out) {
     const std::string size = left.percent ? fmt::format("{:+.3g} %", *left.percent) : "";
@@ -52,38 +82,36 @@ std::string Head(const EngineFriction& one, EngineFormat format) {
 /// One joint where each has an element or a statement of its own.
 std::string Body(const EngineFriction& one, EngineFormat format) {
   if (format == EngineFormat::mjcf) {
-    return fmt::format("<joint name=\"{}\" damping=\"{}\" frictionloss=\"{}\"/>\n",
-                       EscapeXml(one.joint), Written(one.viscous), Written(one.level));
+    return fmt::format("<joint{} damping=\"{}\" frictionloss=\"{}\"/>\n", NameAttribute(one),
+                       Viscous(one), Level(one));
   }
   if (format == EngineFormat::urdf) {
-    return fmt::format(
-        "<joint name=\"{}\">\n  <dynamics damping=\"{}\" friction=\"{}\"/>\n</joint>\n",
-        EscapeXml(one.joint), Written(one.viscous), Written(one.level));
+    const std::string dynamics =
+        fmt::format("<dynamics damping=\"{}\" friction=\"{}\"/>\n", Viscous(one), Level(one));
+    if (one.joint.empty()) return dynamics;
+    return fmt::format("<joint{}>\n  {}</joint>\n", NameAttribute(one), dynamics);
   }
   const char* axis = one.kind == JointKind::rotary ? "eTWIST" : "eX";
   return fmt::format(
       "joints.at({})->setFrictionParams(PxArticulationAxis::{}, PxJointFrictionParams({}, {}, "
       "{}));\n",
-      InQuotes(one.joint), axis, Written(one.static_level), Written(one.level),
-      Written(one.viscous));
+      InQuotes(one.joint), axis, StaticLevel(one), Level(one), Viscous(one));
 }
 
 /// A dict of Python: one number of each joint.
 std::string Dict(const char* key, const std::vector<EngineFriction>& frictions,
-                 double EngineFriction::*number) {
+                 std::string (*number)(const EngineFriction&)) {
   std::string text;
   for (const EngineFriction& one : frictions) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", InQuotes(one.joint),
-                        Written(one.*number));
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", InQuotes(one.joint), number(one));
   }
   return fmt::format("{}={{{}}},\n", key, text);
 }
 
 std::string IsaacLabText(const std::vector<EngineFriction>& frictions) {
   return "# of ImplicitActuatorCfg (Isaac Lab 2.3, Isaac Sim 5)\n" +
-         Dict("friction", frictions, &EngineFriction::static_level) +
-         Dict("dynamic_friction", frictions, &EngineFriction::level) +
-         Dict("viscous_friction", frictions, &EngineFriction::viscous);
+         Dict("friction", frictions, StaticLevel) + Dict("dynamic_friction", frictions, Level) +
+         Dict("viscous_friction", frictions, Viscous);
 }
 
 /// mjlab has numbers of a group of joints, not of each: a configuration for each joint.
@@ -91,16 +119,21 @@ std::string MjlabText(const std::vector<EngineFriction>& frictions) {
   std::string text = "# keywords of a joint's ActuatorCfg (mjlab 1.6)\n";
   for (const EngineFriction& one : frictions) {
     text += fmt::format("{}: dict(frictionloss={}, viscous_damping={}),\n", InQuotes(one.joint),
-                        Written(one.level), Written(one.viscous));
+                        Level(one), Viscous(one));
   }
   return text;
 }
 
 /// The frictions of a file as they were seen. notices: which joints have none.
-std::vector<SeenFriction> SeenIn(const Node& file, const std::string& joint,
+std::vector<SeenFriction> SeenIn(const Node& file, const ExportRequest& request,
                                  std::vector<std::string>& notices) {
+  const std::string& joint = request.joint;
   const auto member = [&](const char* key) { return file.IsMap() ? file.Find(key) : std::nullopt; };
   // an estimate, all of a robot, or a friction by itself
+  if (joint.empty() && NeedsName(request.to) && !IsRobotEstimate(file)) {
+    Refuse({"--joint"}, "is missing: {} finds friction by the joint's name; give --joint NAME",
+           NameOf(request.to));
+  }
   if (member("identifier")) return {SeenOf(joint, EstimateFrom(file), file.file())};
   if (!IsRobotEstimate(file)) {
     SeenFriction seen{joint, FrictionFrom(member("friction").value_or(file))};
@@ -128,7 +161,7 @@ std::vector<SeenFriction> SeenIn(const Node& file, const std::string& joint,
 
 Exported ExportFrictions(const Node& file, const ExportRequest& request) {
   Exported exported;
-  for (const SeenFriction& seen : SeenIn(file, request.joint, exported.notices)) {
+  for (const SeenFriction& seen : SeenIn(file, request, exported.notices)) {
     exported.frictions.push_back(InEngine(seen, request.warmth, request.to));
   }
   return exported;
@@ -145,7 +178,7 @@ std::string EngineText(const std::vector<EngineFriction>& frictions, EngineForma
 
 Tree EngineJson(const Exported& exported, EngineFormat format) {
   Tree joints = Tree::object();
-  for (const EngineFriction& one : exported.frictions) joints[one.joint] = WriteFields(one);
+  for (const EngineFriction& one : exported.frictions) joints[CalledIn(one)] = WriteFields(one);
   return {{"to", NameOf(format)},
           {"joints", joints},
           {"notices", exported.notices},

@@ -13,7 +13,8 @@ namespace warmjoint {
 struct ExportRequest {
   EngineFormat to = EngineFormat::mjcf;
   Warmth warmth;
-  std::string joint = "JOINT";  // what the joint of an estimate is called
+  std::string
+      joint{};  // what the joint of an estimate is called; needed where a text finds joints by name (NeedsName)
 
   template <class A>
   void Serialize(A* a) {
@@ -29,11 +30,17 @@ struct Exported {
   std::vector<std::string> notices;  // which joints were left out, one sentence each
 };
 
+/// Whether what is written means a joint by its name; of the others it is pasted into the joint that it is for.
+inline bool NeedsName(EngineFormat format) {
+  return format != EngineFormat::mjcf && format != EngineFormat::urdf;
+}
+
 /// The frictions of a file: of estimate.json or a friction file one, of robot.json all that are known in N.m or N, by their own
-/// names. Throws BadInput.
+/// names. Throws BadInput, also for a joint without a name where the engine needs one.
 Exported ExportFrictions(const Node& file, const ExportRequest& request);
 
-/// What the engine reads, with what it leaves out as comments.
+/// What the engine reads, with what it leaves out as comments. Where the friction has an interval, numbers end at the second digit of its half
+/// width; else they have twelve digits.
 std::string EngineText(const std::vector<EngineFriction>& frictions, EngineFormat format);
 
 /// {to, joints{NAME: {kind, warm, speed, energy, slowest, fastest, viscous, level, static_level, left_out[]}}, notices[], text}

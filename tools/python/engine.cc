@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "identification/robot/robot_estimate.h"
+#include "sim/model/engine_warnings.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
@@ -29,6 +30,20 @@ namespace warmjoint::python {
 namespace {
 
 namespace nb = nanobind;
+
+/// Does the work, during which MuJoCo neither prints nor writes a file: what it warns of becomes warnings of Python afterwards.
+template <class Work>
+auto WithWarnings(const Work& work) {
+  std::vector<std::string> found;
+  auto answer = [&] {
+    const EngineWarnings taken([&](const std::string& warning) { found.push_back(warning); });
+    return work();
+  }();
+  for (const std::string& warning : found) {
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw nb::python_error();
+  }
+  return answer;
+}
 
 /// The columns of a log and what a reader of its file is told, as arguments of Python's Log.
 nb::dict LogArguments(const Measurements& m) {
@@ -52,8 +67,10 @@ nb::dict LogArguments(const Measurements& m) {
 nb::object SimulateInPython(const std::string& scenario,
                             const std::vector<std::pair<std::string, std::string>>& set,
                             std::optional<std::uint64_t> seed, std::uint64_t realization) {
-  const Simulation simulation = Interruptibly([=](const auto& stop) {
-    return Simulate(scenario, {set, seed, realization, [&](double) { stop(); }});
+  const Simulation simulation = WithWarnings([&] {
+    return Interruptibly([=](const auto& stop) {
+      return Simulate(scenario, {set, seed, realization, [&](double) { stop(); }});
+    });
   });
   return nb::make_tuple(LogArguments(simulation.measurements), FieldsToPython(simulation.truth));
 }
@@ -72,14 +89,14 @@ nb::dict RunInPython(const std::string& suite, const std::string& output, nb::ha
     };
   }
   // the functions live as long as this call, which waits for the run
-  const RunEnding ending = [&] {
+  const RunEnding ending = WithWarnings([&] {
     nb::gil_scoped_release released;
     return Run(arguments, [&](int finished, int total) {
       nb::gil_scoped_acquire held;
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
       watch(finished, total);
     });
-  }();
+  });
   nb::dict dict;
   dict["results"] = ending.results;
   dict["rejected"] = ending.refused;
@@ -131,16 +148,16 @@ nb::object IdentifyRobotInPython(const std::string& robot, const nb::list& logs,
                            FieldsFromPython<RecordingSource>(read, "log").read};
   const bool is_in_memory = std::ranges::all_of(
       source.logs, [](const RobotLogSource& log) { return log.columns || log.text; });
-  RobotEstimate answer;
-  if (is_in_memory) {
-    answer = Interruptibly([=](const auto& stop) {
+  const RobotEstimate answer = WithWarnings([&] {
+    if (!is_in_memory) {
+      // readers of HDF5 and MATLAB fork, which only the thread that calls may do
+      nb::gil_scoped_release released;
+      return IdentifyRobot(robot, source, settings, {});
+    }
+    return Interruptibly([=](const auto& stop) {
       return IdentifyRobot(robot, source, settings, [&](const std::string&) { stop(); });
     });
-  } else {
-    // readers of HDF5 and MATLAB fork, which only the thread that calls may do
-    nb::gil_scoped_release released;
-    answer = IdentifyRobot(robot, source, settings, {});
-  }
+  });
   shown::ShownData data;
   data.facts = shown::RobotFacts(answer, data);
   nb::list arrays;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint::python {
@@ -251,6 +252,9 @@ std::vector<Piece> Reader::Read() {
   return pieces;
 }
 
+/// What an exception says, with arguments in place of options, and nothing in it that a terminal acts on.
+std::string Words(const std::exception& thrown) { return Printable(InPython(thrown.what())); }
+
 /// Whether what stands between two options joins them into one call.
 bool Joins(const std::vector<Piece>& pieces, std::size_t i) {
   return i > 0 && i + 1 < pieces.size() && pieces[i].text == " " &&
@@ -294,9 +298,9 @@ void SpeakPython(nanobind::module_ core) {
         try {
           std::rethrow_exception(thrown);
         } catch (const BadInput& refusal) {
-          PyErr_SetString(of_core.attr("BadInput").ptr(), InPython(refusal.what()).c_str());
+          PyErr_SetString(of_core.attr("BadInput").ptr(), Words(refusal).c_str());
         } catch (const OutputFailed& failure) {
-          PyErr_SetString(of_core.attr("OutputFailed").ptr(), InPython(failure.what()).c_str());
+          PyErr_SetString(of_core.attr("OutputFailed").ptr(), Words(failure).c_str());
         }
       },
       core.release().ptr());

@@ -210,6 +210,7 @@ Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
 
 RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& source,
                         const RobotSettings& settings) {
+  if (source.logs.empty()) Refuse({"log"}, "no recording is given; give at least one");
   CheckSettings(settings);
   ReadModel model = ReadRobotModel(robot);
   const std::vector<std::string> joints = settings.joints.empty() ? model.joints : settings.joints;

@@ -165,6 +165,27 @@ TEST_F(Attach, NamesWhatElseResistsTheJoint) {
   EXPECT_EQ(LoadModel(out_).model->actuator_damping[0], 0);
 }
 
+TEST_F(Attach, TakesTheSpringThatYieldsAndKeepsKeyframesAndOtherSprings) {
+  const TemporaryFile model("plastic.xml", R"(<mujoco><compiler angle="radian"/><worldbody>
+    <body><joint name="a" axis="0 1 0" armature=".05" stiffness="200" springyield="1e-2"/><geom size=".1"/></body>
+    <body pos="1 0 0"><joint name="b" axis="0 1 0" armature=".05" stiffness="3"/><geom size=".1"/></body>
+    <body pos="2 0 0"><joint name="c" axis="0 1 0" armature=".05" stiffness="2" springyield=".1"/><geom size=".1"/></body></worldbody>
+    <tendon><fixed name="t" stiffness="2" springyield=".1"><joint joint="b" coef="1"/></fixed></tendon>
+    <keyframe><key plastic=".001 .02 .03"/></keyframe></mujoco>)");
+  const Attached attached = To(model.path(), {"a", "b"});
+  std::string all;
+  for (const std::string& notice : attached.notices) all += notice + "\n";
+  test::ExpectNamed(
+      all, {"a: the stiffness of the model's spring with a yield was removed",
+            "b: the spring with a yield of tendon 't' acts on it besides its friction, and stays"});
+  const LoadedModel result = LoadModel(out_);
+  EXPECT_EQ(result.model->jnt_stiffness[0], 0);
+  EXPECT_EQ(result.model->jnt_stiffness[1], 3);
+  EXPECT_EQ(result.model->jnt_stiffness[2], 2);
+  ASSERT_EQ(result.model->nplastic, 3);
+  EXPECT_EQ(result.model->key_plastic[1], .02);
+}
+
 TEST_F(Attach, GivesAFrictionToJointsOfItsKindAlone) {
   const TemporaryFile model("gantry.xml", R"(<mujoco><worldbody>
     <body><joint name="axis_1" type="slide" axis="1 0 0" armature="1"/><geom size=".1"/></body>

@@ -121,6 +121,34 @@ TEST(Export, CountsWhatAPlaceAdds) {
   EXPECT_NEAR(found.level, 15, 0.01);
 }
 
+TEST(Export, WritesTheDigitsThatTheIntervalSupports) {
+  const std::map<std::string, double> parameters{{"viscous", 0.123456789}, {"coulomb", 0.654321}};
+  SeenFriction seen{
+      .joint = "elbow", .friction = Cold("viscous_coulomb", parameters), .speeds = {1, 10}};
+  // without an interval twelve digits at most
+  EXPECT_THAT(EngineText({InEngine(seen, {}, EngineFormat::mjcf)}, EngineFormat::mjcf),
+              testing::HasSubstr(R"(damping="0.123456789" frictionloss="0.654321")"));
+  // half a width of 0.034: the level by 0.001, viscous by a tenth of that at 10 rad/s
+  seen.half_width = 0.034;
+  EXPECT_THAT(EngineText({InEngine(seen, {}, EngineFormat::mjcf)}, EngineFormat::mjcf),
+              testing::HasSubstr(R"(damping="0.1235" frictionloss="0.654")"));
+  EXPECT_NEAR(InEngine(seen, {}, EngineFormat::mjcf).viscous, 0.123456789, 1e-12);
+}
+
+TEST(Export, AsksForANameWhereTheEngineFindsJointsByIt) {
+  const Node friction(nlohmann::json{{"law", "coulomb"}, {"parameters", {{"coulomb", 2}}}},
+                      "friction.json");
+  for (const EngineFormat to : {EngineFormat::physx, EngineFormat::isaaclab, EngineFormat::mjlab}) {
+    EXPECT_THAT(test::RefusalOf([&] { ExportFrictions(friction, {.to = to}); }),
+                testing::HasSubstr("--joint NAME"));
+  }
+  for (const EngineFormat to : {EngineFormat::mjcf, EngineFormat::urdf}) {
+    const std::string text = EngineText(ExportFrictions(friction, {.to = to}).frictions, to);
+    EXPECT_THAT(text, testing::Not(testing::HasSubstr("name=")));
+    EXPECT_THAT(text, testing::HasSubstr("=\"2\"/>"));
+  }
+}
+
 TEST(Export, RefusesWhatHasNoAnswer) {
   const SeenFriction seen{.joint = "elbow", .friction = WarmLine()};
   EXPECT_THAT(test::RefusalOf([&] {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import html
 import json
@@ -26,8 +27,6 @@ from warmjoint.values import Array, kind_of, number, numbers, path_of, shown
 
 if TYPE_CHECKING:
     import pandas
-
-VOID = ("bad_data", "not_identifiable", "not_converged")  # statuses without numbers
 
 
 class Void(UserWarning):
@@ -95,9 +94,10 @@ class Residuals:
 class Estimate:
     """What an identifier answers. `data` is estimate.json as a dict.
 
-    `status` is ok, not_converged, not_identifiable, inadequate_model or bad_data; but for ok there are no numbers to use, and
-    `message` says why and what helps. estimate["coulomb"] is a Parameter; its value is nan, with a warning, of an estimate that is
-    bad_data, not_identifiable or not_converged and was not made or loaded with force=True. Estimates can be pickled and copied.
+    `status` is ok, not_converged, not_identifiable, inadequate_model or bad_data; but for ok there are no numbers to use, and `message`
+    says why and what helps. estimate["coulomb"] is a Parameter; its value is nan, with a warning, unless the estimate is ok or was made or
+    loaded with force=True. Estimates can be copied and pickled: one of a log that was read from files is small and reads them again, one of
+    a log in memory brings the log along, which figures and residuals need (`without_log` leaves it out).
     """
 
     def __init__(self, data: dict[str, Any], log: Log | None = None, force: bool = False) -> None:
@@ -105,12 +105,27 @@ class Estimate:
         self.force = force
         self._log = log
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Without a log that can be read again."""
+        return {**self.__dict__, "_log": None if self._is_on_disk() else self._log}
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Estimate:
+        return Estimate(copy.deepcopy(self.data, memo), self._log, self.force)
+
+    def without_log(self) -> Estimate:
+        """The same with its numbers alone: what needs the log needs one again, from `load`."""
+        return Estimate(self.data, None, self.force)
+
+    def _is_on_disk(self) -> bool:
+        """Whether the estimate names files of its log, and all are there."""
+        files = (_core.recording(self.data) or {}).get("files")
+        return bool(files) and all(map(os.path.exists, files))
+
     @property
     def log(self) -> Log | None:
         """The log that it was identified from; of a loaded estimate its recording, read again where its files are there, else None."""
-        recording = _core.recording(self.data) if self._log is None else None
-        if recording and recording["files"] and all(map(os.path.exists, recording["files"])):
-            self._log = Log._of(_core.read_log(recording))
+        if self._log is None and self._is_on_disk():
+            self._log = Log._of(_core.read_log(_core.recording(self.data) or {}))
         return self._log
 
     @property
@@ -301,10 +316,11 @@ class Estimate:
         facts, arrays = _core.shown_on_page(self.data, log._core)
         _core.write_text(path_of(path), pages.fill("log", view.unpacked(facts, arrays)))
 
-    def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None, joint: str = "JOINT") -> Export:
+    def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None, joint: str = "") -> Export:
         """The friction as the numbers that another engine takes: what `warmjoint export` does. to: mjcf, urdf, physx, isaaclab or mjlab.
         warm: 0 cold, 1 as warm as sliding at `speed` makes it (rad/s or m/s; the log's median where not given). joint: its name in what
-        the engine reads. Raises BadInput for an estimate without friction, or with one in amperes."""
+        the engine reads, which physx, isaaclab and mjlab need. The text has as many digits as the interval supports, `joints` has all.
+        Raises BadInput for an estimate without friction, or with one in amperes."""
         return export_frictions(self.data, to, warm=warm, speed=speed, joint=joint)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -334,7 +350,7 @@ class Estimate:
                 for name, row in self.data["parameters"].items()}
 
     def _is_void(self) -> bool:
-        return self.status in VOID and not self.force
+        return not self.ok and not self.force
 
     def _warn_of_void(self) -> None:
         if self._is_void() and self.data["parameters"]:

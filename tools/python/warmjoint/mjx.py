@@ -192,13 +192,17 @@ def step(m: Any, d: Any, f: MjxFriction, state: State) -> tuple[Any, State]:
     after = step_friction(f, state, mjx.full_m(m, here), d.qvel, damping, d.qpos[f._shape.positions], load)
     # the engine adds the joints' damping itself
     given = d.qfrc_applied
-    acting = given.at[f._shape.dofs].add(damping * d.qvel[f._shape.dofs] - after.force)
+    taken = damping * d.qvel[f._shape.dofs]
+    acting = given.at[f._shape.dofs].add(jp.where(jp.isfinite(taken), taken, 0.0) - after.force)
     return mjx.step(m, d.replace(qfrc_applied=acting)).replace(qfrc_applied=given), after
 
 
 def step_friction(f: MjxFriction, state: State, inertia: Array, speed: Array, damping: Array, position: Array, load: Array) -> State:
-    """The kernel: reference.step in JAX. inertia: M [nv x nv], kg.m^2 or kg; speed: v [nv], rad/s or m/s; damping, position, load: [J]."""
+    """The kernel: reference.step in JAX. inertia: M [nv x nv], kg.m^2 or kg; speed: v [nv], rad/s or m/s; damping, position, load: [J].
+
+    What is no finite number of the state counts as 0; a joint whose force is none acts with no force, and its state stays."""
     number, shape, h = f.numbers, f._shape, f._shape.timestep
+    state = _finite(state)
     v, energy = speed[shape.dofs], state.energy
     sides = {side: _level(f, side, state, position, v, energy, load) for side in (1, -1)}
     upper, lower = (jp.maximum(sides[side], 0.0) for side in (1, -1))
@@ -226,7 +230,20 @@ def step_friction(f: MjxFriction, state: State, inertia: Array, speed: Array, da
     force = jp.where(pushed, jp.sign(v) * jp.maximum(0.0, jp.abs(force) + below), force)
     loss = jp.where(pushed, jp.abs(force * v), loss)
     stages, lost_digits = _heat(number, state, loss, h)
-    return State(stretch, stages, lost_digits, jp.where(sliding, jp.sign(v), 0.0), active, other, force, loss, ~sliding)
+    right = jp.isfinite(force + loss + stretch + stages.sum(axis=-2))
+
+    def kept(after: Array, before: Array) -> Array:
+        return jp.where(right, after, before)
+
+    slides = kept(jp.where(sliding, jp.sign(v), 0.0), state.slip)
+    return State(kept(stretch, state.stretch), kept(stages, state.stages), kept(lost_digits, state.lost_digits), slides, active, other,
+                 kept(force, 0.0), kept(loss, 0.0), ~sliding)
+
+
+def _finite(state: State) -> State:
+    """The state with 0 for each number of what a step begins with that is no finite one."""
+    begins = ("stretch", "stages", "lost_digits", "slip")
+    return state._replace(**{name: jp.where(jp.isfinite(getattr(state, name)), getattr(state, name), 0.0) for name in begins})
 
 
 class Box(NamedTuple):

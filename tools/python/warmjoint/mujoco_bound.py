@@ -87,6 +87,11 @@ class BoundFriction(_Sensed):
         ends: Mapping[str, list[float] | None],
         joints: Sequence[str] | None,
     ):
+        for argument, value, kind in (("model", model, mujoco.MjModel), ("data", data, mujoco.MjData)):
+            if not isinstance(value, kind):
+                raise BadInput(f"{argument}: is {kind_of(value)}; give a mujoco.{kind.__name__}")
+        if (len(data.qvel), len(data.act), len(data.plugin_state)) != (model.nv, model.na, model.npluginstate):
+            raise BadInput("data: is of another model; make it by mujoco.MjData(model)")
         self.model = model
         self.data = data
         described = {joint["name"]: joint for joint in mujoco_plugin.joints_of(model)}

@@ -18,7 +18,7 @@ from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 from warmjoint.tables import Asked, Table, numbers_of, tables_of, with_objects
-from warmjoint.values import path_of
+from warmjoint.values import named, number, numbers, path_of, shown, texts
 
 Numbers = float | Mapping[str, float]
 
@@ -57,12 +57,14 @@ class RobotEstimate(Mapping[str, Estimate]):
     """What identify_robot answers: an Estimate for each joint by its name, robot["elbow"]. `data` is robot.json as a dict."""
 
     def __init__(self, data: dict[str, Any], drawn: Sequence[dict[str, Any]] = ()) -> None:
+        if not isinstance(data, Mapping) or not isinstance(data.get("joints"), Mapping):
+            raise _core.BadInput("robot: holds no map of joints; give what robot.json holds, of one estimate Estimate or load")
         self.data = data
         self._drawn = {one["file"]: one for one in drawn}
 
     def __getitem__(self, joint: str) -> Estimate:
-        if joint not in self.data["joints"]:
-            raise KeyError(f"the log holds no joint '{joint}'; it holds {', '.join(self.data['joints'])}")
+        if not isinstance(joint, str) or joint not in self.data["joints"]:
+            raise KeyError(f"the log holds no joint {shown(joint)}; it holds {', '.join(map(shown, self.data['joints']))}")
         return RobotJoint(self, joint)
 
     def __iter__(self) -> Iterator[str]:
@@ -108,10 +110,10 @@ class RobotEstimate(Mapping[str, Estimate]):
 
     def _drawn_of(self, joint: str, what: str) -> dict[str, Any]:
         """The series of a joint along its log."""
-        if joint in self._drawn:
+        if isinstance(joint, str) and joint in self._drawn:
             return self._drawn[joint]
-        there = f"the joints that were fitted are {', '.join(self._drawn)}" if self._drawn else "a robot.json holds none: identify_robot(model, log)"
-        raise _core.BadInput(f"{what}: there is no fit along the log of '{joint}'; {there}")
+        there = f"the joints that were fitted are {', '.join(map(shown, self._drawn))}" if self._drawn else "a robot.json holds none: identify_robot(model, log)"
+        raise _core.BadInput(f"{what}: there is no fit along the log of {shown(joint)}; {there}")
 
     def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None) -> Export:
         """The frictions of all joints that are known in N.m or N as the numbers that another engine takes (Estimate.export)."""
@@ -119,7 +121,7 @@ class RobotEstimate(Mapping[str, Estimate]):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes robot.json, which `warmjoint attach MODEL --friction robot.json` reads."""
-        pathlib.Path(path).write_text(json.dumps(self.data, indent=2) + "\n", encoding="utf-8")
+        _core.write_text(path_of(path), json.dumps(self.data, indent=2) + "\n")
 
     def __repr__(self) -> str:
         rows = [f"  {name}: {one.status}, {one.message}" for name, one in self.items()]
@@ -141,19 +143,21 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
     (x, y, z)} at the last link. Needs MuJoCo 4.0. Raises BadInput.
     """
     factors: dict[str, dict[str, float]] = {"torque": {}, "position": {}}
-    for name, factor in (scale or {}).items():
+    for name, factor in named("scale", scale).items():
         joint, _, column = name.rpartition(".")
-        if column not in ("torque", "position"):
-            raise _core.BadInput(f"scale: '{name}' is neither torque nor position, nor JOINT.torque or JOINT.position")
-        factors[column][joint] = float(factor)
+        if column not in factors:
+            raise _core.BadInput(f"scale: {shown(name)} is neither torque nor position, nor JOINT.torque or JOINT.position")
+        factors[column][joint] = number("scale", factor)
+    is_exact = isinstance(inertials, str) and inertials == "exact"
     settings: dict[str, object] = {
-        "joints": list(joints), "gear": _numbers(gear), "inertials": 0.0 if inertials == "exact" else float(inertials),
-        "coupling": [coupling] if isinstance(coupling, str) else list(coupling), "cutoff": float(cutoff),
-        "torque_constant": _numbers(torque_constant), "torque_scale": factors["torque"], "position_scale": factors["position"],
-        "holdout": float(holdout), "tool": _tool(tool)}
+        "joints": texts("joints", joints), "gear": _numbers("gear", gear), "inertials": 0.0 if is_exact else number("inertials", inertials),
+        "coupling": texts("coupling", coupling), "cutoff": number("cutoff", cutoff),
+        "torque_constant": _numbers("torque_constant", torque_constant), "torque_scale": factors["torque"],
+        "position_scale": factors["position"], "holdout": number("holdout", holdout), "tool": _tool(tool)}
     asked = Asked(topic, joints="all")
     tables = tables_of(log, "log", asked)
-    read = {"files": [one.name for one in tables], "map": dict(map or {}), "unit": dict(unit or {}), "columns": list(columns), "rate": float(rate)}
+    read = {"files": [one.name for one in tables], "map": named("map", map), "unit": named("unit", unit), "columns": texts("columns", columns),
+            "rate": number("rate", rate)}
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
         path = _model(model, folder)
         try:
@@ -165,24 +169,34 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
 
 
 def load_robot(path: str | os.PathLike[str]) -> RobotEstimate:
-    """Reads robot.json."""
-    return RobotEstimate(json.loads(pathlib.Path(path).read_text(encoding="utf-8")))
+    """Reads robot.json. Raises BadInput for another file."""
+    name = path_of(path)
+    try:
+        data = json.loads(pathlib.Path(name).read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as refusal:
+        raise _core.BadInput(f"{shown(name)}: is no JSON ({refusal}); give a robot.json") from None
+    return RobotEstimate(data)
 
 
-def _numbers(given: Numbers) -> dict[str, float]:
+def _numbers(argument: str, given: Any) -> dict[str, float]:
+    """Numbers by their joints; one for all has an empty name."""
     if isinstance(given, Mapping):
-        return {str(joint): float(value) for joint, value in given.items()}
-    return {"": float(given)} if given else {}
+        return {joint: number(argument, value) for joint, value in named(argument, given).items()}
+    value = number(argument, given)
+    return {"": value} if value else {}
 
 
-def _tool(given: Mapping[str, Any] | str | None) -> dict[str, object]:
+def _tool(given: Any) -> dict[str, object]:
     if given is None:
         return {}
-    if isinstance(given, str):
-        if given != "unknown":
-            raise _core.BadInput(f"tool: is '{given}'; it must be 'unknown' or {{'mass': kg, 'com': (x, y, z)}}")
+    if isinstance(given, str) and given == "unknown":
         return {"known": "unknown"}
-    return {"known": "given", "mass": float(given["mass"]), "centre": [float(one) for one in given.get("com", (0, 0, 0))]}
+    if not isinstance(given, Mapping) or "mass" not in given or not {*named("tool", given)} <= {"mass", "com"}:
+        raise _core.BadInput(f"tool: is {shown(given)}; it must be 'unknown' or {{'mass': kg, 'com': (x, y, z)}}")
+    centre = numbers("tool: com", given.get("com", (0, 0, 0)))
+    if centre.shape != (3,):
+        raise _core.BadInput(f"tool: com has the shape {centre.shape}; give (x, y, z), m")
+    return {"known": "given", "mass": number("tool: mass", given["mass"]), "centre": centre.tolist()}
 
 
 def _model(model: Any, folder: str) -> str:
@@ -191,11 +205,14 @@ def _model(model: Any, folder: str) -> str:
         path = os.path.join(folder, "robot.urdf" if "<robot" in model else "robot.xml")
         pathlib.Path(path).write_text(model, encoding="utf-8")
         return path
-    if isinstance(model, (str, bytes, os.PathLike)):
-        return path_of(model, "model")
     import mujoco
 
-    compiled = model.compile() if isinstance(model, mujoco.MjSpec) else model
+    if not isinstance(model, (mujoco.MjModel, mujoco.MjSpec)):
+        return path_of(model, "model")
+    try:
+        compiled = model.compile() if isinstance(model, mujoco.MjSpec) else model
+    except (ValueError, mujoco.FatalError) as refusal:
+        raise _core.BadInput(f"model: MuJoCo cannot compile it: {refusal}") from None
     path = os.path.join(folder, "robot.mjb")
     mujoco.mj_saveModel(compiled, path)
     return path

@@ -129,6 +129,27 @@ def whole(argument: str, value: Any) -> int:
     return found
 
 
+def named(argument: str, given: Any) -> dict[str, Any]:
+    """A dict whose keys are texts; nothing of None. Raises BadInput for what is none."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise _core.BadInput(f"{argument}: is {kind_of(given)}; give a dict by names")
+    for key in given:
+        if not isinstance(key, str):
+            raise _core.BadInput(f"{argument}: has the key {shown(key)}; give names as text")
+    return dict(given)
+
+
+def texts(argument: str, given: Any) -> list[str]:
+    """A list of texts, or one text. Raises BadInput for what is none."""
+    found = [given] if isinstance(given, str) else list(given) if isinstance(given, (list, tuple)) else [None]
+    for one in found:
+        if not isinstance(one, str):
+            raise _core.BadInput(f"{argument}: is {shown(given)}; give a text, or a list of texts")
+    return found
+
+
 def path_of(path: Any, argument: str = "path") -> str:
     """A path as text. Raises BadInput for what is none, and for names that are no UTF-8."""
     try:

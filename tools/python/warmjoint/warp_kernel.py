@@ -264,6 +264,17 @@ def nearest(w: int, i0: int, n: int, most: int, status: wp.array2d(dtype=int), s
 
 
 @wp.func
+def finite(x: float) -> float:
+    """What is no finite number counts as 0."""
+    return wp.where(wp.isfinite(x), x, 0.0)
+
+
+@wp.func
+def finite_heat(x: wp.float64) -> wp.float64:
+    return wp.where(wp.isfinite(x), x, wp.float64(0.0))
+
+
+@wp.func
 def begin(w: int, tree: int, i0: int, n: int, time: float, j: Joints, st: States):
     """The step before is over where the time has gone on; where it went back the world was reset."""
     last = st.time[w, tree]
@@ -283,12 +294,18 @@ def begin(w: int, tree: int, i0: int, n: int, time: float, j: Joints, st: States
                 st.energy[w, k, 1] = st.start_energy[k, 1]
                 st.first[w, i] = 0
                 st.second[w, i] = 0
-    st.time[w, tree] = time
+            st.stretch[w, i] = finite(st.stretch[w, i])
+            st.slip[w, k] = finite(st.slip[w, k])
+            st.energy[w, k, 0] = finite_heat(st.energy[w, k, 0])
+            st.energy[w, k, 1] = finite_heat(st.energy[w, k, 1])
+    if wp.isfinite(time):
+        st.time[w, tree] = time
 
 
 @wp.func
 def finish(w: int, i: int, k: int, v: float, kv: float, f: float, own: float, status: int, j: Joints, st: States):
-    """Force, loss and heat of one joint. own: the level on the side of its motion, N.m or N. Returns nothing."""
+    """Force, loss and heat of one joint. own: the level on the side of its motion, N.m or N. A speed or a load that is no finite number acts
+    with no force, and leaves the state as it was. Returns nothing."""
     row = w % j.law.shape[0]
     heat = w % j.heat.shape[0]
     energy = float(st.energy[w, k, 0] + st.energy[w, k, 1])
@@ -302,16 +319,24 @@ def finish(w: int, i: int, k: int, v: float, kv: float, f: float, own: float, st
     if f == 0.0 and v != 0.0 and own < 0.0:
         force = wp.sign(v) * wp.max(0.0, wp.abs(force) + own)
         loss = wp.abs(force * v)
+    st.held[w, k] = not sliding
+    st.total[w, k] = st.energy[w, k, 0] + st.energy[w, k, 1]
+    if not wp.isfinite(force + loss + st.next_stretch[w, i]):
+        st.force[w, k] = 0.0
+        st.loss[w, k] = 0.0
+        st.next_stretch[w, i] = st.stretch[w, i]
+        st.next_slip[w, k] = st.slip[w, k]
+        st.next_energy[w, k, 0] = st.energy[w, k, 0]
+        st.next_energy[w, k, 1] = st.energy[w, k, 1]
+        return
     st.force[w, k] = force
     st.loss[w, k] = loss
-    st.held[w, k] = not sliding
     st.next_slip[w, k] = wp.where(sliding, wp.sign(v), 0.0)
     lost = wp.float64(loss)
     st.next_energy[w, k, 0] = (
-        j.heat[heat, k, POLE] * st.energy[w, k, 0] + j.heat[heat, k, GAIN] * lost + j.heat[heat, k, AMBIENT] * wp.float64(st.ambient[w])
+        j.heat[heat, k, POLE] * st.energy[w, k, 0] + j.heat[heat, k, GAIN] * lost + j.heat[heat, k, AMBIENT] * wp.float64(finite(st.ambient[w]))
     )
     st.next_energy[w, k, 1] = j.heat[heat, k, SECOND_POLE] * st.energy[w, k, 1] + j.heat[heat, k, SECOND_GAIN] * lost
-    st.total[w, k] = st.energy[w, k, 0] + st.energy[w, k, 1]
 
 
 @wp.kernel
@@ -393,4 +418,4 @@ def step_friction(
             kv = dof_damping[w % dof_damping.shape[0], i]
             finish(w, i, k, v, kv, s.force[w, i], own, st.first[w, i], j, st)
             # the engine adds the joint's damping itself
-            passive[w, i] = passive[w, i] + kv * v - st.force[w, k]
+            passive[w, i] = passive[w, i] + finite(kv * v) - st.force[w, k]
