@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "identification/fit_data.h"
@@ -123,10 +125,12 @@ std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) 
   return bounds;
 }
 
-std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
-                                             const IdentifierInput& input,
-                                             const std::vector<Eigen::Index>& bounds) {
-  Eigen::VectorXd errors(static_cast<Eigen::Index>(bounds.size()) - 1);
+std::optional<Eigen::VectorXd> UnseenResiduals(const Identifier& identifier,
+                                               const IdentifierInput& input,
+                                               const std::vector<Eigen::Index>& bounds) {
+  const LogSamples& m = input.measurements;
+  Eigen::VectorXd left =
+      Eigen::VectorXd::Constant(m.size(), std::numeric_limits<double>::quiet_NaN());
   for (size_t b = 0; b + 1 < bounds.size(); ++b) {
     // fit to all but the block, evaluate on the block alone
     const Eigen::Index length = bounds[b + 1] - bounds[b];
@@ -136,11 +140,13 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
     block.keep = block.keep && !others.keep;
     const IdentifierInput rest = input.With(others);
     const Fit fit = EnforceBounds(identifier.fit(rest), rest.measurements);
-    const auto metrics = Evaluate(fit, input.measurements, block, fit.Start());
-    if (!metrics) return std::nullopt;
-    errors[static_cast<Eigen::Index>(b)] = metrics->rmse * metrics->rmse;
+    if (!GivesFriction(fit)) return std::nullopt;
+    const TorquePrediction predicted =
+        PredictTorque(ModelOf(fit), m, std::move(block), fit.Start());
+    if (predicted.covered.count() == 0) return std::nullopt;
+    left = predicted.covered.keep.select(m.torque - predicted.torque, left);
   }
-  return errors;
+  return left;
 }
 
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logged, Selection asked,

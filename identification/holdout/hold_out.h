@@ -51,12 +51,13 @@ HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog&
 /// Returns the first sample of each, and N: [blocks + 1].
 std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks);
 
-/// Mean squared error on each block of a fit to all the others, (N.m)^2 or N^2. The samples of the
+/// What the fit to all other blocks leaves of each sample of a block, tau less its prediction, N.m or N. The samples of the
 /// block are left out of the fit alone: they still warm the joint, in fit and prediction. Nothing
-/// where a fit gives no friction. bounds: of CutIntoBlocks; returns [blocks].
-std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
-                                             const IdentifierInput& input,
-                                             const std::vector<Eigen::Index>& bounds);
+/// where a fit gives no friction or predicts no sample of its block. bounds: of CutIntoBlocks; returns [N], not a number for
+/// samples that are not kept or not predicted.
+std::optional<Eigen::VectorXd> UnseenResiduals(const Identifier& identifier,
+                                               const IdentifierInput& input,
+                                               const std::vector<Eigen::Index>& bounds);
 
 /// The torque of a joint by a fit: F + G + M a, Eqs. (5) and (20).
 struct TorqueModel {

@@ -5,7 +5,7 @@
 // given. Drops those that the recording cannot identify, and
 // those to which BIC prefers a simpler one; compares the others by the error on contiguous blocks
 // that were left out of the fit (hold_out.h) and takes the simplest that is not worse than the
-// best beyond doubt (model_comparison.h). The fit is that structure's on all the data; the
+// best beyond what that gains by chance (model_comparison.h). The fit is that structure's on all the data; the
 // message says why and lists all candidates.
 //
 // not_identifiable where the motion cannot distinguish viscous from coulomb: then no law can be chosen.
@@ -136,26 +136,32 @@ struct Lateness {
   std::optional<double> lag, delay;
 };
 
-/// All trials. If the best linear structure finds a lag, they use only samples at which the torque has settled after it.
+/// All trials. If the best linear structure finds a lag, they use only samples at which the torque has settled after it; if it
+/// finds a delay, the motion of that delay earlier.
 struct Trials {
+  std::unique_ptr<const LogView> behind;  // of a delay
   std::unique_ptr<ModelComparison> comparison;
-  std::optional<double> lag;  // s
+  Lateness late;
 };
 
 Trials TryAll(const IdentifierInput& input) {
   Trials trials;
-  trials.comparison = std::make_unique<ModelComparison>(input, input.selection);
-  TryLinear(input, *trials.comparison);
-  trials.lag = trials.comparison->LagOfBest(input);
+  const auto begin = [&](const IdentifierInput& seen, const Selection& selection) {
+    trials.comparison = std::make_unique<ModelComparison>(seen, selection);
+    TryLinear(seen, *trials.comparison);
+  };
+  begin(input, input.selection);
+  trials.late = {trials.comparison->LagOfBest(input), trials.comparison->DelayOfBest(input)};
 
-  // a torque that lags: all again, on samples where it has settled
-  if (trials.lag) {
-    trials.comparison = std::make_unique<ModelComparison>(
-        input, Settled(input.measurements, input.selection, *trials.lag));
-    TryLinear(input, *trials.comparison);
-  }
-  TryLoad(input, *trials.comparison);
-  TryCurved(input, *trials.comparison);
+  // a torque that is late: all again. Else a load or a map would take up a part of what a delay does
+  const auto& [lag, delay] = trials.late;
+  const LogView all{input.measurements, input.selection};
+  if (lag) begin(input, Settled(input.measurements, input.selection, *lag));
+  if (delay) trials.behind = std::make_unique<const LogView>(Delayed(all, *delay));
+  const IdentifierInput seen = delay ? input.On(*trials.behind) : input;
+  if (delay) begin(seen, seen.selection);
+  TryLoad(seen, *trials.comparison);
+  TryCurved(seen, *trials.comparison);
   return trials;
 }
 
@@ -181,7 +187,7 @@ Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInpu
 std::string Reason(const std::vector<StructureCandidate>& contenders, const Choice& choice,
                    int blocks, const std::string& unit) {
   const auto compared = [&](std::size_t i) {
-    return ComparedStructure{contenders[i].name, std::sqrt(contenders[i].errors.mean())};
+    return ComparedStructure{contenders[i].name, std::sqrt(contenders[i].MeanSquare())};
   };
   const ComparedStructure chosen = compared(choice.chosen);
   if (choice.chosen == choice.best) return ExplainSmallestError(chosen, unit, blocks);
@@ -221,11 +227,8 @@ Fit FitChosen(const IdentifierInput& input) {
   if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
 
   // compare on rows that hold the means of neighbours
-  const auto found = FindLateTorque(input);
-  const std::optional<double> delay = found ? std::optional(found->delay) : std::nullopt;
-  const LogView behind = delay ? Delayed({input.measurements, input.selection}, *delay) : LogView{};
-  const Trials trials = TryAll(delay ? input.On(behind) : input);
-  const Lateness late{trials.lag, delay};
+  const Trials trials = TryAll(input);
+  const Lateness late = trials.late;
   ModelComparison& comparison = *trials.comparison;
 
   // structures that cannot be chosen are dropped first, those without a slope before all; the others are compared on held-out blocks
@@ -246,13 +249,13 @@ Fit FitChosen(const IdentifierInput& input) {
   } else if (contenders.empty()) {
     reported.reason = ExplainChosenByBic(chosen.Name(), blocks);
   } else {
-    const Choice choice = ChooseStructure(contenders, comparison.rows());
+    const Choice choice = ChooseStructure(contenders);
     chosen = comparison.Contending(choice.chosen);
     reported.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
   }
 
   // fitted to every sample, with the reason before the summary of the fit
-  if (trials.lag && chosen.CanEstimateLag()) {
+  if (late.lag && chosen.CanEstimateLag()) {
     chosen = chosen.With(LagOption{PartFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");

@@ -13,23 +13,37 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/bounds.h"
+#include "identification/lack_of_fit/significance.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/sentences/choice.h"
+#include "identification/uncertainty/tails.h"
+#include "identification/warming/torque_delay.h"
 #include "models/friction/laws.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
 namespace {
 
-/// Standard error of the mean of independent values. [n], n >= 2
-double StandardError(const Eigen::VectorXd& values) {
-  const auto n = static_cast<double>(values.size());
-  const double variance = (values.array() - values.mean()).square().sum() / (n - 1);
-  return std::sqrt(variance / n);
-}
-
 using Eigen::Index;
 using Eigen::VectorXd;
+
+constexpr double kByChance = 0.05;  // of the logs get a structure; why: as intervals miss the truth
+
+/// Whether the best leaves less than a simpler structure by more than the best of `richer` ones does by chance (ChooseStructure).
+bool GainsBeyondChance(const VectorXd& best, const VectorXd& simpler, double richer) {
+  const VectorXd apart = simpler - best;
+  const Index n = apart.size(), parts = std::min(kParts, n);
+  double squares = 0;
+  for (Index part = 0; part < parts; ++part) {
+    const Index begin = part * n / parts, end = (part + 1) * n / parts;
+    const double product = best.segment(begin, end - begin).dot(apart.segment(begin, end - begin));
+    squares += product * product;
+  }
+  const double gain = simpler.squaredNorm() - best.squaredNorm();
+  const double quantile =
+      StudentQuantile(static_cast<double>(parts - 1), 1 - 2 * kByChance / richer);
+  return gain > 2 * quantile * std::sqrt(squares);
+}
 
 constexpr Index kBins[] = {8, 16, 32, 64, 128, 256};
 constexpr double kDeviations = 2;  // of k F above its mean
@@ -129,30 +143,27 @@ double Bic(double mean_square, double parameters, double samples) {
   return samples * std::log(mean_square) + parameters * std::log(samples);
 }
 
-Choice ChooseStructure(const std::vector<StructureCandidate>& contenders, double samples) {
+Choice ChooseStructure(const std::vector<StructureCandidate>& contenders) {
   Choice choice;
-  // the one of the least error on blocks that it has not seen
+  // the one of the least error on rows that it has not seen
   for (size_t i = 1; i < contenders.size(); ++i) {
-    if (contenders[i].errors.mean() < contenders[choice.best].errors.mean()) choice.best = i;
+    if (contenders[i].MeanSquare() < contenders[choice.best].MeanSquare()) choice.best = i;
   }
 
-  // of all that are not worse beyond doubt, the simplest
+  // of all that are not worse beyond chance, the simplest
   const StructureCandidate& best = contenders[choice.best];
-  const auto bic = [&](const StructureCandidate& one) {
-    return Bic(one.in_sample, one.parameters, samples);
-  };
   choice.chosen = choice.best;
   for (size_t i = 0; i < contenders.size(); ++i) {
     const StructureCandidate& one = contenders[i];
-    const Eigen::VectorXd difference = one.errors - best.errors;
-    // as good as the best within one standard error, or by BIC
-    const bool equal = difference.mean() <= StandardError(difference) || bic(one) <= bic(best);
     const StructureCandidate& so_far = contenders[choice.chosen];
     // with fewer parameters, or with as many and a smaller error
     const bool simpler =
         one.parameters < so_far.parameters ||
-        (one.parameters == so_far.parameters && one.errors.mean() < so_far.errors.mean());
-    if (equal && simpler) choice.chosen = i;
+        (one.parameters == so_far.parameters && one.MeanSquare() < so_far.MeanSquare());
+    if (!simpler) continue;
+    const auto richer = std::ranges::count_if(
+        contenders, [&](const auto& other) { return other.parameters > one.parameters; });
+    if (!GainsBeyondChance(best.left, one.left, static_cast<double>(richer))) choice.chosen = i;
   }
   return choice;
 }
@@ -191,6 +202,18 @@ std::optional<double> ModelComparison::LagOfBest(const IdentifierInput& all) con
   ThermalStart start = fit.Start();
   for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
   return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
+}
+
+std::optional<double> ModelComparison::DelayOfBest(const IdentifierInput& all) const {
+  if (all.view != View::moving) return std::nullopt;
+  all.Tell("looking for a delay of the torque");
+  const Structure* best = Best();
+  if (best && best->CanEstimateDelay()) {
+    const Fit fit = best->Fitted(all);
+    if (!fit.refusal) return IsLate(fit) ? fit.torque_delay : std::nullopt;
+  }
+  const auto found = FindLateTorque(all);
+  return found ? std::optional(found->delay) : std::nullopt;
 }
 
 bool ModelComparison::MayHaveMap() const {
@@ -292,11 +315,11 @@ const Structure* ModelComparison::OnlyOne() const {
 }
 
 bool ModelComparison::HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds) {
-  if (trial.errors) return true;
+  if (trial.unseen) return true;
   quick_.Tell(fmt::format("comparing on {} held-out blocks: {}", bounds.size() - 1,
                           trial.structure.Name()));
-  trial.errors = trial.structure.ErrorsOn(quick_, bounds);
-  if (trial.errors && trial.errors->allFinite()) return true;
+  trial.unseen = trial.structure.UnseenOn(quick_, bounds);
+  if (trial.unseen) return true;
   trial.dropped = kFailsWithoutBlock;
   return false;
 }
@@ -307,14 +330,19 @@ std::vector<StructureCandidate> ModelComparison::Compare(int blocks) {
   const auto fails = [&](Trial& trial) { return trial.dropped.empty() && !HoldOut(trial, bounds); };
   while (std::ranges::any_of(trials_, fails)) DropDominated();
 
-  std::vector<StructureCandidate> contenders;
+  // the rows that all predict; a paired gravity does not know every place
   standing_.clear();
+  Selection common = quick_.selection;
   for (size_t i = 0; i < trials_.size(); ++i) {
-    const Trial& trial = trials_[i];
-    if (!trial.dropped.empty()) continue;
+    if (!trials_[i].dropped.empty()) continue;
     standing_.push_back(i);
-    contenders.push_back(
-        {trial.structure.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
+    common.keep = common.keep && trials_[i].unseen->array().isFinite();
+  }
+  std::vector<StructureCandidate> contenders;
+  if (common.count() == 0) return contenders;
+  for (const size_t i : standing_) {
+    const Trial& trial = trials_[i];
+    contenders.push_back({trial.structure.Name(), Kept(*trial.unseen, common), trial.Parameters()});
   }
   return contenders;
 }
@@ -326,7 +354,10 @@ std::vector<StructureTrial> ModelComparison::Reported() const {
     one.name = trial.structure.Name();
     one.parameters = trial.Parameters();
     one.dropped = trial.dropped;
-    if (trial.errors) one.rmse = std::sqrt(trial.errors->mean());
+    if (!trial.unseen) continue;
+    const auto finite = trial.unseen->array().isFinite();
+    one.rmse = std::sqrt(finite.select(trial.unseen->array().square(), 0).sum() /
+                         static_cast<double>(finite.count()));
   }
   return reported;
 }

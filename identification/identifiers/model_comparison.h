@@ -17,9 +17,11 @@ namespace warmjoint {
 /// A structure that fits the recording.
 struct StructureCandidate {
   std::string name;
-  Eigen::VectorXd errors;  // [blocks] mean squared error on each block that it has not seen
-  double in_sample = 0;    // mean squared error of the fit to all samples
-  double parameters = 0;   // effective number
+  Eigen::VectorXd left;   // [n] of the torque of rows that it has not seen, N.m or N
+  double parameters = 0;  // effective number
+
+  /// (N.m)^2 or N^2, over the rows
+  double MeanSquare() const { return left.squaredNorm() / static_cast<double>(left.size()); }
 };
 
 /// n ln(mean squared error) + d ln(n), Schwarz 1978. mean_square: of the fit to all samples.
@@ -30,11 +32,16 @@ struct Choice {
   size_t best = 0;  // of the least mean error; the chosen one may be a simpler one
 };
 
-/// The simplest contender that is not worse than the best beyond doubt: its mean error exceeds the
-/// best one's by no more than one standard error of their difference over the blocks (Breiman et
-/// al. 1984, 3.4.3, on paired differences), or BIC prefers it on all samples. Of equally simple
-/// ones, the one of the least error. contenders: at least one; samples: n of BIC.
-Choice ChooseStructure(const std::vector<StructureCandidate>& contenders, double samples);
+/// The simplest contender that is not worse than the best beyond what the best of m richer ones gains by chance. Let r be what
+/// the best leaves of unseen rows, and r + d what a simpler one leaves. The best gains D = sum(d^2 + 2 r d). Where the simpler
+/// one is right, D is that of noise, on average below 0, with a variance of 4 var(sum r d) at most, which the sums over
+/// kParts parts of the log show however the noise is coloured within them. The structure stays unless
+///
+///     D > t 2 sqrt(sum over parts (sum r d)^2),   t: the quantile 1 - 0.05/m of Student's t (Bonferroni)
+///
+/// so that one log in twenty, at most, gets a structure by chance. A gain in a few parts alone, as of a warming, does not
+/// count as noise. Of equally simple ones, the one of the least error. contenders: at least one, over the same rows in time.
+Choice ChooseStructure(const std::vector<StructureCandidate>& contenders);
 
 /// The result of a structure on the rows that are compared.
 struct Trial {
@@ -44,7 +51,7 @@ struct Trial {
   Inference inferred{};   // of one that gives no friction: why
   std::string dropped{};  // why it is no contender; empty for one that is
   bool outdone = false;   // whether it was dropped in favour of another that is still a contender
-  std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
+  std::optional<Eigen::VectorXd> unseen{};  // [N] of a contender, UnseenResiduals
 
   double Parameters() const { return fit.effective_parameters; }
   /// (N.m)^2 or N^2; of exact fits that of rounding, so that none is better than another.
@@ -74,6 +81,8 @@ class ModelComparison {
   /// The lag, s, that the best so far finds where every sample shows one; nothing where none does. all: the
   /// input with every sample.
   std::optional<double> LagOfBest(const IdentifierInput& all) const;
+  /// The same of a delay of the torque of motion of any kind. Where the best is refused on every sample, by FindLateTorque.
+  std::optional<double> DelayOfBest(const IdentifierInput& all) const;
 
   /// Whether a map may help: the best so far leaves structure over place, or nothing fits.
   bool MayHaveMap() const;
@@ -106,21 +115,19 @@ class ModelComparison {
   /// The structure that is not dropped, where it is the only one, so that there is nothing to compare; else null.
   const Structure* OnlyOne() const;
 
-  /// Errors of those that are not dropped, on blocks that they have not seen. Where one fails without a block, those that were
-  /// dropped in favour of it return.
+  /// What those that are not dropped leave of blocks that they have not seen, of the rows that all of them predict. Where one
+  /// fails without a block, those that were dropped in favour of it return.
   std::vector<StructureCandidate> Compare(int blocks);
   /// The structure of the i-th contender of the last comparison.
   const Structure& Contending(size_t i) const { return trials_[standing_[i]].structure; }
 
   const Trial& First() const { return trials_.front(); }
-  /// Rows that are compared.
-  double rows() const { return rows_; }
   /// All trials, for a reader.
   std::vector<StructureTrial> Reported() const;
 
  private:
   const Trial* BestTrial() const;
-  /// Finds the errors of a trial on blocks between bounds; false, and why, where it fails without one.
+  /// Finds what a trial leaves of unseen blocks between bounds; false, and why, where it fails without one.
   bool HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds);
   /// Whether a linear law with warming is identifiable.
   bool MayWarm() const;

@@ -109,9 +109,9 @@ Fit Structure::Fitted(const IdentifierInput& input) const {
   return identifier.fit(input.With(OptionsWith(input.options)));
 }
 
-std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
+std::optional<Eigen::VectorXd> Structure::UnseenOn(const IdentifierInput& input,
                                                    const std::vector<Eigen::Index>& bounds) const {
-  return BlockedErrors(identifier, input.With(Quick().OptionsWith(input.options)), bounds);
+  return UnseenResiduals(identifier, input.With(Quick().OptionsWith(input.options)), bounds);
 }
 
 std::span<const Word<GravityToTry>> WordsOf(GravityToTry) {

@@ -58,8 +58,8 @@ struct Structure {
   Structure PointEstimate() const;
   /// A sketch for the rows that structures are compared on.
   Structure Quick() const;
-  /// Mean squared errors on blocks that it has not seen (BlockedErrors).
-  std::optional<Eigen::VectorXd> ErrorsOn(const IdentifierInput& input,
+  /// What it leaves of samples that it has not seen (UnseenResiduals).
+  std::optional<Eigen::VectorXd> UnseenOn(const IdentifierInput& input,
                                           const std::vector<Eigen::Index>& bounds) const;
 };
 

@@ -4,6 +4,9 @@
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "identification/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
@@ -119,9 +122,22 @@ TEST(HoldOut, IsAbsentWhereNothingIsKept) {
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25).metrics);
 }
 
-auto ErrorsOfSixBlocks(const Identifier& identifier, const Measurements& m) {
+/// Mean squared errors on six blocks of fits to the other five. [6]
+std::optional<Eigen::VectorXd> ErrorsOfSixBlocks(const Identifier& identifier,
+                                                 const Measurements& m) {
   const Trial fit{identifier, m};
-  return BlockedErrors(fit.identifier, fit.input(), CutIntoBlocks(fit.selection, 6));
+  const std::vector<Eigen::Index> bounds = CutIntoBlocks(fit.selection, 6);
+  const auto left = UnseenResiduals(fit.identifier, fit.input(), bounds);
+  if (!left) return std::nullopt;
+  Eigen::VectorXd errors(6);
+  for (Eigen::Index b = 0; b < 6; ++b) {
+    const auto first = bounds[static_cast<std::size_t>(b)];
+    const Eigen::ArrayXd block =
+        left->segment(first, bounds[static_cast<std::size_t>(b) + 1] - first);
+    const auto finite = block.isFinite();
+    errors[b] = finite.select(block.square(), 0).sum() / static_cast<double>(finite.count());
+  }
+  return errors;
 }
 
 TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {

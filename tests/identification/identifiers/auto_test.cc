@@ -3,6 +3,8 @@
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/condense.h"
+#include "identification/identifiers/model_comparison.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/measurements.h"
@@ -63,6 +66,43 @@ TEST(Auto, FindsTwoLevelsBesideASmallFall) {
       AnswerTo(test::RecordFriction(joint, 1, test::SlowAndFast(3600, 4), 0.5, 4));
   ASSERT_TRUE(estimate.friction) << estimate.message;
   EXPECT_EQ(estimate.friction->law, "asymmetric_stribeck") << estimate.message;
+}
+
+/// What a simple structure and ten richer ones leave of unseen rows of noise, which is coloured. The richer ones have a wave
+/// more each, with the coefficient that noise of the other rows gives it, and one of them has `gain` times a bump, too.
+std::vector<StructureCandidate> SimpleAndRicher(std::uint64_t seed, double gain) {
+  constexpr Eigen::Index n = 3000;
+  RandomStream random({seed, 1}, Stream::test);
+  Eigen::ArrayXd noise(n);
+  double before = 0;
+  for (Eigen::Index i = 0; i < n; ++i) noise[i] = before = 0.6 * before + random.Normal();
+  // the bump is in a twentieth of the log
+  Eigen::ArrayXd bump = Eigen::ArrayXd::Zero(n);
+  bump.head(n / 20).setConstant(gain);
+  std::vector<StructureCandidate> all{{"simple", noise + bump, 3}};
+  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(n, 0, 1);
+  for (int k = 1; k <= 10; ++k) {
+    // 2.5: what slow noise of this colour is larger by than white noise
+    const Eigen::ArrayXd wave = 2.5 * random.Normal() * std::sqrt(2.0 / n) * (40 * k * place).sin();
+    const Eigen::ArrayXd left = k == 7 ? noise : noise + bump;
+    all.push_back({"richer", left + wave, 3.0 + k});
+  }
+  return all;
+}
+
+TEST(ChooseStructure, TakesARicherOneByChanceInFewLogs) {
+  int richer = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    richer += ChooseStructure(SimpleAndRicher(seed, 0)).chosen != 0;
+  }
+  // 5 %, and three standard errors
+  EXPECT_LE(richer, 26);
+}
+
+TEST(ChooseStructure, TakesARicherOneThatGainsInASmallPartOfTheLog) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    EXPECT_EQ(ChooseStructure(SimpleAndRicher(seed, 2)).chosen, 7) << seed;
+  }
 }
 
 /// What came of a structure that auto lists; nothing where it does not.
