@@ -231,10 +231,7 @@ def replaced(value, path, new):
 
 def is_data(text, engine):
     """Whether what Python reads of it is numbers by names, and nothing that is called."""
-    if engine == "mjlab":
-        text = "{\n" + text + "}"
-    else:
-        text = "dict(\n" + text + ")"
+    text = "{\n" + text + "}" if engine == "mjlab" else "dict(\n" + text + ")"
     calls = [node.func for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)]
     return all(isinstance(one, ast.Name) and one.id == "dict" for one in calls)
 

@@ -1,6 +1,7 @@
 """One way of reading for a joint's Log and for a robot's log: whatever holds the numbers, both take it, or both refuse it."""
 
 import json
+import pathlib
 import sys
 import types
 
@@ -24,7 +25,7 @@ class Engine:
 
     def identify_robot(self, model, logs, read, settings):
         self.model, self.logs, self.read = model, logs, read
-        self.text = open(model, errors="replace").read() if model.endswith((".xml", ".urdf")) else ""
+        self.text = pathlib.Path(model).read_text(errors="replace") if model.endswith((".xml", ".urdf")) else ""
         raise Taken
 
 
@@ -96,7 +97,7 @@ def test_two_rows_of_columns(engine):
 
 def test_a_matrix_with_samples_in_its_columns_is_refused(engine):
     for given in ({"time": T, "position": Q.T, "torque": X.T}, {"position": Q.T, "torque": X.T}):
-        with pytest.raises(wj.BadInput, match="position: has the shape .2, 400.*transpose"):
+        with pytest.raises(wj.BadInput, match=r"position: has the shape .2, 400.*transpose"):
             wj.identify_robot(ARM, given)
 
 
@@ -151,12 +152,12 @@ def test_a_robots_answer_is_loaded_by_its_own_function(tmp_path):
         wj.load(path)
     joint = wj.load_robot(path)["elbow"]
     for ask in (lambda: joint.plot(), lambda: joint.residuals, lambda: joint.figures()):
-        with pytest.raises(wj.BadInput, match="elbow.*identify_robot"):
+        with pytest.raises(wj.BadInput, match=r"elbow.*identify_robot"):
             ask()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="wheels are for Linux")
 def test_unknown_kinds_of_binary_files_are_named(tmp_path):
     (tmp_path / "log.dat").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
-    with pytest.raises(wj.BadInput, match="end in .h5"):
+    with pytest.raises(wj.BadInput, match=r"end in \.h5"):
         wj.read(tmp_path / "log.dat")

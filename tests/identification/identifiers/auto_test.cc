@@ -115,8 +115,7 @@ std::optional<StructureTrial> TrialOf(const Estimate& estimate, const std::strin
 TEST(Auto, SaysWhyAndListsWhatItTried) {
   const Estimate estimate = AnswerTo(test::RecordHour(test::TableOne(), 1));
   EXPECT_EQ(estimate.identifier, "auto");
-  EXPECT_THAT(estimate.message,
-              HasSubstr("chose energy-ml law=viscous_coulomb: every other"));
+  EXPECT_THAT(estimate.message, HasSubstr("chose energy-ml law=viscous_coulomb: every other"));
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb");
   const auto dropped = [&](const std::string& name) {

@@ -15,6 +15,7 @@ import numpy as np
 from warmjoint import _core
 from warmjoint.values import Column
 
+
 def is_other(path: str) -> bool:
     """Whether the program leaves a file, by its name, or a folder to these readers."""
     return _core.is_other_format(path)

@@ -84,10 +84,7 @@ def read(request, path):
     reader = importlib.import_module(name)
     from columns import pick, require_one_length
 
-    if name == "read_bag":
-        found = reader.columns(path, request, notes)
-    else:
-        found = reader.tree(path, notes)
+    found = reader.columns(path, request, notes) if name == "read_bag" else reader.tree(path, notes)
     if isinstance(found, str):
         return found, notes
     columns = found if name == "read_bag" else pick(path, found, request.get("map") or {}, notes)
