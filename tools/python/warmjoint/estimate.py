@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import dataclasses
 import html
 import json
 import math
@@ -19,8 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from warmjoint import _core
+from warmjoint.answers import FrictionAtSpeed, Parameter, Prediction, Residuals, interval_text, value_text
 from warmjoint.export import EngineFormat, Export, export_frictions
-from warmjoint.figures.numerals import range_at_bound
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
 from warmjoint.values import Array, kind_of, number, numbers, path_of, shown
@@ -35,60 +34,6 @@ class Void(UserWarning):
 
 class Rejected(RuntimeError):
     """An estimate that must not be used: raise_if_rejected says why."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Parameter:
-    """An estimated parameter in SI. std and ci95 (95 % confidence interval) are None where they do not exist; value is nan where the
-    log or the motion cannot tell it."""
-
-    name: str
-    value: float
-    unit: str
-    std: float | None
-    ci95: tuple[float, float] | None
-
-    def __repr__(self) -> str:
-        interval = f" ({self.ci95[0]:.6g} .. {self.ci95[1]:.6g})" if self.ci95 and not range_at_bound(self.value, self.ci95) else ""
-        return f"{self.name} = {_value(self, 6)}{interval} {self.unit}"
-
-
-@dataclasses.dataclass(frozen=True)
-class FrictionAtSpeed:
-    """What the joint brakes with at a speed, N.m or N, with its standard deviation and its 95 % confidence interval."""
-
-    speed: float  # rad/s or m/s; below 0: backwards
-    value: float  # N.m or N, against the motion
-    std: float
-    ci95: tuple[float, float]
-    unit: str  # of value
-    speed_unit: str
-    heat: float | None  # E, N.m or N: 0 of a cold joint, else that of the log's warmest moment; None where nothing warms
-
-    def __repr__(self) -> str:
-        state = "" if self.heat is None else ", warm" if self.heat else ", cold"
-        way = "backwards" if self.speed < 0 else "forwards"
-        return (f"friction {way} at {abs(self.speed):.3g} {self.speed_unit}{state} = {self.value:.5g} "
-                f"({self.ci95[0]:.5g} .. {self.ci95[1]:.5g}) {self.unit}")
-
-
-@dataclasses.dataclass(frozen=True)
-class Prediction:
-    """An estimate along a log of N samples."""
-
-    time: Array  # [N] s
-    torque: Array  # [N] predicted, N.m or N
-    heat: Array  # [N] E, N.m or N
-    compared: npt.NDArray[np.bool_]  # [N] samples that the metrics run over
-    metrics: dict[str, float]  # rmse and mae in N.m or N, fit in %
-
-
-@dataclasses.dataclass(frozen=True)
-class Residuals:
-    """What a fit leaves of the torque at the n samples that it takes."""
-
-    time: Array  # [n] s
-    torque: Array  # [n] torque less fit, N.m or N
 
 
 class Estimate:
@@ -338,7 +283,7 @@ class Estimate:
 
     def _repr_html_(self) -> str:
         at_speeds = [Parameter(repr(one).split(" = ")[0], one.value, one.unit, one.std, one.ci95) for one in self.friction_at_speeds]
-        rows = "".join(f"<tr><th>{one.name}</th><td>{_value(one, 5)}</td><td>{_interval(one)}</td><td>{one.unit}</td></tr>"
+        rows = "".join(f"<tr><th>{one.name}</th><td>{value_text(one, 5)}</td><td>{interval_text(one)}</td><td>{one.unit}</td></tr>"
                        for one in [*at_speeds, *self._shown()])
         return (f"<p><b>{self.status}</b> ({html.escape(self.identifier)}): {html.escape(self.message)}</p>"
                 f"<table><tr><th>parameter</th><th>value</th><th>95 % interval</th><th>unit</th></tr>{rows}</table>")
@@ -511,13 +456,3 @@ def _word(name: str, value: Any) -> str:
 
 def _number(value: float | None) -> float:
     return math.nan if value is None else float(value)
-
-
-def _value(one: Parameter, digits: int) -> str:
-    """The value, or the range of one at its bound."""
-    ends = range_at_bound(one.value, one.ci95)
-    return f"{ends[0]:.2g} to {ends[1]:.2g}" if ends else f"{one.value:.{digits}g}"
-
-
-def _interval(one: Parameter) -> str:
-    return f"{one.ci95[0]:.5g} .. {one.ci95[1]:.5g}" if one.ci95 else ""
