@@ -148,7 +148,7 @@ std::vector<std::string> NotesOf(const std::vector<std::string>& of_table,
 }  // namespace
 
 FileContent ReadRobotTable(const RobotLogSource& source, const ReadSettings& settings,
-                           const FindRobot& find) {
+                           const FindLogColumns& find) {
   if (source.columns) return *source.columns;
   const auto wanted = [&](const FileContent& content, const Place& header, const std::string&) {
     std::vector<WantedColumn> all;

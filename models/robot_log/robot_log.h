@@ -36,12 +36,12 @@ struct RobotLogSource {
 };
 
 /// The columns of the joints, by the columns of a log. place: of the header
-using FindRobot = std::function<RobotColumns(const FileContent& content, const Place& place)>;
+using FindLogColumns = std::function<RobotColumns(const FileContent& content, const Place& place)>;
 
 /// The columns of a log, with the values of those that `find` gives to joints; a file is opened once. settings: names of columns in place
 /// of a header. Throws BadInput, also as `find` does.
 FileContent ReadRobotTable(const RobotLogSource& source, const ReadSettings& settings,
-                           const FindRobot& find);
+                           const FindLogColumns& find);
 
 /// The joints of a table on one clock: the table has one, which is mended once; each position and each torque is then a column of its own,
 /// with its own rows without a number, its unit and its gaps. kinds: [n] of the joints. Throws BadInput where the clock or a position

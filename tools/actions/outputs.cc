@@ -29,9 +29,6 @@ bool LiesIn(const fs::path& path, const fs::path& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
-/// Refuses a target whose folder cannot be written to, or that is no regular file.
-void RequireWritable(const fs::path& target) { AtomicFile{target}; }
-
 }  // namespace
 
 std::FILE* WordsBeside(const std::vector<fs::path>& outputs) {
@@ -58,7 +55,8 @@ Outputs::Outputs(std::vector<fs::path> targets, std::vector<fs::path> inputs)
     : targets_(std::move(targets)), inputs_(std::move(inputs)) {
   std::erase_if(targets_, [](const fs::path& target) { return target.empty(); });
   KeepApart(targets_, inputs_);
-  for (const fs::path& target : targets_) RequireWritable(target);
+  // refuses a target whose folder cannot be written to, or that is no regular file
+  for (const fs::path& target : targets_) AtomicFile{target};
 }
 
 void Outputs::AddInputs(const std::vector<fs::path>& inputs) {

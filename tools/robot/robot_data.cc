@@ -44,7 +44,7 @@ Tables ReadTables(const RobotSource& source, const std::vector<std::string>& joi
     const bool is_first = tables.contents.empty();
     const auto known = [&](const FileContent&, const Place&) { return tables.columns; };
     tables.contents.push_back(
-        ReadRobotTable(log, source.read, is_first ? FindRobot(find) : FindRobot(known)));
+        ReadRobotTable(log, source.read, is_first ? FindLogColumns(find) : FindLogColumns(known)));
     // a file may be read by a process of its own, which keeps what it found
     if (is_first) tables.columns = find(tables.contents.front(), {InputName(log.name)});
   }

@@ -133,8 +133,9 @@ FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
 FitView MakeFitView(const LogSamples& logged, const Selection& asked, const Estimate& estimate) {
   if (!estimate.friction) return WithoutFit(logged, asked, estimate);
   // the motion that the torque follows
+  const bool grows = estimate.friction->load_gain != 0 && estimate.gravity;
   const auto other = Followed(
-      logged, asked, {*estimate.friction, estimate.gravity, ValueOf(Role::delay, estimate)});
+      logged, asked, {grows ? &*estimate.gravity : nullptr, ValueOf(Role::delay, estimate)});
   const LogSamples& measurements = other ? other->measurements : logged;
   const Selection& selection = other ? other->selection : asked;
   return MakeFitView(measurements, selection, estimate,

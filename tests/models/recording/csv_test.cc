@@ -74,8 +74,10 @@ TEST(ReadCsv, JoinsNamesOfTwoRows) {
   const char* const merged = ",knee,,ankle,\ntime,angle,torque,angle,torque\n";
   for (const char* head : {written, merged}) {
     const TemporaryFile file("log.csv", std::string(head) + "0,1,2,3,4\n1,2,3,4,5\n2,4,7,9,1\n");
-    const Measurements log =
-        ReadCsv(file.path(), {.map = {{"position", "ankle/angle"}, {"torque", "ankle/torque"}}});
+    ReadSettings settings;
+    settings.map["position"] = "ankle/angle";
+    settings.map["torque"] = "ankle/torque";
+    const Measurements log = ReadCsv(file.path(), settings);
     EXPECT_EQ(log.position, Eigen::Vector3d(3, 4, 9));
     EXPECT_EQ(log.torque, Eigen::Vector3d(4, 5, 1));
   }
@@ -83,7 +85,9 @@ TEST(ReadCsv, JoinsNamesOfTwoRows) {
 
 TEST(ReadCsv, NeedsNoNameBehindASeparatorAtTheEndOfRows) {
   const TemporaryFile file("log.csv", "0\t1\t2\t\n1\t2\t3\t\n2\t4\t7\t\n");
-  const Measurements log = ReadCsv(file.path(), {.columns = {"time", "position", "torque"}});
+  ReadSettings settings;
+  settings.columns = {"time", "position", "torque"};
+  const Measurements log = ReadCsv(file.path(), settings);
   EXPECT_EQ(log.torque, Eigen::Vector3d(2, 3, 7));
 }
 

@@ -40,7 +40,7 @@ std::string Torque(int i) { return fmt::format("{:.6g}", 2 * std::sin(.02 * i));
 RobotLog Read(const RobotLogSource& source) {
   const std::vector<std::string> joints{"lift", "elbow"};
   RobotColumns columns;
-  const FindRobot find = [&](const FileContent& content, const Place& place) {
+  const FindLogColumns find = [&](const FileContent& content, const Place& place) {
     std::vector<std::string> names;
     for (const FileColumn& column : content.columns) names.push_back(column.name);
     return columns = FindRobotColumns(names, joints, {}, place);
