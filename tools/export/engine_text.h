@@ -12,7 +12,7 @@ namespace warmjoint {
 /// What is asked for.
 struct ExportRequest {
   EngineFormat to = EngineFormat::mjcf;
-  Warmth warmth;
+  Warmth warmth{};
   std::string
       joint{};  // what the joint of an estimate is called; needed where a text finds joints by name (NeedsName)
 
