@@ -101,7 +101,7 @@ Table TrialTable(const StructureChoice& choice, const std::string& unit) {
 std::string AssumptionsText(const Estimate& estimate) {
   std::string text;
   // each with the parameters that it would move
-  for (const Assumption& one : estimate.assumptions) {
+  for (const Assumption& one : ShownAssumptions(estimate)) {
     std::vector<std::string> moves;
     for (const auto& [name, change] : one.moves) {
       moves.push_back(fmt::format("{} by {:.2g}", name, change));

@@ -71,7 +71,7 @@ Tree TestsOf(const Estimate& estimate, bool warms) {
 
 Tree AssumptionsOf(const Estimate& estimate) {
   Tree rows = Tree::array();
-  for (const Assumption& one : estimate.assumptions) {
+  for (const Assumption& one : ShownAssumptions(estimate)) {
     rows.push_back({{"sentence", one.meaning.empty() ? one.name : AsSentence(one.meaning)},
                     {"moves", Tree::object()}});
     for (const auto& [name, move] : one.moves) rows.back()["moves"][name] = move;

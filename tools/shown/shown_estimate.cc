@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "identification/fit_parameters.h"
+#include "identification/inference/cause.h"
 #include "identification/sentences/friction.h"
 #include "models/friction/thermal.h"
 
@@ -106,6 +107,15 @@ std::optional<std::string> RangeAtBound(const EstimatedParameter& one) {
     return std::abs(value) < 1e-9 * (upper - lower) ? 0 : value;
   };
   return fmt::format("{:.2g} to {:.2g}", end(lower), end(upper));
+}
+
+std::vector<Assumption> ShownAssumptions(const Estimate& estimate) {
+  std::vector<Assumption> shown = estimate.assumptions;
+  const bool is_stated = estimate.recording && estimate.recording->read.unit.contains("position");
+  std::erase_if(shown, [&](const Assumption& one) {
+    return is_stated && one.name == NameOf(Source::degrees);
+  });
+  return shown;
 }
 
 std::string AsSentence(std::string clause) {

@@ -20,6 +20,9 @@ std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate);
 /// of other values.
 std::optional<std::string> RangeAtBound(const EstimatedParameter& one);
 
+/// The assumptions, without that of the unit of angles where it was stated.
+std::vector<Assumption> ShownAssumptions(const Estimate& estimate);
+
 /// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
 std::string AsSentence(std::string clause);
 

@@ -89,12 +89,22 @@ TEST_F(IdentifyCommand, ExplainsEveryTestAndAssumptionWhenAsked) {
   const auto estimate = Json(nominal_);
   ASSERT_FALSE(estimate.at("diagnostics").empty());
   for (const auto& one : estimate.at("diagnostics")) {
-    EXPECT_THAT(full, HasSubstr("\n" + one.at("test").get<std::string>() + " "));
+    // a row of its own, or among those that were not made
+    const std::string name = one.at("test").get<std::string>();
+    EXPECT_THAT(full, HasSubstr(one.at("made").get<bool>() ? "\n" + name + " " : name));
   }
   for (const auto& one : estimate.at("assumptions")) {
     EXPECT_THAT(full, HasSubstr("  " + one.at("name").get<std::string>() + ": "));
   }
   EXPECT_THAT(Program(nominal_).out, Not(HasSubstr("test for lack of fit")));
+}
+
+TEST_F(IdentifyCommand, DoubtsNoUnitThatIsStated) {
+  const auto explained = [&](const std::vector<std::string>& more) {
+    return Program(With(With(nominal_, {"--explain"}), more)).out;
+  };
+  EXPECT_THAT(explained({}), HasSubstr("angles_in_radians"));
+  EXPECT_THAT(explained({"--unit", "position=rad"}), Not(HasSubstr("angles_in_radians")));
 }
 
 TEST_F(IdentifyCommand, HoldsNothingOutWhenAsked) {
