@@ -13,7 +13,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/bounds.h"
-#include "identification/lack_of_fit/significance.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/sentences/choice.h"
 #include "identification/uncertainty/tails.h"

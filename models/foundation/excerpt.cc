@@ -13,8 +13,8 @@ namespace {
 bool IsActive(char32_t code) {
   const auto within = [code](char32_t low, char32_t high) { return low <= code && code <= high; };
   return code < 0x20 || within(0x7F, 0x9F) || code == 0x061C || within(0x200E, 0x200F) ||
-         within(0x2028, 0x202E) || within(0x2066, 0x2069) || code == 0xFEFF ||
-         (code & 0xFFFE) == 0xFFFE;
+         within(0x2028, 0x202E) || within(0x2066, 0x2069) || code == 0xFEFF || code == 0xFFFE ||
+         code == 0xFFFF;
 }
 
 constexpr std::size_t kMostListed = 24;

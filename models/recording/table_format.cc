@@ -236,12 +236,21 @@ void TakeGroups(const std::vector<Line>& lines, std::size_t header, TableFormat&
 /// between. A comment is the header where no other line is.
 void TakeHeader(const std::vector<Line>& lines, const Look& look, const std::string& file,
                 bool is_named, TableFormat& table) {
+  // units need names, above them or given: "sec,nanosec,x,y" alone is a header
+  const auto has_names_above = [&](std::size_t i) {
+    return is_named ||
+           std::ranges::any_of(
+               lines.begin(), lines.begin() + static_cast<long>(i), [&](const Line& line) {
+                 return FieldsAbove(line.text, table, table.rows_end_empty).has_value();
+               });
+  };
   for (std::size_t i = look.first; i-- > 0;) {
     const Line& line = lines[i];
     const bool is_comment = IsComment(line.text);
     if (IsBlankLine(line.text) && !is_comment) continue;
     auto fields = FieldsAbove(line.text, table, table.rows_end_empty);
-    if (auto units = fields && table.units.empty() ? UnitsOf(*fields) : std::nullopt) {
+    const bool may_be_units = fields && table.units.empty() && has_names_above(i);
+    if (auto units = may_be_units ? UnitsOf(*fields) : std::nullopt) {
       table.units = std::move(*units);
       continue;
     }

@@ -30,9 +30,9 @@ TEST(EngineWarnings, TakesEachKindOnceFromAllThreadsAndLeavesNoFile) {
     }
     mju_warning("last");
   }
-  EXPECT_THAT(outer, ElementsAre("MuJoCo: QVEL at DOF 3. Time = 0.50.", "MuJoCo: other?[31m",
+  EXPECT_THAT(outer, ElementsAre("MuJoCo: QVEL at DOF 3. Time = 0.50.", "MuJoCo: other\\x1B[31m",
                                  "MuJoCo: last"));
-  EXPECT_THAT(inner, ElementsAre("MuJoCo: other?[31m"));
+  EXPECT_THAT(inner, ElementsAre("MuJoCo: other\\x1B[31m"));
   EXPECT_EQ(std::filesystem::exists("MUJOCO_LOG.TXT"), before);
 }
 
