@@ -111,7 +111,7 @@ def test_files_of_every_kind_are_read_by_one_function(engine, tmp_path):
     np.savez(tmp_path / "LOG.NPZ", **wide)
     columns = robot_columns(engine, tmp_path / "LOG.NPZ")
     np.testing.assert_array_equal(columns["tau1"][1], X[:, 1])
-    log = wj.read(tmp_path / "LOG.NPZ", map={"position": "q1", "torque": "tau1"})
+    log = wj.read(tmp_path / "LOG.NPZ", map={"time": "time", "position": "q1", "torque": "tau1"})
     np.testing.assert_array_equal(log.torque, X[:, 1])
     rows = [json.dumps({name: values[i] for name, values in wide.items()}) for i in range(N)]
     (tmp_path / "log.jsonl").write_text("\n".join(rows))
