@@ -14,6 +14,7 @@
 #include "identification/identifiers/structures.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/parts.h"
 #include "identification/sentences/choice.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/warming/torque_delay.h"

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "identification/parts.h"
+
 namespace warmjoint {
 
 struct LackOfFitTest;
@@ -31,9 +33,6 @@ struct Finding {
   double harm =
       0;  // of one that was rejected: how far it changes the friction, as a share of its rms (HarmOf)
 };
-
-/// Parts of a recording that count as independent of each other: noise may be coloured within them.
-inline constexpr Eigen::Index kParts = 32;
 
 /// Share of the logs without any lack of fit in which a test of the table finds one by chance.
 inline constexpr double kErrorLevel = 0.01;
