@@ -15,7 +15,7 @@ mujoco = pytest.importorskip("mujoco")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-from warmjoint import attach, friction_arrays, mujoco_attach, mujoco_plugin  # noqa: E402
+from warmjoint import attach, mujoco_attach, mujoco_plugin  # noqa: E402
 
 ROBOT = """
 <mujoco model="arm">
@@ -328,16 +328,6 @@ def test_a_spring_that_yields_gives_way_to_the_friction():
         data.qfrc_applied[0] = torque
         mujoco.mj_step(model, data, 1000)
         assert (abs(data.qvel[0]) > 0.01) == slides
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_split_leaves_no_plugin_in_its_spec(form):
-    spec = attach(ROBOT, FRICTIONS, form=form).spec.copy()
-    friction_arrays._without_friction(spec)
-    assert not [body.name for body in spec.bodies if body.plugin.active]
-    text = spec.to_xml()
-    assert "plugin" not in text
-    assert mujoco.MjModel.from_xml_string(text).nplugin == spec.compile().nplugin == 0
 
 
 def test_bind_refuses_what_is_no_model_and_data_of_another():

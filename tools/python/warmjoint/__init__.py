@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
+from warmjoint.answers import FrictionAtSpeed, Parameter, Prediction, Residuals
 from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
-from warmjoint.estimate import Estimate, FrictionAtSpeed, Parameter, Prediction, Rejected, Residuals, Void, identifiers, identify, load
+from warmjoint.estimate import Estimate, Rejected, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
 from warmjoint.log import Check, Log, check, read
 from warmjoint.robot import RobotEstimate, identify_robot, load_robot

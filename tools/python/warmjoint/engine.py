@@ -6,6 +6,7 @@ import contextlib
 import dataclasses
 import html
 import json
+import math
 import os
 import pathlib
 import tempfile
@@ -16,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from warmjoint import _core, mujoco_library
-from warmjoint.estimate import Estimate, FrictionAtSpeed, Parameter
+from warmjoint.answers import FrictionAtSpeed, Parameter
+from warmjoint.estimate import Estimate
 from warmjoint.log import Log
 from warmjoint.values import kind_of, path_of, whole
 
@@ -146,7 +148,7 @@ def _side_by_side(first: Any, second: Any) -> Iterator[dict[str, Any]]:
     for name in dict.fromkeys([*rows[0], *rows[1]]):
         yield _row_of(name, [found.get(name) for found in rows])
     for speed in _speeds_of_both(first, second):
-        found = [_friction_at(estimate, speed) for estimate in (first, second)]
+        found: list[Parameter | None] = [_friction_at(estimate, speed) for estimate in (first, second)]
         yield _row_of(f"friction at {speed:.3g} {first.friction_at_speeds[0].speed_unit}", found)
 
 
@@ -162,7 +164,7 @@ def _row_of(name: str, found: list[Parameter | None]) -> dict[str, Any]:
     both = [one for one in found if one]
     row["difference"] = both[1].value - both[0].value if len(both) == 2 else None
     halves = [(one.ci95[1] - one.ci95[0]) / 2 for one in both if one.ci95]
-    row["apart"] = abs(row["difference"]) / np.hypot(*halves) if len(halves) == 2 and np.hypot(*halves) > 0 else None
+    row["apart"] = abs(row["difference"]) / math.hypot(*halves) if len(halves) == 2 and any(halves) else None
     return row
 
 

@@ -63,7 +63,7 @@ class Estimate:
 
     def _is_on_disk(self) -> bool:
         """Whether the estimate names files of its log, and all are there."""
-        files = (_core.recording(self.data) or {}).get("files")
+        files = (_core.recording(self.data) or {}).get("files") or []
         return bool(files) and all(map(os.path.exists, files))
 
     @property

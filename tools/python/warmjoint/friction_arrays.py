@@ -213,10 +213,6 @@ def _refuse(joints: list[dict[str, Any]]) -> None:
 def _without_friction(spec: mujoco.MjSpec) -> mujoco.MjModel:
     """The compiled model without instances, actuators, sensors and arrays of the friction. spec: is changed."""
     names = [plugin.name for plugin in spec.plugins if plugin.plugin_name == _PLUGIN]
-    # a body that refers to an instance would keep what is deleted
-    for body in spec.bodies:
-        if body.plugin.active and body.plugin.name in names:
-            body.plugin.active = False
     # each list anew: what is deleted moves the elements of other kinds
     for kind in ("sensors", "actuators"):
         for one in [one for one in getattr(spec, kind) if one.plugin.active and one.plugin.name in names]:

@@ -12,8 +12,9 @@ from typing import Any, Literal
 import numpy as np
 
 from warmjoint import _core, other_formats
+from warmjoint.answers import Parameter, Residuals
 from warmjoint.engine import _engine
-from warmjoint.estimate import Estimate, Parameter, Rejected, Residuals
+from warmjoint.estimate import Estimate, Rejected
 from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction

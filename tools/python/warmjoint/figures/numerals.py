@@ -51,7 +51,8 @@ def range_at_bound(value: float, interval: Sequence[float] | None) -> tuple[floa
     if value - lower > at_end and upper - value > at_end:
         return None
     # what is 0 but for rounding
-    return tuple(0.0 if abs(end) < 1e-9 * (upper - lower) else end for end in (lower, upper))
+    ends = [0.0 if abs(end) < 1e-9 * (upper - lower) else end for end in (lower, upper)]
+    return ends[0], ends[1]
 
 
 def range_text(value: float, interval: Sequence[float] | None) -> str | None:

@@ -40,8 +40,8 @@ def answer(request: dict[str, Any]) -> bytes:
     except TooSmall as refusal:
         return json.dumps({"refusal": {"place": "--size", "why": str(refusal)}}).encode() + b"\n"
     except TooLarge as refusal:
-        place = ", ".join(dict.fromkeys(str(one["place"]) for one in request["sources"]))
-        return json.dumps({"refusal": {"place": place, "why": str(refusal)}}).encode() + b"\n"
+        sources = ", ".join(dict.fromkeys(str(one["place"]) for one in request["sources"]))
+        return json.dumps({"refusal": {"place": sources, "why": str(refusal)}}).encode() + b"\n"
     return json.dumps({"files": heads, "left_out": notes}).encode() + b"\n" + b"".join(files)
 
 
