@@ -17,14 +17,11 @@
 #include "identification/sentences/findings.h"
 #include "identification/sentences/lack_of_fit.h"
 #include "identification/uncertainty/tails.h"
-#include "identification/uncertainty/uncertainty.h"
-#include "models/foundation/random_stream.h"
 
 namespace warmjoint {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kFewestBins = 40;  // with fewer bins no structure can be tested
@@ -32,9 +29,7 @@ constexpr Index kRowsAColumn = 3;
 constexpr double kWorstTenth =
     3.1622776601683795;  // why: sqrt(10), a tenth of the log may hold all squares of an effect
 constexpr double kRange =
-    3.5;                     // why: sqrt(12), from least to most of what rises evenly, over its rms
-constexpr int kRounds = 12;  // why: halves what is left of a bias in each, to 1 in 4000
-constexpr Index kNearby = 100;  // fits; why: the deviation of so many biases is known to 7 %
+    3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
 
 /// The tests that have not rejected yet, with their features relative to the present fit.
 struct Candidates {
@@ -129,14 +124,12 @@ void TestStage(Stage stage, const Bins& bins, const WeighedFit& begin,
   bins.TakeOff(fit.Explained(), rest);
 }
 
-bool IsFinite(const std::optional<FittedModel>& model) {
-  return model && model->residual.allFinite() && model->derivatives.allFinite();
-}
-
 /// Why nothing can be examined; empty where it can.
 std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
   if (!model) return kFitGivesNoFriction;
-  if (!IsFinite(model)) return kResidualIsNotFinite;
+  if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
+    return kResidualIsNotFinite;
+  }
   if (IsRounding(Kept(model->residual, model->selection).squaredNorm(),
                  Kept(model->torque, model->selection))) {
     return kFitIsExact;
@@ -340,53 +333,20 @@ void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examin
                   fit.BiasBy(range * means).cwiseAbs().rowwise().sum());
 }
 
-/// Adds the row of a torque that is hidden within its steps. Its error is that of rounding the fit's torque, of which only that is
-/// known: parameters are drawn that change it by up to a step, and the biases by the error at each have the covariance of the row.
-void AddHiddenSteps(const RoundedTorque& rounded, const FittedModel& model, const Bins& bins,
-                    const WeighedFit& fit, Examination& examination) {
-  const Index q = model.derivatives.cols();
-  const Eigen::ArrayXd norms = fit.norms.head(q);
-  const double step = rounded.step() * std::sqrt(examination.samples);
-  const Eigen::ArrayXd by_step = (norms > 0).select(step / norms, 0);
-  RandomStream random({}, Stream::start);
-  MatrixXd biases(std::ssize(examination.rows), kNearby);
-  for (Index i = 0; i < kNearby; ++i) {
-    VectorXd changes(q);
-    for (Index k = 0; k < q; ++k) changes[k] = random.Uniform(-1, 1) * by_step[k];
-    const VectorXd error = rounded.ErrorWith(model.derivatives * changes);
-    biases.col(i) = fit.BiasBy(bins.Means(error)).topRows(biases.rows());
-  }
-  examination.Add(Source::hidden_steps, Action::widen, VectorXd::Zero(biases.rows()));
-  examination.causes.back().spread = biases / std::sqrt(static_cast<double>(kNearby));
-}
-
-/// Adds the row of a torque whose steps noise evens out in part, and returns their mean error, [N]. The fit holds a part of the error, so
-/// that the torque that was rounded follows from the parameters without their biases.
-VectorXd AddRounding(const FittedModel& model, const LogSamples& m, const Bins& bins,
-                     const WeighedFit& fit, Examination& examination) {
-  const Index q = model.derivatives.cols();
-  VectorXd shift = VectorXd::Zero(fit.norms.size()), error;
-  for (int i = 0; i < kRounds; ++i) {
-    const VectorXd residual = model.residual - model.derivatives * shift.head(q);
-    error = RoundedTorque(m.torque, residual, model.selection).MeanError();
-    // half of the way: the error may change by more than the torque does
-    shift = (shift + fit.BiasBy(bins.Means(error)).col(0)) / 2;
-  }
-  examination.Add(Source::rounding, Action::shift, std::move(shift));
-  return error;
-}
-
 /// Subtracts what the steps of the torque leave in the residual, and adds a row for how much they bias the parameters. rest: [N]
-void TakeOffRounding(const OverBins& over, const RoundedTorque& rounded, VectorXd& rest,
-                     Examination& examination) {
+void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& examination) {
   const auto& [model, m, bins, derivatives, fit, circumstances] = over;
-  if (rounded.IsHidden()) {
-    const double most = rounded.step() / 2;
-    rest -= rest.cwiseMin(most).cwiseMax(-most);
-    AddHiddenSteps(rounded, model, bins, fit, examination);
-  } else if (!rounded.IsEven()) {
-    rest -= AddRounding(model, m, bins, fit, examination);
+  const double variance = examination.squares / examination.samples;
+  if (const double step = HidingStep(m.torque, variance); step > 0) {
+    // the error may be anything within half a step, so the worst is taken at each bin
+    rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
+    examination.Add(Source::hidden_steps, Action::widen, step / 2 * fit.MostMoves());
+    return;
   }
+  const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
+  if (rounding.size() == 0) return;
+  rest -= rounding;
+  examination.Add(Source::rounding, Action::shift, fit.BiasBy(bins.Means(rounding)));
 }
 
 /// Computes the friction that effects are compared with: that of law and heat, without maps, which may hold gravity.
@@ -447,26 +407,23 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
   const std::string obstacle = Obstacle(model, bins);
   examination.findings = NotMade(obstacle);
-  if (!IsFinite(model) || bins.size() == 0) return examination;
+  if (!obstacle.empty()) return examination;
 
-  // what parameters can explain; where nothing can be tested, steps of the torque hide it all the same
+  // what parameters and assumptions can explain, and heat within the steps
   Measure(*model, bins, examination);
   const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
-  const WeighedFit fitted(bins.weight, derivatives);
-  const RoundedTorque rounded(m.torque, model->residual, model->selection);
-  if (!obstacle.empty()) {
-    if (rounded.IsHidden()) AddHiddenSteps(rounded, *model, bins, fitted, examination);
-    return examination;
-  }
-
-  // what assumptions can explain, and heat within the steps
-  const OverBins over{*model, m, bins, derivatives, fitted, CircumstancesOf(*model, m, bins)};
+  const OverBins over{*model,
+                      m,
+                      bins,
+                      derivatives,
+                      WeighedFit(bins.weight, derivatives),
+                      CircumstancesOf(*model, m, bins)};
   AddAssumptions(over, fit, by_noise, examination);
 
   // first known influences on friction, then structure that changes within segments, then what stays from one to the next
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
-  TakeOffRounding(over, rounded, rest, examination);
+  TakeOffRounding(over, rest, examination);
   std::vector<Finding>& table = examination.findings;
   TestStage(Stage::first, bins, over.fit, over.circumstances, rest, level, table);
   TestWithin(over, rest, level, table);

@@ -100,6 +100,11 @@ MatrixXd WeighedFit::BiasBy(const MatrixXd& forces) const {
   return -mix * shared;
 }
 
+VectorXd WeighedFit::MostMoves() const {
+  const MatrixXd of_rows = qr.r_inverse * (root.asDiagonal() * qr.basis).transpose();
+  return of_rows.cwiseAbs().rowwise().sum().cwiseQuotient(norms);
+}
+
 GrowingFit::GrowingFit(WeighedFit fit, const VectorXd& residual, const Selection& place)
     : place_(place),
       ends_(EndsOf(fit.weight, std::min(kParts, residual.size() / 2))),

@@ -42,6 +42,8 @@ struct WeighedFit {
   /// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is
   /// known, -(J^T W J)^-1 J^T W f. forces: [m x q]; returns [p x q].
   Eigen::MatrixXd BiasBy(const Eigen::MatrixXd& forces) const;
+  /// The most that a force of 1 N.m or N at most in each row biases x, [p].
+  Eigen::VectorXd MostMoves() const;
   /// Whether no parameter is a mix of the others.
   bool IsFullRank() const { return qr.basis.cols() == norms.size(); }
 };
