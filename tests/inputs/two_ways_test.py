@@ -18,7 +18,7 @@ import tempfile
 import inputs_test
 
 LAYOUT = {"--map", "--unit", "--scale", "--columns", "--rate", "--wrap", "--joint", "--gear", "--torque-constant"}
-BINARY = (".h5", ".mat", ".xml", ".urdf", ".json", ".jsonl", ".yaml")
+NO_TABLE = (".h5", ".mat", ".xml", ".urdf", ".json", ".jsonl", ".yaml", ".gz", ".bz2", ".zip", ".xls", ".xlsx", ".mcap", ".db3", ".bag", ".parquet", ".pkl", ".feather", ".nc")
 NOMINAL = ["--identifier", "nominal-ls"]
 
 
@@ -34,7 +34,7 @@ def logs(places):
                     continue
                 file = words[1].format(**places)
                 options = [word for k, word in enumerate(words) if word in LAYOUT or (words[k - 1] in LAYOUT and k > 1)]
-                if pathlib.Path(file).is_file() and not file.endswith(BINARY):
+                if pathlib.Path(file).is_file() and not file.lower().endswith(NO_TABLE):
                     found[(file, *options)] = None
     for path in sorted((places["made"] / "tables").iterdir()):
         found[(str(path),)] = None
