@@ -198,7 +198,7 @@ def test_a_wrong_option_is_refused_by_its_name(wrong, log, given, words):
 
 @pytest.mark.parametrize("nothing", [[], ()])
 def test_no_recording_is_refused(wrong, nothing):
-    with pytest.raises(wj.BadInput, match="no recording is given"):
+    with pytest.raises(wj.BadInput, match="give at least one"):
         wj.identify_robot(wrong, nothing)
 
 

@@ -108,7 +108,8 @@ def test_a_column_that_is_no_numbers_is_told_with_its_reason(engine):
 
 def test_files_of_every_kind_are_read_by_one_function(engine, tmp_path):
     wide = {"time": T, **{f"q{j}": Q[:, j] for j in range(2)}, **{f"tau{j}": X[:, j] for j in range(2)}}
-    np.savez(tmp_path / "LOG.NPZ", **wide)
+    with (tmp_path / "LOG.NPZ").open("wb") as file:  # a name alone gets another ending
+        np.savez(file, **wide)
     columns = robot_columns(engine, tmp_path / "LOG.NPZ")
     np.testing.assert_array_equal(columns["tau1"][1], X[:, 1])
     log = wj.read(tmp_path / "LOG.NPZ", map={"time": "time", "position": "q1", "torque": "tau1"})

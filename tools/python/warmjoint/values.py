@@ -143,11 +143,11 @@ def named(argument: str, given: Any) -> dict[str, Any]:
 
 def texts(argument: str, given: Any) -> list[str]:
     """A list of texts, or one text. Raises BadInput for what is none."""
-    if isinstance(given, str):
-        return [given]
-    if not isinstance(given, (list, tuple)) or not all(isinstance(one, str) for one in given):
-        raise _core.BadInput(f"{argument}: is {shown(given)}; give a text, or a list of texts")
-    return list(given)
+    found = list(given) if isinstance(given, (list, tuple)) else [given]
+    for one in found:
+        if not isinstance(one, str):
+            raise _core.BadInput(f"{argument}: is {shown(one)}; give a text, or a list of texts")
+    return found
 
 
 def path_of(path: Any, argument: str = "path") -> str:
