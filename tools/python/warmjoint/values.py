@@ -112,6 +112,8 @@ def together(**given: Any) -> dict[str, Array]:
 
 def number(argument: str, value: Any) -> float:
     """One number. Raises BadInput for what is none."""
+    if value is None:
+        raise _core.BadInput(f"{argument}: is None; give one number")
     found = numbers(argument, value)
     if found.size != 1:
         raise _core.BadInput(f"{argument}: has the shape {found.shape}; give one number")
