@@ -10,11 +10,19 @@ import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-os.chdir(HERE)  # whose matplotlibrc is the first that matplotlib looks for
+WORKING = os.getcwd()
+os.chdir(HERE)  # whose matplotlibrc is the first that matplotlib looks for, when it is imported
 os.environ.update(MPLBACKEND="agg", MATPLOTLIBRC=os.path.join(HERE, "matplotlibrc"))
 sys.path[0] = os.path.dirname(HERE)
 
+import contextlib  # noqa: E402
+
 import numpy as np  # noqa: E402
+
+with contextlib.suppress(ImportError):  # what draws says what is missing
+    import matplotlib  # noqa: F401
+os.chdir(WORKING)  # paths of a request may be relative
+
 from figures.view import unpacked  # noqa: E402
 
 sys.path.pop(0)  # other modules of that folder are none of others
