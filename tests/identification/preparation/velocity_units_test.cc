@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 constexpr double kTurn = 2 * std::numbers::pi;  // rad
 constexpr double kDegree = kTurn / 360;         // rad
 
-enum class Motion { holds, two_speeds, ramps, sines };
+enum class MadeMotion { holds, two_speeds, ramps, sines };
 enum class Digits { exact, whole, noisy };
 
 /// A unit that a column is in, and what names it.
@@ -45,7 +45,7 @@ const std::vector<Other> kOthers{
 };
 
 /// A motion in SI: speeds up to 1 rad/s at 20 Hz for two minutes. Positions are exact.
-Measurements Move(Motion motion, std::uint64_t seed) {
+Measurements Move(MadeMotion motion, std::uint64_t seed) {
   constexpr Index n = 2400;
   constexpr double h = 0.05, until = 2;  // s
   RandomStream random({seed, 0}, Stream::motion);
@@ -59,14 +59,14 @@ Measurements Move(Motion motion, std::uint64_t seed) {
     if (i % 40 == 0) {
       last = wanted;
       const double size =
-          motion == Motion::two_speeds ? (hold / 2 % 2 ? 0.3 : 0.6) : random.Uniform(0.1, 1);
+          motion == MadeMotion::two_speeds ? (hold / 2 % 2 ? 0.3 : 0.6) : random.Uniform(0.1, 1);
       wanted = hold % 2 ? -size : size;
     }
     // holds with short accelerations, ramps from one speed to the next, or two waves that never repeat each other
     const double share = (t - until * hold) / until;
-    if (motion == Motion::holds || motion == Motion::two_speeds) speed = wanted;
-    if (motion == Motion::ramps) speed = last + (wanted - last) * share;
-    if (motion == Motion::sines) speed = 0.6 * std::cos(0.7 * t) + 0.4 * std::cos(1.9 * t);
+    if (motion == MadeMotion::holds || motion == MadeMotion::two_speeds) speed = wanted;
+    if (motion == MadeMotion::ramps) speed = last + (wanted - last) * share;
+    if (motion == MadeMotion::sines) speed = 0.6 * std::cos(0.7 * t) + 0.4 * std::cos(1.9 * t);
     m.velocity[i] = speed;
     if (i > 0) m.position[i] = m.position[i - 1] + h * (m.velocity[i - 1] + speed) / 2;
     m.torque[i] = 0.8 * speed + std::copysign(4.5, speed);
@@ -75,7 +75,7 @@ Measurements Move(Motion motion, std::uint64_t seed) {
 }
 
 /// The motion as a log has it, with the noise of a drive: of the torque always, of the velocity where the digits are noisy.
-Measurements Logged(Motion motion, Digits digits, const Other& unit, std::uint64_t seed) {
+Measurements Logged(MadeMotion motion, Digits digits, const Other& unit, std::uint64_t seed) {
   Measurements m = Move(motion, seed);
   RandomStream random({seed, 1}, Stream::test);
   for (double& torque : m.torque) torque += 0.1 * random.Normal();
@@ -89,12 +89,13 @@ Measurements Logged(Motion motion, Digits digits, const Other& unit, std::uint64
   return m;
 }
 
-constexpr Motion kMotions[]{Motion::holds, Motion::two_speeds, Motion::ramps, Motion::sines};
+constexpr MadeMotion kMotions[]{MadeMotion::holds, MadeMotion::two_speeds, MadeMotion::ramps,
+                                MadeMotion::sines};
 constexpr Digits kDigits[]{Digits::exact, Digits::whole, Digits::noisy};
 
 TEST(VelocityUnits, AreNamedWhateverMotionAndDigits) {
   for (const Other& unit : kOthers) {
-    for (const Motion motion : kMotions) {
+    for (const MadeMotion motion : kMotions) {
       for (const Digits digits : kDigits) {
         for (const std::uint64_t seed : {1, 2, 3}) {
           EXPECT_THAT(Prepare(Logged(motion, digits, unit, seed)).faults(),
@@ -109,7 +110,7 @@ TEST(VelocityUnits, AreNamedWhateverMotionAndDigits) {
 
 TEST(VelocityUnits, OfAMotorWhoseGearNobodyGivesAreNamedByTheirFactor) {
   for (const double gear : {50.0, 100.0}) {
-    for (const Motion motion : kMotions) {
+    for (const MadeMotion motion : kMotions) {
       for (const Digits digits : kDigits) {
         const auto faults = Prepare(Logged(motion, digits, {.velocity = gear}, 1)).faults();
         ASSERT_EQ(faults.size(), 1u);
@@ -124,7 +125,7 @@ TEST(VelocityUnits, OfAMotorWhoseGearNobodyGivesAreNamedByTheirFactor) {
 }
 
 TEST(VelocityUnits, OfARightColumnAreNotDoubted) {
-  for (const Motion motion : kMotions) {
+  for (const MadeMotion motion : kMotions) {
     for (const Digits digits : kDigits) {
       for (const double whole : {0.001, 0.01, 0.1}) {
         for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
@@ -155,7 +156,7 @@ TEST(VelocityUnits, AreNamedOfAJointThatStaysWithinATurn) {
 }
 
 TEST(VelocityUnits, StaleRowsAreNamedByTheirShare) {
-  for (const Motion motion : {Motion::holds, Motion::ramps, Motion::sines}) {
+  for (const MadeMotion motion : {MadeMotion::holds, MadeMotion::ramps, MadeMotion::sines}) {
     for (const auto& [of, share] : {std::pair(2, "50 %"), std::pair(3, "67 %")}) {
       Measurements m = Logged(motion, Digits::noisy, {}, 1);
       for (Index i = 0; i < m.size(); ++i) {
