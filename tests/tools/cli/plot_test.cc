@@ -30,20 +30,6 @@ std::vector<std::string> NamesOf(const std::map<std::string, std::string>& files
   return names;
 }
 
-/// RFC 4648, without the last group, which may be filled up.
-std::string Base64(const std::string& bytes) {
-  static constexpr char kLetters[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = 256 * group + static_cast<unsigned char>(bytes[i + k]);
-    for (const unsigned shift : {18u, 12u, 6u, 0u}) text += kLetters[group >> shift & 63];
-  }
-  return text;
-}
-
 using Plot = InAFolder;
 
 // one test, because a run and its pictures take seconds
@@ -54,7 +40,7 @@ TEST_F(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   Call({"plot", "run", "-o", "twice"});
   Call({"report", "run"});
 
-  // the same bytes again, in the report too
+  // the same bytes again; the report holds each picture, in fewer colours
   const auto once = FilesOf("once"), twice = FilesOf("twice");
   EXPECT_THAT(NamesOf(once), UnorderedElementsAre("npe_boxes.png", "error_by_iteration.png",
                                                   "parameters_by_iteration.png", "agreement.png",
@@ -62,8 +48,13 @@ TEST_F(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   const std::string page = File("run/report.html");
   for (const auto& [name, bytes] : once) {
     EXPECT_TRUE(bytes == twice.at(name)) << name;
-    EXPECT_NE(page.find(Base64(bytes)), std::string::npos) << name << " in the report";
   }
+  std::size_t pictures = 0;
+  const std::string begin_of_image = "data:image/png;base64,";
+  for (std::size_t at = 0; (at = page.find(begin_of_image, at)) != std::string::npos; ++at) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, once.size());
 
   // what one sees, on stdout and in the file
   const std::string line = "npe_boxes.png: ";
