@@ -51,7 +51,7 @@ TEST_F(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   }
   std::size_t pictures = 0;
   const std::string begin_of_image = "data:image/png;base64,";
-  for (std::size_t at = 0; (at = page.find(begin_of_image, at)) != std::string::npos; ++at) {
+  for (std::size_t k = 0; (k = page.find(begin_of_image, k)) != std::string::npos; ++k) {
     ++pictures;
   }
   EXPECT_EQ(pictures, once.size());
