@@ -22,6 +22,7 @@
 #include "models/foundation/node.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
+#include "sim/model/earlier_friction.h"
 #include "sim/model/engine_warnings.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/bound_joints.h"
@@ -231,6 +232,14 @@ extern "C" {
 [[gnu::visibility("default")]] const char* warmjoint_attach(mjSpec* spec, const mjVFS* files,
                                                             const char* request) {
   return warmjoint::Answer([&] { return warmjoint::Attach(*spec, files, request); });
+}
+
+/// Takes all friction of the plugin out of a spec. Answer: {}.
+[[gnu::visibility("default")]] const char* warmjoint_remove(mjSpec* spec) {
+  return warmjoint::Answer([&] {
+    warmjoint::RemoveFriction(*spec);
+    return warmjoint::Tree::object();
+  });
 }
 
 /// The joints with friction of a model, in the order of instances and their joints. Answer: {joints: [{name,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "sim/model/friction_actuator.h"
 #include "sim/model/spec_elements.h"
@@ -48,41 +49,62 @@ std::vector<mjsElement*> Those(mjSpec& spec, mjtObj type, const Goes& goes) {
   return elements;
 }
 
-/// Takes an instance of that name, empty for one inline, and all that refers to it out of the spec; whether it had arrays.
-bool Remove(mjSpec& spec, const std::string& name, const std::vector<FrictionForJoint>& joints) {
-  const auto refers = [&](const mjsPlugin& plugin) {
-    return !name.empty() && plugin.active && name == mjs_getString(plugin.name);
-  };
+/// Lets a body refer to no instance, as the world. In a copied spec its words are those of the instance, which goes away, and MuJoCo's Python
+/// counts the references to the element.
+void ReferToNone(mjSpec& spec, mjsPlugin& plugin) {
+  const mjsPlugin& none = mjs_findBody(&spec, "world")->plugin;
+  plugin.active = 0;
+  plugin.element = nullptr;
+  plugin.plugin_name = none.plugin_name;
+  plugin.name = none.name;
+}
+
+/// Takes the instances, and all that refers to them, out of the spec; whether they had arrays. names: theirs, without the nameless; refers:
+/// whether an actuator or what else holds a plugin refers to one.
+template <typename Refers>
+bool Remove(mjSpec& spec, const std::vector<mjsElement*>& instances,
+            const std::vector<std::string>& names, const Refers& refers) {
   std::vector<mjsElement*> gone = Those(spec, mjOBJ_SENSOR, [&](mjsElement* element) {
     return refers(mjs_asSensor(element)->plugin);
   });
-  const std::vector<mjsElement*> arrays = Those(spec, mjOBJ_NUMERIC, [&](mjsElement* element) {
-    return !name.empty() && NameOf(element).starts_with(name + "/");
+  const std::vector<mjsElement*> actuators = Those(spec, mjOBJ_ACTUATOR, [&](mjsElement* element) {
+    return refers(mjs_asActuator(element)->plugin);
   });
+  const std::vector<mjsElement*> arrays = Those(spec, mjOBJ_NUMERIC, [&](mjsElement* element) {
+    return std::ranges::any_of(
+        names, [&](const std::string& name) { return NameOf(element).starts_with(name + "/"); });
+  });
+  gone.insert(gone.end(), actuators.begin(), actuators.end());
   gone.insert(gone.end(), arrays.begin(), arrays.end());
-  // actuators of this form alone bear these names
-  mjsElement* instance =
-      name.empty() ? nullptr : mjs_findElement(&spec, mjOBJ_PLUGIN, name.c_str());
-  for (const FrictionForJoint& joint : joints) {
-    const std::string actuator = FrictionActuatorOf(joint.joint);
-    mjsElement* element = mjs_findElement(&spec, mjOBJ_ACTUATOR, actuator.c_str());
-    if (!element || !mjs_asActuator(element)->plugin.active) continue;
-    if (name.empty()) instance = mjs_asActuator(element)->plugin.element;
-    gone.push_back(element);
-  }
   for (mjsElement* element : SpecElements(spec, mjOBJ_BODY)) {
     mjsPlugin& plugin = mjs_asBody(element)->plugin;
-    if (!refers(plugin)) continue;
-    plugin.active = 0;
-    plugin.element = nullptr;
-    mjs_setString(plugin.plugin_name, "");
-    mjs_setString(plugin.name, "");
+    if (refers(plugin)) ReferToNone(spec, plugin);
   }
   for (mjsElement* element : gone) mjs_delete(&spec, element);
   // MuJoCo takes an instance away with the last element that refers to it
-  const std::vector<mjsElement*> left = SpecElements(spec, mjOBJ_PLUGIN);
-  if (std::ranges::find(left, instance) != left.end()) mjs_delete(&spec, instance);
+  for (mjsElement* instance : instances) {
+    const std::vector<mjsElement*> left = SpecElements(spec, mjOBJ_PLUGIN);
+    if (std::ranges::find(left, instance) != left.end()) mjs_delete(&spec, instance);
+  }
   return !arrays.empty();
+}
+
+/// Takes an instance of that name, empty for one inline that acts on the joint, out of the spec; whether it had arrays.
+bool RemoveOne(mjSpec& spec, const std::string& name, const std::string& joint) {
+  mjsElement* instance = nullptr;
+  if (!name.empty()) {
+    instance = mjs_findElement(&spec, mjOBJ_PLUGIN, name.c_str());
+  } else {
+    mjsElement* element = mjs_findElement(&spec, mjOBJ_ACTUATOR, FrictionActuatorOf(joint).c_str());
+    instance = mjs_asActuator(element)->plugin.element;
+  }
+  const auto refers = [&](const mjsPlugin& plugin) {
+    if (!plugin.active) return false;
+    return name.empty() ? plugin.element == instance : name == mjs_getString(plugin.name);
+  };
+  const std::vector<std::string> names =
+      name.empty() ? std::vector<std::string>() : std::vector{name};
+  return Remove(spec, {instance}, names, refers);
 }
 
 }  // namespace
@@ -98,7 +120,7 @@ std::vector<FrictionForJoint> TakeEarlier(mjSpec& spec, const mjModel* m, Attach
     // its joints in their order
     std::vector<FrictionForJoint> own;
     for (const ActingJoint& joint : joints) own.push_back(Describe(spec, m, joint));
-    const bool arrays = Remove(spec, NameIn(m, mjOBJ_PLUGIN, instance), own);
+    const bool arrays = RemoveOne(spec, NameIn(m, mjOBJ_PLUGIN, instance), own.front().joint);
     earlier.insert(earlier.end(), own.begin(), own.end());
 
     const InstanceOptions before = PrepareInstance(m, instance)->options;
@@ -107,6 +129,22 @@ std::vector<FrictionForJoint> TakeEarlier(mjSpec& spec, const mjModel* m, Attach
     options.stiffest_drive = std::max(options.stiffest_drive, before.stiffest_drive);
   }
   return earlier;
+}
+
+void RemoveFriction(mjSpec& spec) {
+  const std::vector<mjsElement*> instances = Those(spec, mjOBJ_PLUGIN, [](mjsElement* element) {
+    return mjs_getString(mjs_asPlugin(element)->plugin_name) == std::string_view(kFrictionPlugin);
+  });
+  std::vector<std::string> names;
+  for (mjsElement* instance : instances) {
+    const std::string name = NameOf(instance);
+    if (!name.empty()) names.push_back(name);
+  }
+  Remove(spec, instances, names, [&](const mjsPlugin& plugin) {
+    return plugin.active &&
+           (mjs_getString(plugin.plugin_name) == std::string_view(kFrictionPlugin) ||
+            std::ranges::find(names, mjs_getString(plugin.name)) != names.end());
+  });
 }
 
 }  // namespace warmjoint

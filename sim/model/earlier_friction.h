@@ -15,4 +15,8 @@ namespace warmjoint {
 /// m: the spec as it compiles.
 std::vector<FrictionForJoint> TakeEarlier(mjSpec& spec, const mjModel* m, AttachOptions& options);
 
+/// Takes all friction of the plugin out of a spec: instances, and actuators, sensors, arrays and references of bodies to them. Joints keep
+/// their damping.
+void RemoveFriction(mjSpec& spec);
+
 }  // namespace warmjoint

@@ -1,5 +1,9 @@
 """The plugin against the friction of a step in numpy."""
 
+import gc
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -82,6 +86,55 @@ def test_what_arrays_cannot_hold_is_refused_by_name():
         wj.split(attached().spec.compile())
     with pytest.raises(wj.BadInput, match="no joint"):
         wj.split(worlds.humanoid())
+
+
+@pytest.mark.parametrize("form", ["passive", "actuator"])
+def test_what_split_leaves_names_no_plugin_and_loads_where_there_is_none(form, tmp_path):
+    robot_with = attached(form=form)
+    bare, friction = wj.split(robot_with)
+    # the same of a spec, of its text and of a file
+    (tmp_path / "warm.xml").write_text(robot_with.xml)
+    for given in (robot_with.spec, robot_with.xml, tmp_path / "warm.xml"):
+        again, of = wj.split(given)
+        assert of.joints == friction.joints and (again.dof_damping == bare.dof_damping).all() and again.npluginstate == 0
+    spec, of = wj.split(robot_with, spec=True)
+    assert of.joints == friction.joints and not [body for body in spec.bodies if body.plugin.active or body.plugin.name]
+    (tmp_path / "bare.xml").write_text(spec.to_xml())
+    model = spec.compile()
+    assert (model.dof_damping == bare.dof_damping).all() and (model.nplugin, model.nu, model.nsensor) == (0, 0, 0)
+    code = f"import mujoco; print(mujoco.MjModel.from_xml_path({str(tmp_path / 'bare.xml')!r}).nv)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert int(done.stdout) == bare.nv
+
+
+def test_a_copied_spec_from_which_friction_was_taken_can_be_read_and_takes_friction_again():
+    spec = attached().spec.copy()
+    mujoco_plugin.remove_from_spec(spec)
+    gc.collect()
+    assert [body.plugin.name for body in spec.bodies] == len(spec.bodies) * [""]
+    again = wj.attach(spec, worlds.frictions(spec, "stribeck"))
+    assert len(mujoco_plugin.joints_of(again.spec.compile())) == len(again.joints)
+
+
+def test_of_a_scene_with_meshes_in_several_folders_split_gives_the_model_and_no_spec(tmp_path):
+    specs = []
+    for name, size in (("a", 0.1), ("b", 0.2)):
+        (tmp_path / name).mkdir()
+        corners = size * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        (tmp_path / name / "mesh.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {i + 1} {j + 1} {k + 1}\n" for i, j, k in faces))
+        (tmp_path / name / "robot.xml").write_text(
+            f'<mujoco model="{name}"><compiler meshdir="."/><asset><mesh name="m" file="mesh.obj"/></asset><worldbody><body>'
+            f'<joint name="{name}" armature=".1"/><geom type="mesh" mesh="m" mass="1"/></body></worldbody></mujoco>')
+        specs.append(mujoco.MjSpec.from_file(str(tmp_path / name / "robot.xml")))
+    # of one folder it is found from anywhere
+    law = worlds.friction("coulomb", 0.1)
+    assert wj.split(wj.attach(specs[0].copy(), {"a": law}), spec=True)[0].compile().nmesh == 1
+    specs[0].attach(specs[1], prefix="b_", frame=specs[0].worldbody.add_frame())
+    scene = wj.attach(specs[0], {"a": law})
+    assert wj.split(scene)[0].nmesh == 2
+    with pytest.raises(wj.BadInput, match="several folders"):
+        wj.split(scene, spec=True)
 
 
 def test_numbers_that_change_keep_their_bounds():

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import xml.etree.ElementTree as ET
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -175,12 +176,23 @@ def bristles(drive: float, slope: float) -> tuple[float, float]:
     return stiffness, (carried - stiffness) / 2
 
 
-def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str]) -> tuple[mujoco.MjModel, FrictionArrays]:
+@overload
+def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str], spec: Literal[False] = False) -> tuple[mujoco.MjModel, FrictionArrays]: ...
+
+
+@overload
+def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str], spec: Literal[True]) -> tuple[mujoco.MjSpec, FrictionArrays]: ...
+
+
+def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str], spec: bool = False) -> tuple[mujoco.MjModel | mujoco.MjSpec, FrictionArrays]:
     """A model with friction as a model without the plugin, whose `dof_damping` holds the friction's viscous, and the friction as arrays.
 
     model: what `attach` returned, its spec, or a path or text of MJCF that `attach` wrote; it stays as it was.
+    spec: with True a mujoco.MjSpec in place of the compiled model. It and its XML (`to_xml()`) name no plugin, so that they load where warmjoint
+    is not installed; meshes are named by absolute paths.
     Raises BadInput where there is no friction, for a law that brings a bristle of its own, for a friction that does not hold its
-    viscous in the joint's damping (attach it anew), and for one that several instances share on a tree.
+    viscous in the joint's damping (attach it anew), for one that several instances share on a tree, and with spec=True for a scene whose meshes
+    lie in several folders, of which XML names one.
     """
     import mujoco
 
@@ -189,14 +201,14 @@ def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str]) -> tuple[muj
 
     if isinstance(model, mujoco.MjModel):
         raise BadInput("split: is a compiled model, from which the plugin cannot be taken; give what attach returned, or its spec")
-    spec = (model.spec if isinstance(model, Attached) else _spec_of(model)[0]).copy()
-    full = spec.compile()
+    copied = (model.spec if isinstance(model, Attached) else _spec_of(model)[0]).copy()
+    full = copied.compile()
     joints = mujoco_plugin.joints_of(full)
     if not joints:
         raise BadInput("split: no joint of the model has friction of warmjoint; attach it")
     _refuse(joints)
-    bare = _without_friction(spec)
-    return bare, _arrays(bare, joints)
+    bare = _without_friction(copied)
+    return _without_extension(copied, bare) if spec else bare, _arrays(bare, joints)
 
 
 def _refuse(joints: list[dict[str, Any]]) -> None:
@@ -212,16 +224,42 @@ def _refuse(joints: list[dict[str, Any]]) -> None:
 
 def _without_friction(spec: mujoco.MjSpec) -> mujoco.MjModel:
     """The compiled model without instances, actuators, sensors and arrays of the friction. spec: is changed."""
-    names = [plugin.name for plugin in spec.plugins if plugin.plugin_name == _PLUGIN]
-    # each list anew: what is deleted moves the elements of other kinds
-    for kind in ("sensors", "actuators"):
-        for one in [one for one in getattr(spec, kind) if one.plugin.active and one.plugin.name in names]:
-            spec.delete(one)
-    for one in [one for one in spec.numerics if any(one.name.startswith(f"{name}/") for name in names)]:
-        spec.delete(one)
-    for one in [one for one in spec.plugins if one.plugin_name == _PLUGIN]:
-        spec.delete(one)
+    from warmjoint import mujoco_plugin
+
+    mujoco_plugin.remove_from_spec(spec)
     return spec.compile()
+
+
+def _without_extension(spec: mujoco.MjSpec, bare: mujoco.MjModel) -> mujoco.MjSpec:
+    """A spec of its own that does not ask for the plugin, which a spec that once did does for ever. bare: what spec compiles to."""
+    import mujoco
+
+    from warmjoint.mujoco_attach import text_of_spec
+
+    if any((spec.meshes, spec.textures, spec.hfields, spec.skins)):
+        spec.meshdir, spec.texturedir = (os.path.abspath(os.path.join(spec.modelfiledir, folder)) for folder in (spec.meshdir, spec.texturedir))
+    tree = ET.fromstring(text_of_spec(spec))
+    for extension in tree.findall("extension"):
+        for plugin in extension.findall("plugin"):
+            if plugin.get("plugin") == _PLUGIN:
+                extension.remove(plugin)
+        if not len(extension):
+            tree.remove(extension)
+    try:
+        found = mujoco.MjSpec.from_string(ET.tostring(tree, encoding="unicode"), assets=dict(spec.assets))
+        same = _same_numbers(found.copy().compile(), bare)
+    except ValueError as refusal:
+        raise BadInput(f"split: the model without friction does not load from its XML ({refusal}); leave spec=True out") from None
+    if not same:
+        raise BadInput("split: the XML of this model makes another one, as that of a scene whose meshes lie in several folders; leave spec=True out")
+    return found
+
+
+def _same_numbers(one: mujoco.MjModel, other: mujoco.MjModel) -> bool:
+    """Whether two compiled models hold the same arrays. Why 1e-5: MuJoCo 3.11 writes six digits."""
+    names = [name for name in dir(one) if not name.startswith("_") and isinstance(getattr(one, name), np.ndarray) and name != "names"]
+    arrays = [(np.asarray(getattr(one, name)), np.asarray(getattr(other, name))) for name in names if getattr(one, name).dtype.kind in "fiu"]
+    return all(a.shape == b.shape and np.allclose(a, b, rtol=1e-5, atol=1e-5 * max(1.0, float(np.abs(b).max(initial=0.0)))) for a, b in arrays)
 
 
 def _arrays(bare: mujoco.MjModel, joints: list[dict[str, Any]]) -> FrictionArrays:

@@ -108,6 +108,15 @@ def _spec_of(model: mujoco.MjSpec | str | os.PathLike[str]) -> tuple[mujoco.MjSp
     return spec, os.fspath(model)
 
 
+def text_of_spec(spec: mujoco.MjSpec) -> str:
+    """MJCF of a spec with all digits where MuJoCo writes them."""
+    for notation in ("savecompiled", "savecanonical"):
+        if hasattr(spec.compiler, notation):
+            setattr(spec.compiler, notation, 0)
+    text: str = spec.to_xml()
+    return text
+
+
 class Attached:
     """A model with friction on some of its joints."""
 
@@ -130,11 +139,7 @@ class Attached:
     @property
     def xml(self) -> str:
         """The model as MJCF text. MuJoCo 3.11 writes six digits of each number."""
-        for notation in ("savecompiled", "savecanonical"):
-            if hasattr(self.spec.compiler, notation):
-                setattr(self.spec.compiler, notation, 0)
-        text: str = self.spec.to_xml()
-        return text
+        return text_of_spec(self.spec)
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData, prefix: str = "") -> BoundFriction:
         """The friction in a model that the spec was compiled to, or in a scene that holds it under a prefix."""

@@ -52,6 +52,7 @@ def _load() -> ctypes.CDLL:
     for function, takes in (
         ("warmjoint_attach", [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p]),
         ("warmjoint_joints", [ctypes.c_void_p]),
+        ("warmjoint_remove", [ctypes.c_void_p]),
     ):
         getattr(library, function).argtypes = takes
         getattr(library, function).restype = ctypes.c_char_p
@@ -95,6 +96,11 @@ def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
         answer = _call("warmjoint_attach", spec._address, files, to_json(request, "attach").encode())
     answer["notices"] = [in_python(notice) for notice in answer["notices"]]
     return answer
+
+
+def remove_from_spec(spec: mujoco.MjSpec) -> None:
+    """Takes all friction of the plugin out of a spec."""
+    _call("warmjoint_remove", spec._address)
 
 
 def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:
