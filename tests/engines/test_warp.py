@@ -181,11 +181,92 @@ def test_resets_of_some_worlds():
     mjw.step(m, d)
     np.testing.assert_allclose(f.energy.numpy()[:, 0], settled, rtol=1e-5)
     f.reset(mask=[True, False, False], warm=0.0)
-    # to a time before that of the last computation
+    np.testing.assert_allclose(f.energy.numpy()[:, 0], [0, settled, settled], atol=1e-3)
+    # to a time before that of the last computation: what they were reset to
     mjw.step(m, d)
-    mjw.reset_data(m, d, reset=wp.array([False, True, False], dtype=bool))
+    mjw.reset_data(m, d, reset=wp.array([True, True, False], dtype=bool))
     mjw.step(m, d)
-    np.testing.assert_allclose(f.energy.numpy()[:, 0], [0, 0, settled], atol=1e-3)
+    np.testing.assert_allclose(f.energy.numpy()[:, 0], [0, settled, settled], atol=1e-3)
+
+
+def pushed_humanoid(nworld):
+    """Its joints under stiction, and what pushes them at random."""
+    spec = worlds.bare_spec("humanoid")
+    bare, friction = wj.split(wj.attach(spec, worlds.frictions(spec, "stiction")))
+    m, d, f = engine(bare, friction, nworld)
+    random = np.random.default_rng(4)
+    push = lambda: d.qfrc_applied.assign(np.concatenate([np.zeros((nworld, 6)), random.normal(0, 8, (nworld, m.nv - 6))], axis=1).astype(np.float32))
+    return m, d, f, push
+
+
+def test_a_state_that_is_put_back_repeats_the_run_to_the_bit():
+    m, d, f, push = pushed_humanoid(3)
+    f.reset(warm=np.array([[0.0], [0.5], [1.0]]))
+    kept = ("qpos", "qvel", "qacc_warmstart", "time", "qfrc_applied")
+    for _ in range(40):
+        push()
+        mjw.step(m, d)
+    saved, before = f.get_state(), {name: getattr(d, name).numpy().copy() for name in kept}
+    for _ in range(40):
+        mjw.step(m, d)
+    end = [one.numpy().copy() for one in (d.qpos, f.energy, f.force)]
+    # of all worlds
+    for name, values in before.items():
+        getattr(d, name).assign(values)
+    f.set_state(saved)
+    again = f.get_state()
+    for name in ("load", "energy", "slip", "turns", "stretch", "first", "second"):
+        assert (getattr(again, name).numpy() == getattr(saved, name).numpy()).all(), name
+    for _ in range(40):
+        mjw.step(m, d)
+    for one, other in zip(end, (d.qpos, f.energy, f.force)):
+        assert (one == other.numpy()).all()
+    # one world alone, by a mask on the device
+    moved = f.get_state().energy.numpy()
+    f.set_state(saved, wp.array([False, True, False], dtype=bool))
+    now = f.get_state().energy.numpy()
+    assert (now[1] == saved.energy.numpy()[1]).all() and (now[1] != moved[1]).any()
+    assert (now[[0, 2]] == moved[[0, 2]]).all()
+    assert np.abs(saved.load.numpy()).max() > 0.01
+    with pytest.raises(wj.BadInput, match="worlds"):
+        pushed_humanoid(2)[2].set_state(saved)
+
+
+def test_a_reset_by_time_gives_what_the_last_reset_drew():
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    m, d, f = engine(bare, friction, 3)
+    f.reset(warm=np.array([[0.2], [0.5], [1.0]]))
+    drawn = f.energy.numpy().copy()
+    for _ in range(3):
+        mjw.step(m, d)
+    mjw.reset_data(m, d)
+    mjw.step(m, d)
+    assert (f.energy.numpy() == drawn).all() and len(np.unique(drawn)) == 3
+
+
+@pytest.mark.parametrize("at", [0.0, 5 * 3600.0, 80000.0, 1e6])
+def test_heat_goes_on_however_late_it_is(at):
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    m, d, f = engine(bare, friction, 1)
+    d.time.fill_(at)
+    d.qfrc_applied.fill_(10.0)
+    for _ in range(200):
+        mjw.step(m, d)
+    early, d0, f0 = engine(bare, friction, 1)
+    d0.qfrc_applied.fill_(10.0)
+    for _ in range(200):
+        mjw.step(early, d0)
+    assert f.energy.numpy()[0, 0] == f0.energy.numpy()[0, 0] < -0.001
+
+
+def test_other_worlds_and_another_timestep_are_refused_once_it_steps():
+    bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+    m, d, _ = engine(bare, friction, 2)
+    with pytest.raises(wj.BadInput, match="4 worlds"):
+        mjw.step(m, mjw.put_data(bare, mujoco.MjData(bare), nworld=4))
+    m.opt.timestep.fill_(0.004)
+    with pytest.raises(wj.BadInput, match="timestep"):
+        mjw.step(m, d)
 
 
 @pytest.mark.parametrize("broken", [np.nan, np.inf, -np.inf])

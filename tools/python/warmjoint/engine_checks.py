@@ -36,15 +36,20 @@ def check_engine(friction: FrictionArrays, *, integrator: int, disableflags: int
         raise BadInput("the model's flag eulerdamp is disabled, so that its friction's viscous would be explicit; enable it, or take implicitfast")
     if disableflags & flags.mjDSBL_DAMPER:
         raise BadInput("the model's flag damper is disabled, and with it friction's viscous part; enable it")
-    steps = np.unique(np.asarray(timestep, dtype=np.float64))
-    if len(steps) != 1 or abs(steps[0] - friction.timestep) > 1e-6 * friction.timestep:
-        raise BadInput(f"the model's timestep is {', '.join(f'{one:g}' for one in steps)} s, and its friction is for {friction.timestep:g} s; "
-                       "attach with that timestep and split again")
+    check_timestep(friction, timestep)
     if len(friction.dofs) and int(friction.dofs.max()) >= nv:
         raise BadInput(f"the model has {nv} degrees of freedom, fewer than the friction needs; put the model that split returned")
     if nworld is not None and friction.worlds not in (None, nworld):
         raise BadInput(f"the friction's numbers are for {friction.worlds} worlds, and there are {nworld}")
     friction.check_give()
+
+
+def check_timestep(friction: FrictionArrays, timestep: npt.ArrayLike) -> None:
+    """Raises BadInput where a world's timestep, s, is not that of the friction. Why 1e-6: single precision is worth 6e-8."""
+    steps = np.asarray(timestep, dtype=np.float64)
+    if not (np.abs(steps - friction.timestep) <= 1e-6 * friction.timestep).all():
+        raise BadInput(f"the model's timestep is {', '.join(f'{one:g}' for one in np.unique(steps))} s, and its friction is for {friction.timestep:g} s; "
+                       "attach with that timestep and split again")
 
 
 def settled_energies_of(friction: FrictionArrays, nworld: int, warm: npt.ArrayLike, speed: float | None) -> FloatArray:

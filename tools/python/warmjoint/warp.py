@@ -6,10 +6,13 @@
     worlds = wj.warp.put_friction(friction, m, nworld=1024)
     mjw.step(m, d)
     worlds.energy.numpy()                                      # [worlds x joints]
+    saved = worlds.get_state()                                 # beside d.qpos, d.qvel, d.act, d.qacc_warmstart, d.time
+    worlds.set_state(saved, mask=[True] + 1023 * [False])      # back for the first world
 """
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from typing import Any
 
@@ -17,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from warmjoint._core import BadInput
-from warmjoint.engine_checks import check_engine, settled_energies_of, version_of
+from warmjoint.engine_checks import check_engine, check_timestep, settled_energies_of, version_of
 from warmjoint.friction_arrays import FrictionArrays
 from warmjoint.friction_tables import tables
 
@@ -32,6 +35,19 @@ from warmjoint import warp_kernel as kernel
 TESTED = {"mujoco-warp": "4.0.0", "warp-lang": "1.19.0"}
 """The versions that the tests ran with."""
 MOST_TURNS = 8
+
+
+@dataclasses.dataclass(frozen=True)
+class WarpState:
+    """With what the next step of each world begins: Warp's arrays on the model's device, [worlds x joints] where nothing else is said."""
+
+    load: Any  # of the bristles, N.m or N
+    energy: Any  # [worlds x joints x 2] E1 and E2, N.m or N; double precision
+    slip: Any  # direction of the last slide, of stiction: -1, 0 or 1
+    turns: Any  # [worlds x trees] of the last search for what slides
+    stretch: Any  # of the bristles, rad or m, from which the load follows
+    first: Any  # the active sets of both projections, with which the search begins
+    second: Any
 
 
 class WarpFriction:
@@ -49,6 +65,11 @@ class WarpFriction:
             self._joints = _joints(friction, m.nv)
             self._states = _states(friction, nworld, m)
             self._scratch = _scratch(nworld, m.nv)
+            self._dofs = _ints(friction.dofs)
+            self._per_load = _floats(friction.timestep**2 / (friction.stiffness * friction.inertia))
+        self._device = m.qpos0.device
+        # of the data whose forces were computed last
+        self._clock: tuple[Any, Any] | None = None
         self._needs_load = bool((friction.numbers["load_gain"] != 0).any()) or any(
             axis["quantity"] == "load" for _, one in friction.maps for axis in one["axes"])
         self.reset()
@@ -86,36 +107,80 @@ class WarpFriction:
     def reset(self, mask: npt.ArrayLike | None = None, warm: npt.ArrayLike | None = None, speed: float | None = None) -> None:
         """Relaxes the bristles and sets the heat, of the worlds in `mask` ([worlds], all where not given). warm: 0 cold, 1 settled at `speed`
         (rad/s or m/s; 1 or 0.1 where not given), any share of it, one, [joints] or [worlds x joints]; where not given the heat is that
-        with which the friction was attached. mjw.reset_data resets the worlds that it is given by itself."""
-        chosen = np.ones(self.nworld, dtype=bool) if mask is None else np.asarray(mask, dtype=bool)
-        if chosen.shape != (self.nworld,):
-            raise BadInput(f"mask: has shape {chosen.shape}; give [{self.nworld}]")
+        with which the friction was attached. A world whose time goes back, as by mjw.reset_data, gets that heat again by itself."""
         energy = np.broadcast_to(self.friction.initial_energy.T, (self.nworld, len(self.joints), 2))
         if warm is not None:
             energy = settled_energies_of(self.friction, self.nworld, warm, speed)
-        new = {"time": -1.0, "stretch": 0.0, "next_stretch": 0.0, "slip": 0.0, "next_slip": 0.0, "first": 0, "second": 0}
-        for name, value in (*new.items(), ("energy", energy), ("next_energy", energy), ("total", energy.sum(axis=2))):
-            array = getattr(self._states, name)
-            values = array.numpy()
-            values[chosen] = np.broadcast_to(value, values.shape)[chosen]
-            array.assign(values)
+        chosen = self._chosen(mask)
+        starts = self._states.start_energy.numpy().copy()
+        starts[chosen.numpy()] = energy[chosen.numpy()]
+        self._states.start_energy.assign(starts)
+        self._put(chosen, self._begun(energy=energy))
+
+    def get_state(self) -> WarpState:
+        """With what the next step of each world begins, copied; what `set_state` puts back. With qpos, qvel, act, qacc_warmstart and time of the
+        data a run goes on from there to the same bits (on a CPU)."""
+        with wp.ScopedDevice(self._device):
+            if self._clock is not None:
+                m, time = self._clock
+                wp.launch(kernel.settle, dim=(self.nworld, m.ntree),
+                          inputs=[time, m.tree_dofadr, m.tree_dofnum, self.friction.timestep, self._joints, self._states])
+            shape = (self.nworld, len(self.joints))
+            stretch, load, first, second = wp.empty(shape, dtype=float), wp.empty(shape, dtype=float), wp.empty(shape, dtype=int), wp.empty(shape, dtype=int)
+            wp.launch(kernel.take, dim=shape, inputs=[self._dofs, self._per_load, self._states], outputs=[stretch, load, first, second])
+            return WarpState(load, wp.clone(self._states.energy), wp.clone(self._states.slip), wp.clone(self._states.turns), stretch, first, second)
+
+    def set_state(self, state: WarpState, mask: npt.ArrayLike | Any | None = None) -> None:
+        """Lets the next step of the worlds in `mask` ([worlds] of bool, NumPy's or Warp's; all where not given) begin with a state of
+        `get_state`, of as many worlds. Nothing passes through the host. A later reset by time gives the heat of the last `reset`."""
+        if state.energy.shape != self._states.energy.shape:
+            raise BadInput(f"state: is of [worlds x joints] = {list(state.energy.shape[:2])}, and the friction of [{self.nworld} x {len(self.joints)}]")
+        self._put(self._chosen(mask), state)
 
     def put_state(self, load: npt.ArrayLike, energy: npt.ArrayLike, slip: npt.ArrayLike = 0.0) -> None:
         """With what the next step of all worlds begins, [worlds x joints] each, as the plugin and `reference.State` hold it. load: of the
         bristle, N.m or N; energy: [2 x worlds x joints] E1 and E2, N.m or N; slip: -1, 0 or 1, of stiction."""
         friction = self.friction
-        self.reset()
-        stretch = np.zeros((self.nworld, self._states.stretch.shape[1]))
-        per_load = friction.timestep**2 / (friction.stiffness * friction.inertia)
-        stretch[:, friction.dofs] = np.broadcast_to(load, (self.nworld, len(self.joints))) * per_load
+        stretch = np.asarray(load, dtype=np.float64) * friction.timestep**2 / (friction.stiffness * friction.inertia)
         stages = np.moveaxis(np.broadcast_to(energy, (2, self.nworld, len(self.joints))), 0, -1)
-        slips = np.broadcast_to(slip, (self.nworld, len(self.joints)))
-        for name, values in (("stretch", stretch), ("energy", stages), ("slip", slips)):
-            getattr(self._states, name).assign(np.ascontiguousarray(values))
-            getattr(self._states, f"next_{name}").assign(np.ascontiguousarray(values))
+        self._put(self._chosen(None), self._begun(energy=stages, stretch=stretch, slip=slip))
+
+    def _begun(self, energy: npt.ArrayLike, stretch: npt.ArrayLike = 0.0, slip: npt.ArrayLike = 0.0) -> WarpState:
+        """A state in which nothing slides yet, from the host."""
+        shape = (self.nworld, len(self.joints))
+        with wp.ScopedDevice(self._device):
+            sets = wp.zeros(shape, dtype=int)
+            stretched = _floats(np.broadcast_to(stretch, shape))
+            stages = wp.array(np.ascontiguousarray(np.broadcast_to(energy, (*shape, 2))), dtype=wp.float64)
+            turns = wp.zeros(self._states.turns.shape, dtype=int)
+            return WarpState(None, stages, _floats(np.broadcast_to(slip, shape)), turns, stretched, sets, sets)
+
+    def _chosen(self, mask: npt.ArrayLike | Any | None) -> Any:
+        """[worlds] of bool on the device."""
+        if isinstance(mask, wp.array) and mask.dtype == wp.bool and mask.shape == (self.nworld,):
+            return mask
+        given = mask.numpy() if isinstance(mask, wp.array) else mask
+        chosen = np.ones(self.nworld, dtype=bool) if given is None else np.asarray(given, dtype=bool)
+        if chosen.shape != (self.nworld,):
+            raise BadInput(f"mask: has shape {chosen.shape}; give [{self.nworld}]")
+        return wp.array(chosen, dtype=bool, device=self._device)
+
+    def _put(self, chosen: Any, state: WarpState) -> None:
+        wp.launch(kernel.put, dim=(self.nworld, len(self.joints)), device=self._device,
+                  inputs=[chosen, self._dofs, state.stretch, state.energy, state.slip, state.first, state.second, state.turns, self._states])
+
+    def _check(self, m: Any, d: Any) -> None:
+        """Raises BadInput for data of another count of worlds, and for a timestep that was changed."""
+        if d.qvel.shape[0] != self.nworld:
+            raise BadInput(f"the data holds {d.qvel.shape[0]} worlds, and the friction is for {self.nworld}; put_friction(friction, m, nworld={d.qvel.shape[0]})")
+        # a graph that is captured replays without this call, and a copy to the host would break it
+        if not d.qvel.device.is_capturing:
+            check_timestep(self.friction, m.opt.timestep.numpy())
 
     def __call__(self, m: Any, d: Any) -> None:
         """What the engine calls after it has written the passive forces."""
+        self._check(m, d)
+        self._clock = (m, d.time)
         if self._needs_load:
             mjw.rne(m, d)
         wp.launch(
@@ -203,7 +268,7 @@ def _states(friction: FrictionArrays, nworld: int, m: Any) -> Any:
     found.total = wp.zeros((nworld, joints), dtype=wp.float64)
     found.held = wp.zeros((nworld, joints), dtype=bool)
     found.ambient = wp.zeros(nworld, dtype=float)
-    found.start_energy = wp.array(friction.initial_energy.T.copy(), dtype=wp.float64)
+    found.start_energy = wp.zeros((nworld, joints, 2), dtype=wp.float64)
     return found
 
 

@@ -37,7 +37,7 @@ class Joints:
 class States:
     """What a step begins with (twice: at its begin and, of the last computation, at its end), and what it tells."""
 
-    time: wp.array2d(dtype=float)  # [worlds x trees] of the last computation, s; -1 none
+    time: wp.array2d(dtype=float)  # [worlds x trees] of the last computation, s; -inf none
     stretch: wp.array2d(dtype=float)  # z [worlds x nv], rad or m
     next_stretch: wp.array2d(dtype=float)
     energy: wp.array3d(dtype=wp.float64)  # [worlds x J x 2]
@@ -51,7 +51,7 @@ class States:
     loss: wp.array2d(dtype=float)
     held: wp.array2d(dtype=bool)
     total: wp.array2d(dtype=wp.float64)  # E [worlds x J]
-    start_energy: wp.array2d(dtype=wp.float64)  # [J x 2] at a reset
+    start_energy: wp.array3d(dtype=wp.float64)  # [worlds x J x 2] at a reset by time
     turns: wp.array2d(dtype=int)  # [worlds x trees]
 
 
@@ -275,14 +275,16 @@ def finite_heat(x: wp.float64) -> wp.float64:
 
 
 @wp.func
-def begin(w: int, tree: int, i0: int, n: int, time: float, j: Joints, st: States):
-    """The step before is over where the time has gone on; where it went back the world was reset."""
+def begin(w: int, tree: int, i0: int, n: int, time: float, h: float, j: Joints, st: States):
+    """The step before is over where the time has gone on, or where a step is too short to move it in single precision, in which every computation
+    then is a step; where it went back the world was reset."""
     last = st.time[w, tree]
+    over = time > last or (time == last and time + h == time)
     for a in range(n):
         i = i0 + a
         k = j.of_dof[i]
         if k >= 0:
-            if time > last:
+            if over:
                 st.stretch[w, i] = st.next_stretch[w, i]
                 st.slip[w, k] = st.next_slip[w, k]
                 st.energy[w, k, 0] = st.next_energy[w, k, 0]
@@ -290,16 +292,77 @@ def begin(w: int, tree: int, i0: int, n: int, time: float, j: Joints, st: States
             elif time < last:
                 st.stretch[w, i] = 0.0
                 st.slip[w, k] = 0.0
-                st.energy[w, k, 0] = st.start_energy[k, 0]
-                st.energy[w, k, 1] = st.start_energy[k, 1]
+                st.energy[w, k, 0] = st.start_energy[w, k, 0]
+                st.energy[w, k, 1] = st.start_energy[w, k, 1]
                 st.first[w, i] = 0
                 st.second[w, i] = 0
             st.stretch[w, i] = finite(st.stretch[w, i])
             st.slip[w, k] = finite(st.slip[w, k])
             st.energy[w, k, 0] = finite_heat(st.energy[w, k, 0])
             st.energy[w, k, 1] = finite_heat(st.energy[w, k, 1])
+            st.next_stretch[w, i] = st.stretch[w, i]
+            st.next_slip[w, k] = st.slip[w, k]
+            st.next_energy[w, k, 0] = st.energy[w, k, 0]
+            st.next_energy[w, k, 1] = st.energy[w, k, 1]
     if wp.isfinite(time):
         st.time[w, tree] = time
+
+
+@wp.kernel
+def settle(time: wp.array(dtype=float), tree_begin: wp.array(dtype=int), tree_size: wp.array(dtype=int), h: float, j: Joints, st: States):
+    """Brings the states to where the next step begins."""
+    w, tree = wp.tid()
+    begin(w, tree, tree_begin[tree], tree_size[tree], time[w], h, j, st)
+
+
+@wp.kernel
+def put(
+    chosen: wp.array(dtype=bool),
+    dofs: wp.array(dtype=int),
+    stretch: wp.array2d(dtype=float),
+    energy: wp.array3d(dtype=wp.float64),
+    slip: wp.array2d(dtype=float),
+    first: wp.array2d(dtype=int),
+    second: wp.array2d(dtype=int),
+    turns: wp.array2d(dtype=int),
+    st: States,
+):
+    """With what the next step of the chosen worlds begins, [worlds x J] threads; the time of their last computation is none."""
+    w, k = wp.tid()
+    if not chosen[w]:
+        return
+    i = dofs[k]
+    st.stretch[w, i] = stretch[w, k]
+    st.next_stretch[w, i] = stretch[w, k]
+    st.slip[w, k] = slip[w, k]
+    st.next_slip[w, k] = slip[w, k]
+    for stage in range(2):
+        st.energy[w, k, stage] = energy[w, k, stage]
+        st.next_energy[w, k, stage] = energy[w, k, stage]
+    st.total[w, k] = energy[w, k, 0] + energy[w, k, 1]
+    st.first[w, i] = first[w, k]
+    st.second[w, i] = second[w, k]
+    for tree in range(st.time.shape[1]):
+        st.time[w, tree] = -wp.inf
+        st.turns[w, tree] = turns[w, tree]
+
+
+@wp.kernel
+def take(
+    dofs: wp.array(dtype=int),
+    per_load: wp.array(dtype=float),
+    st: States,
+    stretch: wp.array2d(dtype=float),
+    load: wp.array2d(dtype=float),
+    first: wp.array2d(dtype=int),
+    second: wp.array2d(dtype=int),
+):
+    """Of all degrees of freedom those with friction, [worlds x J] threads. per_load: h^2 / (A m) [J]."""
+    w, k = wp.tid()
+    stretch[w, k] = st.stretch[w, dofs[k]]
+    load[w, k] = st.stretch[w, dofs[k]] / per_load[k]
+    first[w, k] = st.first[w, dofs[k]]
+    second[w, k] = st.second[w, dofs[k]]
 
 
 @wp.func
@@ -325,9 +388,6 @@ def finish(w: int, i: int, k: int, v: float, kv: float, f: float, own: float, st
         st.force[w, k] = 0.0
         st.loss[w, k] = 0.0
         st.next_stretch[w, i] = st.stretch[w, i]
-        st.next_slip[w, k] = st.slip[w, k]
-        st.next_energy[w, k, 0] = st.energy[w, k, 0]
-        st.next_energy[w, k, 1] = st.energy[w, k, 1]
         return
     st.force[w, k] = force
     st.loss[w, k] = loss
@@ -362,7 +422,7 @@ def step_friction(
     w, tree = wp.tid()
     i0 = tree_begin[tree]
     n = tree_size[tree]
-    begin(w, tree, i0, n, time[w], j, st)
+    begin(w, tree, i0, n, time[w], h, j, st)
     # levels, and the inertia matrix of the tree
     for a in range(n):
         i = i0 + a
