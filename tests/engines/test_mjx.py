@@ -1,5 +1,7 @@
 """warmjoint.mjx against the plugin. Opt-in: needs build/deps/engine-mjx (tools/python/requirements_mjx.txt)."""
 
+import copy
+import pickle
 import subprocess
 import sys
 
@@ -199,6 +201,77 @@ def test_what_is_no_finite_number_is_gone_once_the_engine_has_right_ones_again(b
     assert after.energy == start.energy and after.force == 0
     assert run(after) == run(start)
     assert run(start._replace(stretch=jp.asarray([broken]), stages=jp.full_like(start.stages, broken))) == run(f.start(warm=0.0))
+
+
+def test_starts_are_drawn_under_jit_and_vmap():
+    _, _, f, friction = hinge()
+    settled = wj.Friction.from_dict(WARM).settled_heat(1.0)
+    found = jax.jit(lambda warm: f.start(warm=warm).energy)(jp.asarray([0.5]))
+    np.testing.assert_allclose(found, [0.5 * settled], rtol=1e-6)
+    found = jax.vmap(lambda warm: f.start(warm=warm).energy)(jp.asarray([0.0, 0.25, 1.0]))
+    np.testing.assert_allclose(found[:, 0], [0, 0.25 * settled, settled], rtol=1e-6)
+    np.testing.assert_allclose(f.start(warm=1, speed=0.5).energy, [wj.Friction.from_dict(WARM).settled_heat(0.5)], rtol=1e-6)
+    # worlds with numbers of their own, each with the heat at which it settles
+    own = friction.changed(thermal_gain=np.array([[-0.3], [-0.6]]))
+    _, m, _, _ = hinge()
+    g = wj.mjx.put_friction(own, m, speed=0.5)
+    wanted = [0.5 * wj.Friction.from_dict({**WARM, "thermal": {**WARM["thermal"], "thermal_gain": gain}}).settled_heat(0.5) for gain in (-0.3, -0.6)]
+    found = jax.jit(jax.vmap(lambda g: g.start(warm=0.5).energy, in_axes=(g.in_axes(),)))(g)
+    np.testing.assert_allclose(found[:, 0], wanted, rtol=1e-6)
+    for wrong in (-0.1, np.nan, [0.1, 0.2]):
+        with pytest.raises(wj.BadInput, match="warm"):
+            f.start(warm=wrong)
+
+
+def test_an_equal_friction_compiles_nothing_anew_and_another_does():
+    bare, m, f, _ = hinge()
+    traced = []
+
+    @jax.jit
+    def step(d, f, state):
+        traced.append(f.joints)
+        return wj.mjx.step(m, d, f, state)
+
+    d = mjx.make_data(bare)
+    for one in (f, pickle.loads(pickle.dumps(f)), copy.deepcopy(f), hinge()[2], f.with_numbers(positive=1.1 * f.numbers.positive)):
+        step(d, one, one.start())
+    assert len(traced) == 1
+    other = hinge(gear=3.0)[2]
+    step(d, other, other.start())
+    assert len(traced) == 2 and f._shape != other._shape
+
+
+def test_a_state_that_is_kept_repeats_the_run_to_the_bit():
+    bare, m, f, _ = hinge()
+    step = jax.jit(wj.mjx.step)
+    d, state = mjx.make_data(bare), f.start(warm=0.5)
+
+    def run(d, state):
+        for torque in torques(100)[::10]:
+            d, state = step(m, d.replace(qfrc_applied=jp.asarray(torque)), f, state)
+        return d, state
+
+    d, state = run(d, state)
+    saved = pickle.loads(pickle.dumps((np.asarray(d.qpos), np.asarray(d.qvel), state)))
+    first = run(d, state)
+    again = run(d.replace(qpos=jp.asarray(saved[0]), qvel=jp.asarray(saved[1])), saved[2])
+    assert (first[0].qpos == again[0].qpos).all()
+    assert all((np.asarray(one) == np.asarray(other)).all() for one, other in zip(first[1], again[1]))
+
+
+def test_a_model_with_the_sensors_of_the_friction_is_taken():
+    robot = wj.attach(HINGE, {"hinge": WARM})
+    m, f = wj.mjx.put_model(robot)
+    d, state = wj.mjx.step(m, mjx.make_data(m).replace(qfrc_applied=jp.asarray([9.0])), f, f.start())
+    assert state.force == 0 and d.qvel[0] > 0
+
+
+def test_another_timestep_is_refused_and_under_jit_seen():
+    bare, m, f, _ = hinge()
+    other, d = m.replace(opt=m.opt.replace(timestep=jp.asarray(0.004))), mjx.make_data(bare)
+    with pytest.raises(wj.BadInput, match="timestep"):
+        wj.mjx.step(other, d, f, f.start())
+    assert jp.isnan(jax.jit(wj.mjx.step)(other, d, f, f.start())[0].qvel).all()
 
 
 GRADIENT = """

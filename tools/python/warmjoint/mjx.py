@@ -1,9 +1,9 @@
 """Friction in MJX (mujoco-mjx 3.17 with jax 0.10, its back end in JAX), for jit, vmap, scan and grad.
 
-    model, friction = wj.split(robot)                          # robot: what attach returned
+    model, friction = wj.split(robot)                          # robot: what attach returned, with sensors or without
     m, d = mjx.put_model(model), mjx.make_data(model)
     f = wj.mjx.put_friction(friction, m)
-    state = f.start()
+    state = f.start()                                          # also under jit and vmap: f.start(warm=drawn)
     d, state = jax.jit(wj.mjx.step)(m, d, f, state)
     state.energy                                               # [joints]
 """
@@ -11,74 +11,41 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+import os
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from warmjoint._core import BadInput
-from warmjoint.engine_checks import check_engine, settled_energies_of, version_of
-from warmjoint.friction_arrays import FloatArray, FrictionArrays
-from warmjoint.friction_tables import FACTORS, QUANTITIES, Axis, Table, tables
+from warmjoint.engine_checks import check_engine, check_timestep, settled_energies_of, version_of
+from warmjoint.friction_arrays import FloatArray, FrictionArrays, split
+from warmjoint.friction_tables import QUANTITIES, Table, tables
 
 try:
     import jax
     import jax.numpy as jp
     from mujoco import mjx
+
+    from warmjoint.mjx_kernel import Array, Numbers, State, step_friction
 except ImportError:
     raise ImportError("warmjoint.mjx needs MJX: pip install mujoco-mjx==3.17.0 jax==0.10.2") from None
 
+if TYPE_CHECKING:
+    import mujoco
+
+    from warmjoint.mujoco_attach import Attached
+
 TESTED = {"mujoco-mjx": "3.17.0", "jax": "0.10.2"}
 """The versions that the tests ran with."""
-MOST_TURNS = 8
 UNROLLED_TURNS = 4
-# forces of single precision are worth that much of their bounds
-_ROOM = 1e-6
-
-Array = Any  # of JAX
 
 
-class Numbers(NamedTuple):
-    """The numbers of a friction, [J] each, differentiable; [worlds x J] under vmap."""
-
-    positive: Array  # kc for v > 0, N.m or N
-    negative: Array
-    rise: Array  # N.m or N
-    static: Array  # N.m or N
-    velocity: Array  # rad/s or m/s
-    exponent: Array  # 1
-    gain: Array  # [2 x J] N.m/W or N/W
-    time_constant: Array  # [2 x J] s
-    level_per_temperature: Array  # N.m/K or N/K
-    viscous_per_energy: Array  # s/rad or s/m
-    load_gain: Array  # 1
-    breaks_away: Array  # whether the law is stiction
-    ambient_rise: Array  # K, one number
-
-
-class State(NamedTuple):
-    """What a step leaves, [J] each. `stretch`, `stages`, `lost_digits`, `slip`, `first` and `second` are what the next begins with."""
-
-    stretch: Array  # of the bristles, rad or m
-    stages: Array  # [2 x J] E1 and E2, N.m or N
-    lost_digits: Array  # [2 x J] what E1 and E2 had no room for
-    slip: Array  # direction of the last slide, of stiction
-    first: Array  # the active sets of both projections: 1 and -1 at a bound
-    second: Array
-    force: Array  # F, which opposes the motion, N.m or N
-    loss: Array  # W
-    held: Array  # whether friction holds the joint
-
-    @property
-    def energy(self) -> Array:
-        """E, by which the level has changed, N.m or N."""
-        return self.stages.sum(axis=-2)
-
-
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class _Shape:
-    """What does not change; compared by identity, so that jit compiles once for each friction."""
+    """What does not change; compared by value, so that jit compiles once for equal frictions, copied and pickled ones among them."""
 
     dofs: npt.NDArray[np.int_]
     positions: npt.NDArray[np.int_]
@@ -91,13 +58,31 @@ class _Shape:
     needs_load: bool
     timestep: float
     turns: int  # 0: as many as needed, at most MOST_TURNS
+    unsettled: str  # why there is no settled heat; empty where there is
     friction: FrictionArrays
 
+    @functools.cached_property
+    def _value(self) -> Any:
+        return _hashable(self)
+
     def __hash__(self) -> int:
-        return id(self)
+        return hash(self._value)
 
     def __eq__(self, other: object) -> bool:
-        return self is other
+        return self is other or (isinstance(other, _Shape) and self._value == other._value)
+
+
+def _hashable(value: Any) -> Any:
+    """A value of arrays, maps, lists and dataclasses as tuples, numbers and bytes."""
+    if dataclasses.is_dataclass(value):
+        return tuple(_hashable(getattr(value, field.name)) for field in dataclasses.fields(value))
+    if isinstance(value, np.ndarray):
+        return value.shape, value.dtype.str, value.tobytes()
+    if isinstance(value, Mapping):
+        return tuple((name, _hashable(one)) for name, one in sorted(value.items()))
+    if isinstance(value, (tuple, list)):
+        return tuple(_hashable(one) for one in value)
+    return value
 
 
 @jax.tree_util.register_pytree_node_class
@@ -130,28 +115,68 @@ class MjxFriction:
 
     def in_axes(self) -> MjxFriction:
         """What jax.vmap takes as in_axes of a friction whose numbers are of many worlds: 0 for those, None for the rest."""
-        ranks = Numbers(*(2 if name in ("gain", "time_constant") else 0 if name == "ambient_rise" else 1 for name in Numbers._fields))
-        return dataclasses.replace(self, numbers=Numbers(*(0 if one.ndim > rank else None for one, rank in zip(self.numbers, ranks))))
+        return dataclasses.replace(self, numbers=Numbers(*(0 if one.ndim > _rank(name) else None for name, one in zip(Numbers._fields, self.numbers))))
 
-    def start(self, warm: npt.ArrayLike | None = None, speed: float | None = None, nworld: int | None = None) -> State:
-        """The state at a reset, [J], or [worlds x J] for `nworld`. warm: 0 cold, 1 settled at `speed` (rad/s or m/s; 1 or 0.1 where not given),
-        any share of it, one, [J] or [worlds x J]; where not given the heat with which the friction was attached."""
+    def start(self, warm: npt.ArrayLike | Array | None = None, speed: float | None = None, nworld: int | None = None) -> State:
+        """The state at a reset, [J], or [worlds x J] for `nworld`; also under jit and vmap. warm: 0 cold, 1 settled, any share of it, one, [J] or
+        [worlds x J]; where not given the heat with which the friction was attached. speed: at which 1 has settled, rad/s or m/s, a number;
+        that of put_friction where not given. Raises BadInput for a share below 0 (of a traced one the heat is nan) and where the losses
+        grow for ever."""
+        friction, single = self._shape.friction, jp.zeros(()).dtype  # or double, where jax_enable_x64 is set
+        if warm is None:
+            stages, lost = _two_floats(friction.initial_energy, single)
+        else:
+            stages = self._shares(warm, nworld)[..., None, :] * self._settled(speed)
+            lost = jp.zeros_like(stages)
+        worlds = (nworld,) if nworld is not None else self.numbers.settled.shape[:-2]
+        shape = jp.broadcast_shapes(stages.shape, (*worlds, *friction.initial_energy.shape))
+        stages, lost = jp.broadcast_to(stages, shape), jp.broadcast_to(lost, shape)
+        nothing, sets = jp.zeros(stages[..., 0, :].shape), jp.zeros(stages[..., 0, :].shape, jp.int32)
+        return State(nothing, stages, lost, nothing, sets, sets, nothing, nothing, sets == 0)
+
+    def _shares(self, warm: npt.ArrayLike | Array, nworld: int | None) -> Array:
+        share, joints = jp.asarray(warm, jp.zeros(()).dtype), len(self.joints)
+        if share.ndim > 2 or share.shape[-1:] not in ((), (1,), (joints,)) or (share.ndim == 2 and nworld not in (None, *share.shape[:1])):
+            raise BadInput(f"warm: has shape {share.shape}; give one number, [{joints}] or [{nworld or 'worlds'} x {joints}]")
+        right = jp.isfinite(share) & (share >= 0)
+        if not isinstance(right, jax.core.Tracer) and not right.all():
+            raise BadInput("warm: must be 0 or more, 1 settled")
+        return jp.broadcast_to(jp.where(right, share, jp.nan), (*share.shape[:-1], joints))
+
+    def _settled(self, speed: float | None) -> Array:
+        if speed is None:
+            if self._shape.unsettled:
+                raise BadInput(self._shape.unsettled)
+            return self.numbers.settled
         friction = self._shape.friction
-        worlds = nworld or friction.worlds or 1
-        energy = np.broadcast_to(friction.initial_energy.T, (worlds, len(friction.joints), 2))
-        if warm is not None:
-            energy = settled_energies_of(friction, worlds, warm, speed)
-        energy = np.swapaxes(energy, 1, 2)
-        energy = energy[0] if nworld is None and friction.worlds is None else energy
-        single = jp.zeros(()).dtype  # or double, where jax_enable_x64 is set
-        stages = energy.astype(single)
-        lost = (energy - stages).astype(single)
-        nothing, sets = jp.zeros(energy[..., 0, :].shape), jp.zeros(energy[..., 0, :].shape, jp.int32)
-        return State(nothing, jp.asarray(stages), jp.asarray(lost), nothing, sets, sets, nothing, nothing, sets == 0)
+        if friction.worlds is not None and self.numbers.settled.ndim == 2:
+            raise BadInput("speed: is given where jax.vmap has taken the worlds apart; give it to put_friction")
+        settled = np.swapaxes(settled_energies_of(friction, friction.worlds or 1, 1.0, speed), 1, 2)
+        return jp.asarray(settled if friction.worlds is not None else settled[0], jp.zeros(()).dtype)
 
 
-def put_friction(friction: FrictionArrays, m: Any) -> MjxFriction:
-    """A friction for MJX. friction: of `split`; viscous is m.dof_damping. m: mjx.put_model of the model that `split` returned.
+def _rank(name: str) -> int:
+    """Of one world's number."""
+    return 2 if name in ("gain", "time_constant", "settled") else 0 if name == "ambient_rise" else 1
+
+
+def _two_floats(values: FloatArray, single: Any) -> tuple[Array, Array]:
+    """Numbers, and what single precision has no room for."""
+    near = values.astype(single)
+    return jp.asarray(near), jp.asarray((values - near).astype(single))
+
+
+def put_model(robot: Attached | mujoco.MjSpec | str | os.PathLike[str], speed: float | None = None) -> tuple[Any, MjxFriction]:
+    """The model and the friction for MJX of what `attach` returned, of its spec, or of MJCF that it wrote: mjx.put_model of what `split` leaves,
+    without the sensors that read the plugin, which mjx.put_model refuses, and put_friction. Raises BadInput as these."""
+    bare, friction = split(robot)
+    m = mjx.put_model(bare, impl="jax")
+    return m, put_friction(friction, m, speed)
+
+
+def put_friction(friction: FrictionArrays, m: Any, speed: float | None = None) -> MjxFriction:
+    """A friction for MJX. friction: of `split`; viscous is m.dof_damping. m: mjx.put_model of the model that `split` returned. speed: at which
+    `start(warm=1)` has settled, rad/s or m/s; 1 or 0.1 where not given.
 
     Raises BadInput for a model that still holds the plugin, RK4, flags that switch damping off, another timestep, the back end of Warp,
     and maps over more than two quantities.
@@ -164,14 +189,19 @@ def put_friction(friction: FrictionArrays, m: Any) -> MjxFriction:
     check_engine(friction, integrator=int(m.opt.integrator), disableflags=int(m.opt.disableflags), timestep=np.asarray(m.opt.timestep), nv=int(m.nv),
                  nworld=None)
     number, of = friction.numbers, friction.levels()
+    try:
+        unsettled, settled = "", np.swapaxes(settled_energies_of(friction, friction.worlds or 1, 1.0, speed), 1, 2)
+    except BadInput as refused:
+        unsettled, settled = str(refused), np.zeros((1, 2, len(friction.joints)))
     columns = (of.positive, of.negative, of.rise, of.static, of.velocity, of.exponent, _stages(number, "thermal_gain"), _stages(number, "thermal_time_constant"),
-               number["level_per_temperature"], number["viscous_per_energy"], number["load_gain"], of.breaks_away, 0.0)
+               number["level_per_temperature"], number["viscous_per_energy"], number["load_gain"], of.breaks_away, 0.0,
+               settled if friction.worlds is not None else settled[0])
     maps = tuple(tables(friction))
     load = bool((number["load_gain"] != 0).any()) or any(QUANTITIES[axis.quantity] == "load" for one in maps for axis in one.axes if axis.count > 1)
     trees = np.asarray(m.dof_treeid)
     shape = _Shape(dofs=friction.dofs, positions=friction.positions, trees=tuple(np.flatnonzero(trees == tree) for tree in np.unique(trees[friction.dofs])),
                    inertia=friction.inertia, stiffness=friction.stiffness, damping=friction.damping, gear=friction.gear,
-                   tables=maps, needs_load=load, timestep=friction.timestep, turns=0, friction=friction)
+                   tables=maps, needs_load=load, timestep=friction.timestep, turns=0, unsettled=unsettled, friction=friction)
     single = jp.zeros(()).dtype
     return MjxFriction(Numbers(*(jp.asarray(one, dtype=None if one is of.breaks_away else single) for one in columns)), shape)
 
@@ -182,7 +212,13 @@ def _stages(number: Mapping[str, FloatArray], name: str) -> FloatArray:
 
 
 def step(m: Any, d: Any, f: MjxFriction, state: State) -> tuple[Any, State]:
-    """mjx.step with the friction, which acts as qfrc_applied beside what stands there. One world; jax.vmap makes many of it."""
+    """mjx.step with the friction, which acts as qfrc_applied beside what stands there. One world; jax.vmap makes many of it. Raises BadInput for
+    another timestep than the friction's; under jit, where the model's is no number, the motion then is nan."""
+    off = jp.zeros(())
+    if isinstance(m.opt.timestep, jax.core.Tracer):
+        off = jp.where(jp.abs(m.opt.timestep - f._shape.timestep) <= 1e-6 * f._shape.timestep, 0.0, jp.nan)
+    else:
+        check_timestep(f._shape.friction, np.asarray(m.opt.timestep))
     # what it weighs here, which mjx.step finds again and the compiler keeps
     here = mjx.crb(m, mjx.com_pos(m, mjx.kinematics(m, d)))
     load = jp.zeros(len(f._shape.dofs))
@@ -193,172 +229,5 @@ def step(m: Any, d: Any, f: MjxFriction, state: State) -> tuple[Any, State]:
     # the engine adds the joints' damping itself
     given = d.qfrc_applied
     taken = damping * d.qvel[f._shape.dofs]
-    acting = given.at[f._shape.dofs].add(jp.where(jp.isfinite(taken), taken, 0.0) - after.force)
+    acting = given.at[f._shape.dofs].add(jp.where(jp.isfinite(taken), taken, 0.0) - after.force + off)
     return mjx.step(m, d.replace(qfrc_applied=acting)).replace(qfrc_applied=given), after
-
-
-def step_friction(f: MjxFriction, state: State, inertia: Array, speed: Array, damping: Array, position: Array, load: Array) -> State:
-    """The kernel: reference.step in JAX. inertia: M [nv x nv], kg.m^2 or kg; speed: v [nv], rad/s or m/s; damping, position, load: [J].
-
-    What is no finite number of the state counts as 0; a joint whose force is none acts with no force, and its state stays."""
-    number, shape, h = f.numbers, f._shape, f._shape.timestep
-    state = _finite(state)
-    v, energy = speed[shape.dofs], state.energy
-    sides = {side: _level(f, side, state, position, v, energy, load) for side in (1, -1)}
-    upper, lower = (jp.maximum(sides[side], 0.0) for side in (1, -1))
-    # what joints without friction would add is undone by their slip
-    nothing = jp.zeros_like(speed)
-    elastic = nothing.at[shape.dofs].set(shape.stiffness / h**2 * (state.stretch + h * v))
-    damped = nothing.at[shape.dofs].set(shape.damping / h * v)
-    box = Box(nothing.at[shape.dofs].set(lower), nothing.at[shape.dofs].set(upper))
-    sets = [jp.zeros(len(speed), jp.int32).at[shape.dofs].set(one) for one in (state.first, state.second)]
-    slip, friction = nothing, nothing
-    for tree in shape.trees:
-        found = _hold(inertia[np.ix_(tree, tree)], elastic[tree], damped[tree], Box(box.lower[tree], box.upper[tree]),
-                      sets[0][tree], sets[1][tree], shape.turns)
-        slip, friction = slip.at[tree].set(found[0]), friction.at[tree].set(found[1])
-        sets = [one.at[tree].set(new) for one, new in zip(sets, found[2:])]
-    slip, friction, active, other = (one[shape.dofs] for one in (slip, friction, *sets))
-    stretch = state.stretch + h * v - h**2 / shape.stiffness * slip
-
-    # force and loss; a level below 0 takes from the viscous force, at most all of it
-    sliding = active * v > 0
-    viscous = jp.maximum(0.0, damping + number.viscous_per_energy * energy) * v
-    force, loss = viscous + friction, viscous * v + sliding * jp.abs(friction * v)
-    below = jp.where(v > 0, sides[1], sides[-1])
-    pushed = (friction == 0) & (v != 0) & (below < 0)
-    force = jp.where(pushed, jp.sign(v) * jp.maximum(0.0, jp.abs(force) + below), force)
-    loss = jp.where(pushed, jp.abs(force * v), loss)
-    stages, lost_digits = _heat(number, state, loss, h)
-    right = jp.isfinite(force + loss + stretch + stages.sum(axis=-2))
-
-    def kept(after: Array, before: Array) -> Array:
-        return jp.where(right, after, before)
-
-    slides = kept(jp.where(sliding, jp.sign(v), 0.0), state.slip)
-    return State(kept(stretch, state.stretch), kept(stages, state.stages), kept(lost_digits, state.lost_digits), slides, active, other,
-                 kept(force, 0.0), kept(loss, 0.0), ~sliding)
-
-
-def _finite(state: State) -> State:
-    """The state with 0 for each number of what a step begins with that is no finite one."""
-    begins = ("stretch", "stages", "lost_digits", "slip")
-    return state._replace(**{name: jp.where(jp.isfinite(getattr(state, name)), getattr(state, name), 0.0) for name in begins})
-
-
-class Box(NamedTuple):
-    """The levels of a tree, [n] each, N.m or N."""
-
-    lower: Array
-    upper: Array
-
-
-def _hold(inertia: Array, elastic: Array, damped: Array, box: Box, first: Array, second: Array, turns: int) -> tuple[Array, Array, Array, Array]:
-    """Slip of the bristles (rad/s^2 or m/s^2), friction (N.m or N) and both active sets of a tree, [n] each."""
-    p, slip, first = _nearest(inertia, inertia @ elastic, box.lower, box.upper, first, turns)
-    # a bristle within its levels has more room for its damper
-    times = jp.where(first == 0, 2.0, 1.0)
-    friction, _, second = _nearest(inertia, p + inertia @ damped, times * box.lower, times * box.upper, second, turns)
-    return slip, friction, first, second
-
-
-def _heat(number: Numbers, state: State, loss: Array, h: float) -> tuple[Array, Array]:
-    """E' = E + (1 - te) (k W + kT (Ts - T0) - E), with what the sum loses carried on (Kahan)."""
-    cooling = -jp.expm1(-h / number.time_constant)
-    outside = jp.stack([number.level_per_temperature * number.ambient_rise, jp.zeros_like(loss)])
-    change = cooling * (number.gain * loss + outside - state.stages) + state.lost_digits
-    after = state.stages + change
-    return after, change - (after - state.stages)
-
-
-def _level(f: MjxFriction, side: int, state: State, position: Array, v: Array, energy: Array, load: Array) -> Array:
-    """[J] L of one side, 1 or -1, N.m or N."""
-    number, shape = f.numbers, f._shape
-    coulomb = number.positive if side > 0 else number.negative
-    # at rest the power has no slope
-    ratio = jp.abs(v) / number.velocity
-    moving = ratio > 0
-    fallen = jp.where(number.exponent == 2, ratio**2, jp.where(moving, ratio, 1.0) ** number.exponent)
-    share = jp.where(moving, jp.exp(-fallen), 1.0)
-    slides = (side * v > 0) & (side * state.slip > 0.5)
-    law = jp.where(number.breaks_away, jp.where(slides, coulomb, number.static), coulomb + number.rise * share)
-    level = law + energy + number.load_gain * jp.abs(load)
-    for table in shape.tables:
-        j = table.joint
-        motor = shape.gear[j] * position[j]
-        at = dict(zip(QUANTITIES, (position[j], motor, jp.abs(v[j]), energy[j], load[j])))
-        value = _look_up(table, 0 if side > 0 else 1, at)
-        factor = {"one": side, "direction": 1, "velocity": jp.abs(v[j])}[FACTORS[table.factor]]
-        level = level.at[j].add(factor * value)
-    return level
-
-
-def _look_up(table: Table, side: int, at: dict[str, Array]) -> Array:
-    """A map's value, cubic between four points of each axis."""
-    rows, row_weights = _points(table.axes[0], at)
-    columns, column_weights = _points(table.axes[1], at)
-    values = jp.asarray(table.values[side])[rows[:, None], columns[None, :]]
-    return row_weights @ values @ column_weights
-
-
-def _points(axis: Axis, at: dict[str, Array]) -> tuple[Array, Array]:
-    """The places and weights of the points around."""
-    if axis.count == 1:
-        return jp.zeros(1, jp.int32), jp.ones(1)
-    place = (at[QUANTITIES[axis.quantity]] - axis.first) / axis.step
-    around = jp.arange(-1, 3)
-    if axis.circle:
-        place = place - axis.count * jp.floor(place / axis.count)
-        base = jp.floor(place).astype(jp.int32)
-        points = (base + around) % axis.count
-    else:
-        place = jp.clip(place, 0.0, axis.count - 1)
-        base = jp.clip(jp.floor(place).astype(jp.int32), 1, max(1, axis.count - 3))
-        points = base + around
-    t = place - base
-    return points, jp.stack([-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6])
-
-
-def _nearest(inertia: Array, aim: Array, lower: Array, upper: Array, status: Array, turns: int) -> tuple[Array, Array, Array]:
-    """reference.nearest in JAX, all wrong ones at once: force, slip and status [n]."""
-    free = (upper == 0) & (lower == 0)
-
-    def turn(status: Array) -> tuple[Array, Array, Array]:
-        slips = (status != 0) | free
-        bound = jp.where(free, 0.0, jp.where(status > 0, upper, jp.where(status < 0, -lower, 0.0)))
-        block = jp.where(slips[:, None] & slips[None, :], inertia, 0.0) + jp.diag(jp.where(slips, 0.0, 1.0))
-        slip = _solve(block, jp.where(slips, aim - bound, 0.0))
-        force = aim - inertia @ slip
-        room = _ROOM * (upper + lower)
-        beyond = jp.where(force > upper + room, 1, jp.where(-force > lower + room, -1, 0))
-        better = jp.where(free, 0, jp.where(status == 0, beyond, jp.where(status * slip < 0, 0, status)))
-        return jp.where(slips, bound, jp.clip(force, -lower, upper)), slip, better
-
-    if turns:
-        for _ in range(turns - 1):
-            status = turn(status)[2]
-        force, slip, _ = turn(status)
-        return force, slip, status
-
-    def goes_on(carried: tuple[Array, ...]) -> Array:
-        count, status, _, _, better = carried
-        return (count < MOST_TURNS) & (better != status).any()
-
-    def again(carried: tuple[Array, ...]) -> tuple[Array, ...]:
-        count, _, _, _, better = carried
-        return (count + 1, better, *turn(better))
-
-    _, status, force, slip, _ = jax.lax.while_loop(goes_on, again, (1, status, *turn(status)))
-    return force, slip, status
-
-
-def _solve(block: Array, right: Array) -> Array:
-    """The solution with a symmetric positive definite matrix, which needs no pivots. block: [n x n]. A loop, since written out it takes XLA
-    minutes to compile."""
-
-    def eliminate(k: Array, rows: Array) -> Array:
-        row = rows[k] / rows[k, k]
-        return (rows - rows[:, k, None] * row[None, :]).at[k].set(row)
-
-    rows = jp.concatenate([block, right[:, None]], axis=1)
-    return jax.lax.fori_loop(0, len(right), eliminate, rows)[:, -1]
