@@ -40,7 +40,7 @@ TEST_F(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   Call({"plot", "run", "-o", "twice"});
   Call({"report", "run"});
 
-  // the same bytes again; the report holds each picture, in fewer colours
+  // the same bytes again; the report holds each picture, in colours for both kinds of screen
   const auto once = FilesOf("once"), twice = FilesOf("twice");
   EXPECT_THAT(NamesOf(once), UnorderedElementsAre("npe_boxes.png", "error_by_iteration.png",
                                                   "parameters_by_iteration.png", "agreement.png",
@@ -48,14 +48,8 @@ TEST_F(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   const std::string page = File("run/report.html");
   for (const auto& [name, bytes] : once) {
     EXPECT_TRUE(bytes == twice.at(name)) << name;
+    EXPECT_THAT(page, HasSubstr("<figure id=\"" + name.substr(0, name.find('.')) + "\">"));
   }
-  std::size_t pictures = 0;
-  const std::string begin_of_image = "data:image/png;base64,";
-  for (std::size_t k = 0; (k = page.find(begin_of_image, k)) != std::string::npos; ++k) {
-    ++pictures;
-  }
-  EXPECT_EQ(pictures, once.size());
-
   // what one sees, on stdout and in the file
   const std::string line = "npe_boxes.png: ";
   const std::size_t begin = said.find(line) + line.size();
