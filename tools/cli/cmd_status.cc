@@ -10,6 +10,7 @@
 #include "tools/cli/typed_options.h"
 #include "tools/cluster/slurm.h"
 #include "tools/store/folders.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint {
 namespace {
