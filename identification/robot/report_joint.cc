@@ -25,6 +25,7 @@ using Eigen::VectorXd;
 constexpr int kFewest = 30;  // why 30: fewer do not show colour and structure of the noise
 /// The largest residual as a share of the friction. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
+constexpr double kRounding = 1e-9;  // of a half width
 constexpr double kKnownGain =
     1.5;  // why: a torque with an error of a half is known no better than from the data sheet
 
@@ -52,13 +53,18 @@ bool KnowsGain(const JointFit& fit) {
 
 FitParameter ParameterOf(const JointFit& fit, Index row) {
   const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
+  const bool bounded = unknown.role == Role::law || unknown.role == Role::load;
+  // at its bound, but for rounding
+  const double value = ValueOf(fit, row),
+               at_bound = kRounding * HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), row));
+  const bool held = bounded && value - unknown.lower <= at_bound;
   FitParameter parameter{
       .name = unknown.name,
       .role = unknown.role,
-      .value = ValueOf(fit, row),
+      .value = held ? unknown.lower : value,
       .unit = unknown.unit,
       .coordinate = unknown.coordinate,
-      .lower = unknown.role == Role::law ? unknown.lower : -kInfinity,
+      .lower = bounded ? unknown.lower : -kInfinity,
       .has_interval = !unknown.name.empty() && (row != fit.at.given.log_gain || KnowsGain(fit))};
   parameter.part = unknown.part;
   return parameter;

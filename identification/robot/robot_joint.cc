@@ -86,7 +86,7 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   if (slows) law.push_back(LawUnknown(kStaticRiseRow, c));
   fit.at.law = model.Append(law);
   fit.at.load = model.Append({{.name = "load_gain",
-                               .role = Role::gravity,
+                               .role = Role::load,
                                .unit = "1",
                                .lower = 0,
                                .prior = Normal{0, kLoadSpread}}});
