@@ -201,7 +201,7 @@ std::optional<Cause> UnknownFriction(const std::vector<SpeedFigure>& at_speeds,
     Move(change, moved.value, moved.interval95);
     if (0.5 * (moved.interval95[1] - moved.interval95[0]) < std::abs(moved.value)) continue;
     unknown.push_back(i);
-    left_out.push_back(one.at);
+    left_out.push_back(moved);
   }
   if (unknown.empty()) return std::nullopt;
   if (unknown.size() < counted) {

@@ -29,7 +29,8 @@ constexpr Index kRowsAColumn = 3;
 constexpr double kWorstTenth =
     3.1622776601683795;  // why: sqrt(10), a tenth of the log may hold all squares of an effect
 constexpr double kRange =
-    3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
+    3.5;                     // why: sqrt(12), from least to most of what rises evenly, over its rms
+constexpr int kRounds = 12;  // why: halves what is left of a bias in each, to 1 in 4000
 
 /// The tests that have not rejected yet, with their features relative to the present fit.
 struct Candidates {
@@ -124,12 +125,14 @@ void TestStage(Stage stage, const Bins& bins, const WeighedFit& begin,
   bins.TakeOff(fit.Explained(), rest);
 }
 
+bool IsFinite(const FittedModel& model) {
+  return model.residual.allFinite() && model.derivatives.allFinite();
+}
+
 /// Why nothing can be examined; empty where it can.
 std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
   if (!model) return kFitGivesNoFriction;
-  if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
-    return kResidualIsNotFinite;
-  }
+  if (!IsFinite(*model)) return kResidualIsNotFinite;
   if (IsRounding(Kept(model->residual, model->selection).squaredNorm(),
                  Kept(model->torque, model->selection))) {
     return kFitIsExact;
@@ -333,20 +336,38 @@ void AddHiddenMeans(const Bins& bins, const WeighedFit& fit, Examination& examin
                   fit.BiasBy(range * means).cwiseAbs().rowwise().sum());
 }
 
-/// Subtracts what the steps of the torque leave in the residual, and adds a row for how much they bias the parameters. rest: [N]
-void TakeOffRounding(const OverBins& over, Eigen::VectorXd& rest, Examination& examination) {
+/// Adds a row for how much steps of the torque that hide it bias the parameters: the error may be anything within half a step, so
+/// that the worst is taken at each bin.
+void AddHiddenSteps(const RoundedTorque& rounded, const WeighedFit& fit, Examination& examination) {
+  if (!rounded.IsHidden()) return;
+  examination.Add(Source::hidden_steps, Action::widen, rounded.step() / 2 * fit.MostMoves());
+}
+
+/// Adds the row of a torque whose steps noise evens out in part, and returns their mean error, [N]. The fit holds a part of the error, so
+/// that the torque that was rounded follows from the parameters without their biases.
+VectorXd AddRounding(const OverBins& over, Examination& examination) {
   const auto& [model, m, bins, derivatives, fit, circumstances] = over;
-  const double variance = examination.squares / examination.samples;
-  if (const double step = HidingStep(m.torque, variance); step > 0) {
-    // the error may be anything within half a step, so the worst is taken at each bin
-    rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
-    examination.Add(Source::hidden_steps, Action::widen, step / 2 * fit.MostMoves());
-    return;
+  const Index q = model.derivatives.cols();
+  VectorXd shift = VectorXd::Zero(fit.norms.size()), error;
+  for (int i = 0; i < kRounds; ++i) {
+    const VectorXd residual = model.residual - model.derivatives * shift.head(q);
+    error = RoundedTorque(m.torque, residual, model.selection).MeanError();
+    // half of the shift: the error may change by more than the torque does
+    shift = (shift + fit.BiasBy(bins.Means(error)).col(0)) / 2;
   }
-  const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
-  if (rounding.size() == 0) return;
-  rest -= rounding;
-  examination.Add(Source::rounding, Action::shift, fit.BiasBy(bins.Means(rounding)));
+  examination.Add(Source::rounding, Action::shift, std::move(shift));
+  return error;
+}
+
+/// Subtracts what the steps of the torque leave in the residual. rest: [N]
+void TakeOffRounding(const OverBins& over, const RoundedTorque& rounded, VectorXd& rest,
+                     Examination& examination) {
+  if (rounded.IsHidden()) {
+    const double most = rounded.step() / 2;
+    rest -= rest.cwiseMin(most).cwiseMax(-most);
+  } else if (!rounded.IsEven()) {
+    rest -= AddRounding(over, examination);
+  }
 }
 
 /// Computes the friction that effects are compared with: that of law and heat, without maps, which may hold gravity.
@@ -407,23 +428,24 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
   const std::string obstacle = Obstacle(model, bins);
   examination.findings = NotMade(obstacle);
-  if (!obstacle.empty()) return examination;
+  if (!model || !IsFinite(*model) || bins.size() == 0) return examination;
 
-  // what parameters and assumptions can explain, and heat within the steps
+  // what parameters can explain; an exact fit may be one to a few steps of the torque
   Measure(*model, bins, examination);
   const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
-  const OverBins over{*model,
-                      m,
-                      bins,
-                      derivatives,
-                      WeighedFit(bins.weight, derivatives),
-                      CircumstancesOf(*model, m, bins)};
+  const WeighedFit fitted(bins.weight, derivatives);
+  const RoundedTorque rounded(m.torque, model->residual, model->selection);
+  AddHiddenSteps(rounded, fitted, examination);
+  if (!obstacle.empty()) return examination;
+
+  // what assumptions can explain, and heat within the steps
+  const OverBins over{*model, m, bins, derivatives, fitted, CircumstancesOf(*model, m, bins)};
   AddAssumptions(over, fit, by_noise, examination);
 
   // first known influences on friction, then structure that changes within segments, then what stays from one to the next
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
-  TakeOffRounding(over, rest, examination);
+  TakeOffRounding(over, rounded, rest, examination);
   std::vector<Finding>& table = examination.findings;
   TestStage(Stage::first, bins, over.fit, over.circumstances, rest, level, table);
   TestWithin(over, rest, level, table);

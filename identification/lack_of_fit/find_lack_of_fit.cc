@@ -228,6 +228,7 @@ void ExplainLog(const Examined& of, Examination& examination) {
     const auto moved = row ? FarthestBeyond(*row, of) : std::nullopt;
     if (!moved) continue;
     row->sentence = ExplainRounding(StepOf(m.torque), m.torque_unit, *moved, row->action);
+    row->sentence_in = SentenceIn::any_answer;
   }
   // one sentence for all, with the finding that biases a parameter most
   std::vector<std::string> quantities;
