@@ -12,6 +12,7 @@
 #include "identification/answer/settling.h"
 #include "identification/answer/speed_figures.h"
 #include "identification/forward/log_trajectory.h"
+#include "identification/identifiers/model_comparison.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/bounds.h"
@@ -19,6 +20,7 @@
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
 #include "identification/sentences/assumptions.h"
+#include "identification/sentences/lack_of_fit.h"
 #include "identification/sentences/late_torque.h"
 #include "identification/sentences/log.h"
 #include "models/foundation/robust_noise.h"
@@ -204,6 +206,21 @@ std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierIn
                                                late->harm, identifier.name)};
 }
 
+/// Why a fit without gravity failed, where its identifier has that option and the weight of the joint explains most of the
+/// torque that a law leaves. Nothing where it does not, or the fit did not fail.
+std::optional<Cause> GravityCause(const Identifier& identifier, const IdentifierInput& input,
+                                  const Answer& answer) {
+  const auto* option = input.options.Find<GravityOption>();
+  const Status status = answer.inferred.status;
+  const bool failed = status != Status::ok && status != Status::bad_data;
+  if (!failed || !option || option->gravity != FittedGravity::none) return std::nullopt;
+  if (!ShowsWeight(input)) return std::nullopt;
+  return Cause{.source = Source::weight,
+               .action = Action::refuse,
+               .status = status,
+               .sentence = ExplainWeight(identifier.name)};
+}
+
 /// The motion that a fit's torque follows, where that is not the input's.
 std::optional<LogView> FollowedOf(const Fit& fit, const IdentifierInput& input) {
   return Followed(input.measurements, input.selection, PartsOf(fit));
@@ -274,6 +291,9 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   answer.by_noise = ByNoise(answer.fit);
   std::vector<Cause> causes = OwnCauses(answer.fit, answer.by_noise);
   answer.inferred = Apply(answer.by_noise, causes);
+  if (auto weight = GravityCause(identifier, input, answer)) {
+    causes.push_back(*std::move(weight));
+  }
 
   // the other causes; the last floor looks at the friction that remains after all of them
   LackOfFit found = FindCauses(identifier, input, judging, answer);

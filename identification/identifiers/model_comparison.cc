@@ -168,6 +168,30 @@ Choice ChooseStructure(const std::vector<StructureCandidate>& contenders) {
   return choice;
 }
 
+bool ShowsWeight(const IdentifierInput& input) {
+  const LogSamples& m = input.measurements;
+  if (m.joint != JointKind::rotary || m.position_integrated || !m.position.allFinite())
+    return false;
+  const Structure with = ColdStructures(FittedGravity::sincos).back();
+  const Fit without = ColdStructures(FittedGravity::none).back().Fitted(input);
+  const auto unseen = with.UnseenOn(input, CutIntoBlocks(input.selection, AutoOptions{}.blocks));
+  if (without.refusal || !unseen) return false;
+
+  // on the rows of both
+  VectorXd left = VectorXd::Constant(m.size(), std::numeric_limits<double>::quiet_NaN());
+  const VectorXd residual = without.residual();
+  for (Index i = 0, row = 0; i < m.size(); ++i) {
+    if (without.used.keep[i]) left[i] = residual[row++];
+  }
+  Selection common = input.selection;
+  common.keep = common.keep && left.array().isFinite() && unseen->array().isFinite();
+  const std::vector<StructureCandidate> both{
+      {without.identifier, Kept(left, common), without.effective_parameters},
+      {with.Name(), Kept(*unseen, common), without.effective_parameters + 2}};
+  if (common.count() == 0 || !(2 * both[1].MeanSquare() < both[0].MeanSquare())) return false;
+  return ChooseStructure(both).chosen == 1;
+}
+
 ModelComparison::ModelComparison(const IdentifierInput& input, const Selection& selection)
     : log_(Condense({input.measurements, selection}, kRows)),
       quick_(input.On(log_.view)),

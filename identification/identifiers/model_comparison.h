@@ -43,6 +43,11 @@ struct Choice {
 /// count as noise. Of equally simple ones, the one of the least error. contenders: at least one, over the same rows in time.
 Choice ChooseStructure(const std::vector<StructureCandidate>& contenders);
 
+/// Whether the weight of what a joint carries, a sine of its position, explains most of what a linear law leaves without it: the
+/// law with that weight leaves less than half as large a square of rows that it has not seen, beyond chance (ChooseStructure).
+/// input: of an identifier without gravity. False where the position does not tell, or nothing fits.
+bool ShowsWeight(const IdentifierInput& input);
+
 /// The result of a structure on the rows that are compared.
 struct Trial {
   Structure structure;

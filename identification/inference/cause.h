@@ -27,6 +27,7 @@ enum class Source {
   autocorrelated_noise,
   few_segments,
   // reasons that refuse an answer by themselves
+  weight,
   fit,
   bound,
   faults,

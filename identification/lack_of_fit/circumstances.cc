@@ -156,6 +156,18 @@ Eigen::MatrixXd LateSpeeds(const LogSamples& m, const std::vector<double>& times
   return late.leftCols(kMemories).colwise() - bins.Means(speed).col(0);
 }
 
+/// The columns of gravity and inertia, each in one recording alone, of all but the first. [N x r (R - 1)]
+MatrixXd ByRecording(const MatrixXd& rigid, const LogSamples& m) {
+  const std::vector<SampleRange> recordings = m.Recordings();
+  const Index r = rigid.cols();
+  MatrixXd columns = MatrixXd::Zero(m.size(), r * (std::ssize(recordings) - 1));
+  for (Index k = 0; k * r < columns.cols(); ++k) {
+    const SampleRange& one = recordings[static_cast<size_t>(k) + 1];
+    columns.block(one.first, k * r, one.count, r) = rigid.middleRows(one.first, one.count);
+  }
+  return columns;
+}
+
 // of the largest speed: at slower samples the joint is at rest or turns
 constexpr double kMovingShare = 0.05;
 constexpr double kAlikeSpeeds = 0.02;
@@ -178,6 +190,8 @@ Circumstances CircumstancesOf(const FittedModel& model, const LogSamples& m, con
   if (model.by_initial_energy.cols() > 0) {
     circumstances.initial = bins.Means(model.by_initial_energy);
   }
+  circumstances.weight = bins.Means(model.weight);
+  circumstances.by_recording = bins.Means(ByRecording(model.rigid, m));
   if (m.load) circumstances.loads = bins.Means(ConcatColumns(*m.load, m.load->cwiseAbs()));
   if (m.temperature) {
     // about the mean of the log: the bias of a parameter is then that at temperatures of the log, not that at 0 degC

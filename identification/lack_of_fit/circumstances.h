@@ -33,6 +33,9 @@ struct Circumstances {
   Eigen::MatrixXd initial;   // [m x s] dF/dE(0) of the recordings whose E(0) is taken to be known
   Eigen::MatrixXd loads;     // [m x 2] L, |L|; N.m or N
   Eigen::MatrixXd temperatures;  // [m x 1] degC
+  Eigen::MatrixXd weight;  // [m x 2] sin and cos of the position, where the fit leaves a weight out
+  Eigen::MatrixXd
+      by_recording;  // [m x r (R - 1)] gravity and inertia of each of R recordings but the first
   Eigen::MatrixXd
       late_speeds;  // [m x c] s (|v| after filters of first order - |v|), s: sign(v); rad/s or m/s
   std::vector<double> past;  // [c] their time constants, s

@@ -126,6 +126,14 @@ Features OfLoad(const Bins& bins, const Circumstances& circumstances, const Grow
                         circumstances.loads.leftCols(circumstances.loads.cols() / 2))};
 }
 
+Features OfGravity(const Bins&, const Circumstances& circumstances, const GrowingFit&) {
+  return {circumstances.weight};
+}
+
+Features OfRecording(const Bins&, const Circumstances& circumstances, const GrowingFit&) {
+  return {circumstances.by_recording};
+}
+
 Features OfTemperature(const Bins& bins, const Circumstances& circumstances, const GrowingFit&) {
   return {Signed(bins, circumstances.temperatures)};
 }

@@ -20,6 +20,10 @@ Features OfInitialEnergy(const Bins& bins, const Circumstances& circumstances,
                          const GrowingFit& fit);
 /// s L, s |L|, L.
 Features OfLoad(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
+/// sin q, cos q: the weight of a joint, of a fit without gravity.
+Features OfGravity(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
+/// sin q, cos q, a, each in one recording: gravity and inertia that differ between recordings.
+Features OfRecording(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s T, T the measured temperature.
 Features OfTemperature(const Bins& bins, const Circumstances& circumstances, const GrowingFit& fit);
 /// s cos(k pi t), k = 1..4; cos(k pi t), k = 1, 2: slow drift.

@@ -177,6 +177,22 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   return all(Eigen::all, by_known);
 }
 
+/// Whether a weight may act on the joint that the fit has no part for. A map over the position holds it.
+bool MayCarryWeight(const Fit& fit, const FittedModel& model, const LogSamples& m) {
+  const bool mapped = std::ranges::find(model.mapped, MapQuantity::position) != model.mapped.end();
+  return m.joint == JointKind::rotary && !fit.gravity && !mapped && !m.position_integrated &&
+         m.position.allFinite();
+}
+
+/// The columns of the fit's gravity, as a sine, and of its inertia. [N x r]
+Eigen::MatrixXd RigidColumns(const Fit& fit, const LogSamples& m) {
+  Eigen::MatrixXd columns(m.size(), 0);
+  if (fit.gravity && fit.gravity->kind == GravityKind::sincos) {
+    columns = GravityColumns(GravityKind::sincos, {}, m.position);
+  }
+  return fit.inertia && m.acceleration ? ConcatColumns(columns, *m.acceleration) : columns;
+}
+
 /// The Jacobian's columns of the estimated rows of the table with a role. [N x m]
 Eigen::MatrixXd ByRole(const Fit& fit, Role role) {
   std::vector<Eigen::Index> columns;
@@ -240,6 +256,11 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   for (const FrictionMap& map : fit.friction.maps) {
     for (const MapAxis& axis : map.axes) model.mapped.push_back(axis.quantity);
   }
+
+  // a weight that the fit leaves out, or that may differ between recordings
+  model.weight = MayCarryWeight(fit, model, m) ? GravityColumns(GravityKind::sincos, {}, m.position)
+                                               : Eigen::MatrixXd(m.size(), 0);
+  model.rigid = RigidColumns(fit, m);
 
   // the derivatives of the model by the fit's parameters
   model.rows = RowsOf(fit, {Role::law, Role::load, Role::heat, Role::start, Role::gravity});

@@ -30,6 +30,9 @@ struct FittedModel {
   Eigen::VectorXd jump_spread;  // [J] how much E may jump at the gaps, N.m or N
   /// [N] ForceOfHeldLoss, N.m or N, where the step of the log matters to the warming.
   std::optional<Eigen::VectorXd> held_loss;
+  Eigen::MatrixXd
+      weight;  // [N x 2] sin and cos of the position, where a weight may act that the fit leaves out; else [N x 0]
+  Eigen::MatrixXd rigid;  // [N x r] columns of the fit's gravity, as a sine, and of its inertia
   std::optional<Eigen::VectorXd> maps;  // [N] torque of the maps, N.m or N, where there are any
   std::vector<MapQuantity> mapped;      // the quantities that the maps are over
 

@@ -102,15 +102,6 @@ Remedy Finer(const Advice& advice, MapQuantity quantity, const char* option) {
   return Try(advice, WithMap(advice, quantity).With(option, std::to_string(kernels)));
 }
 
-/// Whether a force that acts alike in both directions may be gravity, which has one period in a turn of the joint, so that
-/// along the travel it is one slow wave.
-bool MayBeGravity(const Advice& advice) {
-  const Eigen::VectorXd& position = advice.input.measurements.position;
-  const double travel = position.maxCoeff() - position.minCoeff();
-  const bool slow = advice.finding.period > std::min(std::numbers::pi, 0.9 * travel);
-  return advice.input.measurements.joint == JointKind::rotary && slow && !advice.fit.gravity;
-}
-
 /// The gears of a motor whose ripple a test over the position found, by what the fit leaves; none of no motor.
 std::vector<int> GearsOfRipple(const Advice& advice) {
   const LogSamples& m = advice.input.measurements;
@@ -208,6 +199,15 @@ Remedy RemedyForDirectionOfACurve(const Advice& advice) {
   return Try(advice, damped ? command : command.With("damping", "none"));
 }
 
+Remedy RemedyForGravity(const Advice& advice) {
+  const IdentifyCommand command{advice.identifier.options.Has("gravity") ? advice.fit.identifier
+                                : HasWarming(advice)                     ? "energy-ml"
+                                                                         : "nominal-ls"};
+  return {kActsAsWeight, command.With("gravity", "sincos")};
+}
+
+Remedy RemedyForRecording(const Advice&) { return {kIdentifyRecordings}; }
+
 Remedy RemedyForDirection(const Advice& advice) {
   if (HasCurve(advice)) return RemedyForDirectionOfACurve(advice);
 
@@ -288,15 +288,8 @@ Remedy RemedyForFading(const Advice& advice) {
 }
 
 Remedy RemedyForPosition(const Advice& advice) {
-  const bool warm = HasWarming(advice);
   const bool alike = advice.finding.alike > 0.8;
   const RippleActs acts = alike ? RippleActs::alike : RippleActs::otherwise;
-  if (alike && MayBeGravity(advice)) {
-    const IdentifyCommand command{advice.identifier.options.Has("gravity") ? advice.fit.identifier
-                                  : warm                                   ? "energy-ml"
-                                                                           : "nominal-ls"};
-    return {ExplainByGravity(acts), command.With("gravity", "sincos")};
-  }
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
   constexpr size_t most = kMostKernels / kKernelsAPeriod;

@@ -18,6 +18,8 @@ Remedy RemedyForWarming(const Advice& advice);
 Remedy RemedyForStart(const Advice& advice);
 Remedy RemedyForSpeed(const Advice& advice);
 Remedy RemedyForWarmingSlope(const Advice& advice);
+Remedy RemedyForGravity(const Advice& advice);
+Remedy RemedyForRecording(const Advice& advice);
 Remedy RemedyForDirection(const Advice& advice);
 Remedy RemedyForLoad(const Advice& advice);
 Remedy RemedyForTemperature(const Advice& advice);

@@ -59,6 +59,18 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
   using enum HeatRelation;
   using enum Impact;
   static const std::vector<LackOfFitTest> tests{
+      {.name = "gravity",
+       .words = kTestOfGravity,
+       .quantity = Say<kOnGravity>,
+       .remedy = RemedyForGravity,
+       .harm = of_effect,
+       .over = SeenOver::position,
+       .features = OfGravity},
+      {.name = "recording",
+       .words = kTestOfRecording,
+       .quantity = Say<kOnRecording>,
+       .remedy = RemedyForRecording,
+       .features = OfRecording},
       {.name = "direction",
        .words = kTestOfDirection,
        .quantity = Say<kOnDirection>,

@@ -27,6 +27,12 @@ std::vector<LogFault> FindFaults(const Measurements& measurements, const Selecti
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
                                                    const Selection& selection);
 
+/// Positions and velocities that jump away and come back within ten samples, twice or more: by more than four times what 19 of 20
+/// steps and speeds stay below, from a calm step to a calm step, and to within a quarter of the jump of where they were. A spoilt
+/// message does that, no joint.
+std::optional<std::string> JumpsThatReturn(const Measurements& measurements,
+                                           const Selection& selection);
+
 /// Positions that jump back by one and the same way, more than half of their range: those of a
 /// sensor that starts again after a range of its own (turns are undone while reading, UndoJumps). Two
 /// jumps are needed, equal to 1 %, each more than four times what the speed next to it allows. Where positions run back after

@@ -23,6 +23,14 @@ inline constexpr std::string_view kNoMapOrOneSpeed =
 inline constexpr std::string_view kNoWarming = "the fit has no warming";
 inline constexpr std::string_view kNoHolds = "no segments of constant speed are known";
 
+inline constexpr TestWords kTestOfGravity{
+    .absent = "the fit has gravity or a map over the position, or nothing shows the position",
+    .question = "Does it depend on the position as a weight does?",
+    .advice = "The joint carries its weight: try --gravity sincos."};
+inline constexpr TestWords kTestOfRecording{
+    .absent = "there is one recording, or the fit has neither gravity nor inertia",
+    .question = "Do gravity and inertia differ between the recordings?",
+    .advice = "The recordings have other weights: identify each by itself."};
 inline constexpr TestWords kTestOfDirection{
     .absent = kHeldByTheFit,
     .question = "Do forward and backward motion leave different residuals?",
@@ -128,6 +136,8 @@ inline constexpr TestWords kTestOfPeriodic{.absent = "the log is too short",
                                                "that swings, or another joint that moves."};
 
 // what the residual depends on, of tests that need no number for it
+inline constexpr const char* kOnGravity = "the sine of the position (gravity)";
+inline constexpr const char* kOnRecording = "the recording (gravity and inertia)";
 inline constexpr const char* kOnDirection = "direction";
 inline constexpr const char* kOnSpeed = "speed";
 inline constexpr const char* kOnEnergy = "energy (warming)";

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "identification/command.h"
+#include "identification/sentences/remedies.h"
+
 namespace warmjoint {
 
 std::string ExplainFewRows(Eigen::Index rows) {
@@ -28,6 +31,12 @@ std::string ExplainFindings(const std::vector<FoundPart>& found, const std::stri
   }
   return fmt::format("the residual depends on {}{}; {}", fmt::join(words, "; and on "), effect,
                      remedy);
+}
+
+std::string ExplainWeight(const std::string& identifier) {
+  const IdentifyCommand command{identifier};
+  return fmt::format("the torque depends on the sine of the position: {}",
+                     Remedy{kActsAsWeight, command.With("gravity", "sincos")}.Text());
 }
 
 std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance) {

@@ -36,6 +36,8 @@ struct FoundPart {
 /// two functions; a remedy.
 std::string ExplainFindings(const std::vector<FoundPart>& found, const std::string& unit,
                             std::string_view effect, std::string_view remedy);
+/// Why a fit without gravity failed whose joint carries a weight.
+std::string ExplainWeight(const std::string& identifier);
 /// The effect of findings that change the friction too much: the worst by --relevance, or all together. harm: share
 std::string ExplainTooMuch(std::string_view quantity, double harm, double relevance);
 std::string ExplainTooMuchTogether(double share, double most);

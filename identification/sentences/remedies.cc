@@ -56,10 +56,6 @@ std::string AskForLateTorqueOr(std::string_view remedy) {
   return fmt::format("is the torque filtered or late? {}, or ", remedy);
 }
 
-std::string ExplainByGravity(RippleActs acts) {
-  return fmt::format("{}gravity does: ", Begin(acts));
-}
-
 std::string ExplainByLoad(RippleActs acts) {
   return fmt::format("{}a load does that depends on position: ", Begin(acts));
 }

@@ -55,6 +55,12 @@ inline constexpr const char* kDiffersInSlope =  // before a command
     "friction differs in slope between the directions: ";
 
 // of what acts on the joint
+inline constexpr const char* kActsAsWeight =  // before a command
+    "it acts as the weight of what the joint carries: ";
+inline constexpr const char* kIdentifyRecordings =
+    "the joint carried another weight in each recording, or was mounted in another way: identify "
+    "each "
+    "recording by itself";
 inline constexpr const char* kMoreThanLoad =
     "the map over load does not follow it: friction depends on more than the load";
 inline constexpr const char* kIdentifyPartsOfStep =
@@ -81,8 +87,7 @@ std::string AskForLateTorqueOr(std::string_view remedy);
 
 /// Whether a ripple over position acts alike in both directions.
 enum class RippleActs { alike, otherwise };
-/// A text before a command: gravity or a load acts in that way.
-std::string ExplainByGravity(RippleActs acts);
+/// A text before a command: a load acts in that way.
 std::string ExplainByLoad(RippleActs acts);
 /// A text before a command: the ripple is that of the motor, with one of these gears, the likeliest first.
 std::string ExplainByMotor(RippleActs acts, const std::vector<int>& gears);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "identification/answer/check_estimate.h"
 #include "identification/answer/identify.h"
@@ -273,6 +275,27 @@ TEST(SeveralRecordings, NoneIsHeldOutWhoseStartIsNotKnown) {
   ASSERT_TRUE(held);
   EXPECT_NEAR(held->n, 900, 1);
   EXPECT_NEAR(held->rmse, 0.5, 3 * 0.5 / std::sqrt(2 * 900) + 0.02);
+}
+
+/// Three recordings of a joint, each with a weight of its own, N.m.
+Estimate UnderWeights(const std::vector<double>& weights) {
+  std::vector<Measurements> logs;
+  for (const double weight : weights) {
+    logs.push_back(test::RecordHour(test::Cold(), 1 + logs.size()));
+    logs.back().torque.array() += weight * logs.back().position.array().sin();
+  }
+  Identifier identifier = NominalLs();
+  identifier.options = identifier.options.Read({{"gravity", "sincos"}});
+  return IdentifyAndCheck(identifier, {Prepare(std::move(logs)), identifier.options, {}}, {});
+}
+
+TEST(SeveralRecordings, NameThatTheirWeightsDiffer) {
+  const Estimate apart = UnderWeights({2, 8, 14});
+  EXPECT_TRUE(test::Asked(apart, "recording").rejected) << apart.message;
+  EXPECT_THAT(apart.FullMessage(), ::testing::HasSubstr("each recording by itself"));
+  const Estimate alike = UnderWeights({8, 8, 8});
+  EXPECT_EQ(alike.status, Status::ok) << alike.message;
+  EXPECT_FALSE(test::Asked(alike, "recording").rejected);
 }
 
 }  // namespace

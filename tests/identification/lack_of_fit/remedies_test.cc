@@ -155,6 +155,21 @@ INSTANTIATE_TEST_SUITE_P(
         Lacking{"GravityOfAJointThatWarms", "energy-ml", [] { return Weighted(TableOne()); }}),
     [](const auto& lacking) { return lacking.param.what; });
 
+TEST(Remedies, NameGravityBeforeAnythingElse) {
+  for (const auto& [identifier, joint] :
+       {std::pair{"nominal-ls", Cold()}, std::pair{"energy-ml", TableOne()}}) {
+    Measurements m = Travelling(joint, 1);
+    m.torque.array() += 25 * m.position.array().sin() + 8 * m.position.array().cos();
+    const Estimate estimate = Take(identifier, {}, m).estimate;
+    EXPECT_NE(estimate.status, Status::ok);
+    const std::string& message = estimate.message;
+    const auto gravity = message.find("--gravity sincos");
+    EXPECT_NE(gravity, std::string::npos) << message;
+    EXPECT_EQ(message.find("law=asymmetric"), std::string::npos) << message;
+    EXPECT_LT(message.find("sine of the position"), message.find("time constant")) << message;
+  }
+}
+
 TEST(Remedies, NeedsNoneForALagOfHoldsWhichSettle) {
   for (const auto& [identifier, joint] :
        {std::pair{"nominal-ls", Cold()}, std::pair{"energy-ml", TableOne()}}) {

@@ -93,6 +93,24 @@ std::function<void(Measurements&)> Zeros(Index count) {
   };
 }
 
+/// So many jumps of position and velocity, for one to three samples each. position: rad; velocity: rad/s
+std::function<void(Measurements&)> Jumps(Index count, double position, double velocity) {
+  return [=](Measurements& m) {
+    for (Index k = 0; k < count; ++k) {
+      const Index at = 105 + 140 * k, length = 1 + k % 3;
+      const double sign = k % 2 == 0 ? 1 : -1;
+      m.position.segment(at, length).array() += sign * position;
+      m.velocity.segment(at, length).array() += sign * velocity;
+    }
+  };
+}
+
+TEST(FindFaults, NamesJumpsThatReturn) {
+  ExpectFaults({}, {{Jumps(6, 800, 60), "come back 6 times, for 12 samples"},
+                    {Jumps(2, 800, 60), "come back 2 times, for 3 samples"},
+                    {Jumps(1, 800, 60), ""}});
+}
+
 TEST(FindFaults, NamesWhatIsWrongAndAllowsWhatIsBelowItsBound) {
   constexpr double pi = std::numbers::pi;
   ExpectFaults(
