@@ -32,7 +32,7 @@ def is_shown(node, public):
     """Public functions, and classes that people meet: those that are public or that public functions return."""
     if isinstance(node, ast.ClassDef):
         return not node.name.startswith("_") and "Protocol" not in map(ast.unparse, node.bases)
-    return isinstance(node, ast.FunctionDef) and node.name in public
+    return isinstance(node, ast.FunctionDef) and node.name in public and "overload" not in map(ast.unparse, node.decorator_list)
 
 
 def entry(node, source):
