@@ -47,6 +47,7 @@ struct AttachRequest {
     a->Field("form", &options.form);
     a->Field("sensors", &options.sensors);
     a->Field("numbers", &options.numbers);
+    a->Field("approximate", &options.approximate);
     a->Field("armatures", &armatures, {.unit = "kg.m^2"});
     a->Field("timestep", &options.timestep, {.unit = "s"});
     a->Field("integrator", &integrator);
@@ -63,8 +64,10 @@ Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
     request.options.armatures.push_back({joints, armature});
   }
   // choices by their names
-  if (request.integrator) {
-    std::vector<std::string> names;
+  if (request.integrator == "auto") {
+    request.options.integrator_choice = IntegratorChoice::automatic;
+  } else if (request.integrator) {
+    std::vector<std::string> names{"auto"};
     for (const auto& [name, unused] : Integrators()) names.push_back(name);
     const auto known = Integrators().find(*request.integrator);
     if (known == Integrators().end()) {
@@ -94,7 +97,14 @@ Tree Attach(mjSpec& spec, const mjVFS* files, const char* text) {
       joints.push_back({{"name", name}, {"given", i}});
     }
   }
-  return {{"joints", joints}, {"notices", attached.notices}};
+  Tree springs = Tree::array();
+  for (const NativeSpring& spring : attached.springs) {
+    springs.push_back({{"name", spring.friction.joint},
+                       {"stiffness", spring.stiffness},
+                       {"initial_energy", spring.friction.initial_energy},
+                       {"friction", FrictionToTree(spring.friction.friction)}});
+  }
+  return {{"joints", joints}, {"notices", attached.notices}, {"springs", springs}};
 }
 
 /// A number of a joint that may change at run time: in which field of the model it stands, where, and what it may be.
@@ -226,9 +236,9 @@ extern "C" {
 
 /// Puts friction on joints of a spec (AttachFriction); a spec that is refused stays as it was.
 /// files: meshes and textures in memory, or null. request: {model: name for messages, frictions: [{joint: name
-/// or pattern, friction: as in a friction file, initial_energy: [E1, E2]}], form, sensors, numbers, armatures:
+/// or pattern, friction: as in a friction file, initial_energy: [E1, E2]}], form, sensors, numbers, approximate, armatures:
 /// {joint: number}, timestep, integrator, stiffest_drive, units: {joint: {parameter: unit}} of estimates}. Answer: {joints: [{name, given: place in
-/// frictions}], notices: [sentence]}.
+/// frictions}], notices: [sentence], springs: of the native form [{name, stiffness, initial_energy, friction: as the spring holds it}]}.
 [[gnu::visibility("default")]] const char* warmjoint_attach(mjSpec* spec, const mjVFS* files,
                                                             const char* request) {
   return warmjoint::Answer([&] { return warmjoint::Attach(*spec, files, request); });

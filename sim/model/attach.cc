@@ -16,6 +16,7 @@
 #include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
 #include "sim/model/make_room.h"
+#include "sim/model/native_springs.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
@@ -211,22 +212,39 @@ Attached AttachFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frict
   MakeRoom(spec, each, options.form, place, notices);
 
   // what cannot carry its friction is told with its remedy before the plugin sees it
-  const ModelPtr before = CompileModel(spec, place, files);
+  ModelPtr before = CompileModel(spec, place, files);
+  if (options.integrator_choice == IntegratorChoice::automatic &&
+      NeedsImplicitfast(before.get(), each)) {
+    spec.option.integrator = mjINT_IMPLICITFAST;
+    notices.emplace_back(
+        "the integrator is implicitfast now; with the model's own its servos are too stiff for "
+        "joints to come to rest");
+    before = CompileModel(spec, place, files);
+  }
   RefuseSecond(before.get(), each, place);
+  // an instance that acts by itself, and springs, have their joints in the order of the model
+  const auto sort = [&] {
+    const auto place_of = [&](const std::string& joint) {
+      return mj_name2id(before.get(), mjOBJ_JOINT, joint.c_str());
+    };
+    std::ranges::sort(each, {}, [&](const FrictionForJoint& one) { return place_of(one.joint); });
+    std::ranges::sort(attached.joints, {}, place_of);
+  };
+  if (options.form == FrictionForm::native) {
+    sort();
+    std::ranges::move(NoticesOfOthers(before.get(), each), std::back_inserter(notices));
+    attached.springs = AddSprings(spec, before.get(), each, options, place, notices);
+    FinishSprings(spec, CompileModel(spec, place, files).get(), attached.springs);
+    CompileModel(spec, place, files);
+    return attached;
+  }
   const std::vector<FrictionForJoint> earlier = TakeEarlier(spec, before.get(), options);
   each.insert(each.begin(), earlier.begin(), earlier.end());
   RefuseLightJoints(before.get(), each, place);
   std::ranges::move(NoticesOfHolding(before.get(), each, options.stiffest_drive),
                     std::back_inserter(notices));
   std::ranges::move(NoticesOfOthers(before.get(), each), std::back_inserter(notices));
-  // an instance that acts by itself has its joints in the order of the model
-  const auto place_of = [&](const std::string& joint) {
-    return mj_name2id(before.get(), mjOBJ_JOINT, joint.c_str());
-  };
-  if (options.form == FrictionForm::passive) {
-    std::ranges::sort(each, {}, [&](const FrictionForJoint& one) { return place_of(one.joint); });
-    std::ranges::sort(attached.joints, {}, place_of);
-  }
+  if (options.form == FrictionForm::passive) sort();
   AddFriction(spec, each, place, options, Viscous::by_damping);
   CompileModel(spec, place, files);
   return attached;

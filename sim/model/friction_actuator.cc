@@ -127,38 +127,6 @@ void AddSensors(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
   }
 }
 
-/// An array for each number that a friction has, and for the heat at a reset.
-void AddNumbers(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
-                const std::string& instance, Viscous viscous) {
-  // in the order in which the frictions bring them up
-  std::vector<std::string> names;
-  std::map<std::string, std::vector<double>> values;
-  const auto set = [&](const std::string& name, size_t joint, double value) {
-    const auto [array, is_new] = values.emplace(name, std::vector<double>(frictions.size()));
-    if (is_new) names.push_back(name);
-    array->second[joint] = value;
-  };
-  for (size_t i = 0; i < frictions.size(); ++i) {
-    const auto& [joint, description, heat] = frictions[i];
-    const JointFriction friction(description);
-    for (const std::string& name : friction.NumberNames()) {
-      // which is dof_damping of the model
-      if (viscous == Viscous::by_damping && name == kViscousName) continue;
-      set(name, i, friction.Number(*friction.FindNumber(name)));
-    }
-    const bool stages[] = {description.thermal.has_value(), description.second_thermal.has_value()};
-    for (const size_t stage : {0, 1}) {
-      if (stages[stage]) set(kInitialEnergies[stage], i, stage < heat.size() ? heat[stage] : 0);
-    }
-  }
-  for (const std::string& name : names) {
-    mjsNumeric* numeric = mjs_addNumeric(&spec);
-    mjs_setName(numeric->element, fmt::format("{}/{}", instance, name).c_str());
-    numeric->size = static_cast<int>(frictions.size());
-    mjs_setDouble(numeric->data, values[name].data(), numeric->size);
-  }
-}
-
 /// A give that is small beside the backlash of gears, as a share of the largest: 5 mrad, 0.5 mm.
 constexpr double kSmallGive = 0.1;
 
@@ -190,7 +158,49 @@ int JointOf(const mjModel* m, const FrictionForJoint& friction) {
   return mj_name2id(m, mjOBJ_JOINT, friction.joint.c_str());
 }
 
+/// Of each degree of freedom what the plugin adds, at most, N.m.s/rad or N.s/m.
+std::vector<double> SlopesOf(const mjModel* m, const std::vector<FrictionForJoint>& frictions) {
+  std::vector<double> slopes(static_cast<size_t>(m->nv), 0);
+  for (const FrictionForJoint& friction : frictions) {
+    const JointFriction of(friction.friction);
+    slopes[static_cast<size_t>(m->jnt_dofadr[JointOf(m, friction)])] =
+        SteppedFriction{of, Viscous::by_damping}.OwnSlope();
+  }
+  return slopes;
+}
+
 }  // namespace
+
+void AddNumbers(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                const std::string& instance, Viscous viscous) {
+  // in the order in which the frictions bring them up
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<double>> values;
+  const auto set = [&](const std::string& name, size_t joint, double value) {
+    const auto [array, is_new] = values.emplace(name, std::vector<double>(frictions.size()));
+    if (is_new) names.push_back(name);
+    array->second[joint] = value;
+  };
+  for (size_t i = 0; i < frictions.size(); ++i) {
+    const auto& [joint, description, heat] = frictions[i];
+    const JointFriction friction(description);
+    for (const std::string& name : friction.NumberNames()) {
+      // which is dof_damping of the model
+      if (viscous == Viscous::by_damping && name == kViscousName) continue;
+      set(name, i, friction.Number(*friction.FindNumber(name)));
+    }
+    const bool stages[] = {description.thermal.has_value(), description.second_thermal.has_value()};
+    for (const size_t stage : {0, 1}) {
+      if (stages[stage]) set(kInitialEnergies[stage], i, stage < heat.size() ? heat[stage] : 0);
+    }
+  }
+  for (const std::string& name : names) {
+    mjsNumeric* numeric = mjs_addNumeric(&spec);
+    mjs_setName(numeric->element, fmt::format("{}/{}", instance, name).c_str());
+    numeric->size = static_cast<int>(frictions.size());
+    mjs_setDouble(numeric->data, values[name].data(), numeric->size);
+  }
+}
 
 void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place) {
   std::set<std::string> seen;
@@ -282,12 +292,8 @@ std::vector<std::string> NoticesOfHolding(const mjModel* m,
                                           double stiffest_drive) {
   // what the step has to bear besides bristles
   std::vector<JointFriction> of;
-  std::vector<double> slopes(static_cast<size_t>(m->nv), 0);
-  for (const FrictionForJoint& friction : frictions) {
-    of.emplace_back(friction.friction);
-    slopes[static_cast<size_t>(m->jnt_dofadr[JointOf(m, friction)])] =
-        SteppedFriction{of.back(), Viscous::by_damping}.OwnSlope();
-  }
+  for (const FrictionForJoint& friction : frictions) of.emplace_back(friction.friction);
+  const std::vector<double> slopes = SlopesOf(m, frictions);
   const std::vector<double> drives = StiffestDrives(m, m->opt.integrator, slopes);
   std::vector<std::string> notices, armatures;
   std::string shaking, damping;
@@ -321,6 +327,16 @@ std::vector<std::string> NoticesOfHolding(const mjModel* m,
     if (!told->empty()) notices.push_back(std::move(*told));
   }
   return notices;
+}
+
+bool NeedsImplicitfast(const mjModel* m, const std::vector<FrictionForJoint>& frictions) {
+  const std::vector<double> slopes = SlopesOf(m, frictions);
+  const std::vector<double> now = StiffestDrives(m, m->opt.integrator, slopes);
+  const std::vector<double> then = StiffestDrives(m, mjINT_IMPLICITFAST, slopes);
+  return std::ranges::any_of(frictions, [&](const FrictionForJoint& friction) {
+    const auto tree = static_cast<size_t>(m->dof_treeid[m->jnt_dofadr[JointOf(m, friction)]]);
+    return ShakesBeside(now[tree]) && !ShakesBeside(then[tree]);
+  });
 }
 
 }  // namespace warmjoint

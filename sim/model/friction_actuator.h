@@ -28,6 +28,14 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
                  const AttachOptions& options = {}, Viscous viscous = Viscous::by_plugin);
 
+/// Adds an array of the model, "INSTANCE/NUMBER", for each number that the frictions have, and for the heat at a reset. viscous: by_damping where
+/// it is the joint's damping, and has no array.
+void AddNumbers(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                const std::string& instance, Viscous viscous);
+
+/// Whether servos are too stiff for the model's integrator beside the friction, and implicitfast carries them (CheckDrive).
+bool NeedsImplicitfast(const mjModel* m, const std::vector<FrictionForJoint>& frictions);
+
 /// Takes from a joint the friction that the model gives it: damping and frictionloss.
 /// Returns whether there was any.
 bool ClearOwnFriction(mjsJoint& joint);

@@ -24,7 +24,7 @@ bool IsDiscrete([[maybe_unused]] int integrator) {
 /// Eigenvalues up to this change no BristlesOf. Why: 3.6 of instances that share a tree + 0.3 = kCarried.
 constexpr double kMinor = 0.3;
 
-/// Poses in which drives are looked at, of which the reference pose is the first.
+/// Poses of OverPoses.
 constexpr int kPoses = 32;
 
 /// The diagonal of h^2 K + 2 h C, kg.m^2 or kg.
@@ -133,6 +133,25 @@ std::vector<double> StiffestDrives(const mjModel* m, int integrator,
   }
   if (sum <= kMinor || IsDiscrete(integrator) || integrator == mjINT_RK4) return stiffest;
 
+  OverPoses(m, [&](const Eigen::MatrixXd& inertia) {
+    for (int tree = 0; tree < m->ntree; ++tree) {
+      const int first = m->tree_dofadr[tree], size = m->tree_dofnum[tree];
+      const double mode =
+          StiffestMode(added.segment(first, size), inertia.block(first, first, size, size));
+      stiffest[tree] = std::max(stiffest[tree], mode);
+    }
+  });
+  return stiffest;
+}
+
+double StiffestMode(const Eigen::VectorXd& added, const Eigen::MatrixXd& inertia) {
+  const Eigen::MatrixXd diagonal = added.asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      diagonal, inertia, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+  return modes.eigenvalues().maxCoeff();
+}
+
+void OverPoses(const mjModel* m, const std::function<void(const Eigen::MatrixXd& inertia)>& look) {
   // data of a model with plugins would ask for this instance again
   const std::unique_ptr<mjModel, void (*)(mjModel*)> bare(mj_copyModel(nullptr, m), mj_deleteModel);
   bare->nplugin = 0;
@@ -145,15 +164,8 @@ std::vector<double> StiffestDrives(const mjModel* m, int integrator,
     mj_comPos(bare.get(), d.get());
     mj_makeM(bare.get(), d.get());
     mj_fullM(bare.get(), d.get(), inertia.data());
-    for (int tree = 0; tree < m->ntree; ++tree) {
-      const int first = m->tree_dofadr[tree], size = m->tree_dofnum[tree];
-      const Eigen::MatrixXd of_tree = added.segment(first, size).asDiagonal();
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-          of_tree, inertia.block(first, first, size, size), Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
-      stiffest[tree] = std::max(stiffest[tree], modes.eigenvalues().maxCoeff());
-    }
+    look(inertia);
   }
-  return stiffest;
 }
 
 std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const SteppedFriction& stepped,
@@ -208,7 +220,7 @@ void CheckDamping(const mjModel* m, int joint, const SteppedFriction& friction,
 void CheckDrive(const mjModel* m, int joint, double drive, const std::vector<double>& slopes,
                 const Place& place) {
   // beside stiffer ones bristles no longer soften
-  if (drive + kCarried - kStiffestDrive < 4) return;
+  if (!ShakesBeside(drive)) return;
   const double h = m->opt.timestep;
   const int tree = m->dof_treeid[m->jnt_dofadr[joint]];
   const bool implicit_helps = StiffestDrives(m, mjINT_IMPLICITFAST, slopes)[tree] <= kStiffestDrive;

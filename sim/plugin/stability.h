@@ -3,8 +3,10 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,9 @@ inline constexpr double kCarried = 3.9;
 
 /// K + 2 C (StiffestDrives) beside which bristles still hold; frictionloss lets joints rest to there.
 inline constexpr double kStiffestDrive = 3;
+
+/// Whether drives of that K + 2 C leave bristles nothing of what the step carries.
+inline bool ShakesBeside(double drive) { return drive + kCarried - kStiffestDrive >= 4; }
 
 /// Beside drives of that K + 2 C: as above where the step carries both, else softer, with A = 2 B at last.
 /// slope: of friction over speed that the step takes explicitly, in units of M/h, which damps already;
@@ -150,5 +155,11 @@ void CheckDrive(const mjModel* m, int joint, double drive, const std::vector<dou
 /// more stiffness than bristles need, and where all is so soft that BristlesOf does not change.
 std::vector<double> StiffestDrives(const mjModel* m, int integrator,
                                    const std::vector<double>& slopes);
+
+/// The largest eigenvalue of M^-1 times a diagonal. added: [n], kg.m^2 or kg; inertia: M [n x n].
+double StiffestMode(const Eigen::VectorXd& added, const Eigen::MatrixXd& inertia);
+
+/// Shows the inertia matrix [nv x nv] in the reference pose and in others within the joints' ranges, the same ones for each model.
+void OverPoses(const mjModel* m, const std::function<void(const Eigen::MatrixXd& inertia)>& look);
 
 }  // namespace warmjoint

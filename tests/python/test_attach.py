@@ -15,7 +15,7 @@ mujoco = pytest.importorskip("mujoco")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-from warmjoint import attach, mujoco_attach, mujoco_plugin  # noqa: E402
+from warmjoint import BadInput, Friction, attach, mujoco_attach, mujoco_plugin, split  # noqa: E402
 
 ROBOT = """
 <mujoco model="arm">
@@ -250,7 +250,7 @@ def test_wrong_calls_are_refused_by_name_and_change_nothing():
         ({"joint1": BIG}, {"form": "active"}, "'active'"),
         ({"joint1": BIG}, {"armatures": {"joint9": 1}}, "joint9"),
         ({"joint1": BIG}, {"timestep": -1}, "timestep"),
-        ({"joint1": BIG}, {"integrator": "euler"}, "'euler'; it must be one of Euler"),
+        ({"joint1": BIG}, {"integrator": "euler"}, "'euler'; it must be one of auto, Euler"),
         ({"joint1": BIG}, {"stiffest_drive": 5}, "stiffest_drive"),
         ({"slide": ESTIMATE | {"parameters": {"coulomb": {"value": 4, "unit": "N.m"}}}}, {}, "slide.* of hinges"),
     ):
@@ -328,6 +328,36 @@ def test_a_spring_that_yields_gives_way_to_the_friction():
         data.qfrc_applied[0] = torque
         mujoco.mj_step(model, data, 1000)
         assert (abs(data.qvel[0]) > 0.01) == slides
+
+
+@pytest.mark.parametrize("form", ["passive", "actuator"])
+def test_inverse_dynamics_along_a_motion_have_the_friction_of_sliding(form):
+    robot = attach(ROBOT, FRICTIONS, form)
+    model = robot.spec.compile()
+    data = mujoco.MjData(model)
+    friction, bare = robot.bind(model, data), split(robot)[0]
+    inside, times = mujoco.MjData(bare), np.linspace(0.01, 9, 60)[:, None]
+    phase = 0.3 * times + np.arange(model.nv)
+    q, v, a = 0.5 * np.sin(phase), 0.15 * np.cos(phase), -0.045 * np.sin(phase)
+    heat = -0.1 * np.arange(len(friction.joints))
+    before = data.qpos.copy(), data.plugin_state.copy()
+    found = friction.inverse(q, v, a, heat)
+    assert (data.qpos == before[0]).all() and (data.plugin_state == before[1]).all()
+    worst = 0.0
+    for i in range(len(q)):
+        inside.qpos[:], inside.qvel[:], inside.qacc[:] = q[i], v[i], a[i]
+        mujoco.mj_inverse(bare, inside)
+        wanted = inside.qfrc_inverse.copy()
+        for k, joint in enumerate(mujoco_plugin.joints_of(model)):
+            dof = model.joint(joint["name"]).dofadr[0]
+            of = Friction.from_dict(joint["friction"])
+            wanted[dof] += of(v[i, dof], q[i, model.joint(joint["name"]).qposadr[0]], heat[k], inside.qfrc_bias[dof]) - bare.dof_damping[dof] * v[i, dof]
+        worst = max(worst, np.abs(found[i] - wanted).max())
+    assert worst <= 1e-9
+    np.testing.assert_array_equal(friction.inverse(q[3], v[3], a[3], heat), found[3])
+    for wrong, words in (((q[:, :1], v, a), "q"), ((q, v[:5], a), "shapes"), ((q, v, np.nan * a), "finite"), ((q, v, a, [1.0] * 99), "heat")):
+        with pytest.raises(BadInput, match=words):
+            friction.inverse(*wrong)
 
 
 def test_bind_refuses_what_is_no_model_and_data_of_another():

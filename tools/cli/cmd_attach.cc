@@ -102,6 +102,21 @@ AttachOptions OptionsOf(const AttachArguments& arguments) {
   return options;
 }
 
+/// What the last line says of a form, and of how it is loaded.
+std::string_view HowItActs(FrictionForm form) {
+  switch (form) {
+    case FrictionForm::native:
+      return "as springs with a yield, which need no plugin; a driver sets their yields from the "
+             "heat (tools/examples/native_friction.c);";
+    case FrictionForm::passive:
+      return "without actuators of its own (--as actuator adds them); load it with "
+             "libwarmjoint_friction.so";
+    case FrictionForm::actuator:
+      break;
+  }
+  return "as actuators (--as passive adds none); load it with libwarmjoint_friction.so";
+}
+
 ExitStatus Attach(const AttachArguments& arguments) {
   AttachOptions options = OptionsOf(arguments);
   // each --joint is read at once, and its file is an input that must stay
@@ -130,13 +145,8 @@ ExitStatus Attach(const AttachArguments& arguments) {
   outputs.Add(arguments.output, std::move(xml));
   outputs.Write();
   for (const std::string& notice : attached.notices) SayNotice("notice: {}\n", notice);
-  Say(WordsBeside({arguments.output}),
-      "{}: friction on {} of its joints, {}; load it with libwarmjoint_friction.so in MuJoCo {}\n",
-      arguments.output, attached.joints.size(),
-      options.form == FrictionForm::passive
-          ? "without actuators of its own (--as actuator adds them)"
-          : "as actuators (--as passive adds none)",
-      mj_versionString());
+  Say(WordsBeside({arguments.output}), "{}: friction on {} of its joints, {} in MuJoCo {}\n",
+      arguments.output, attached.joints.size(), HowItActs(options.form), mj_versionString());
   return ExitStatus::done;
 }
 
@@ -145,12 +155,18 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
   AddValue(parser, "--armature", "JOINT=NUMBER", arguments.armatures,
            "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
       ->take_all();
-  std::vector<std::string> names;
+  std::vector<std::string> names{"auto"};
   for (const auto& [name, unused] : Integrators()) names.push_back(name);
   const auto take = [&arguments](const std::string& choice) {
-    arguments.options.integrator = Integrators().at(choice);
+    if (choice == "auto") {
+      arguments.options.integrator_choice = IntegratorChoice::automatic;
+    } else {
+      arguments.options.integrator = Integrators().at(choice);
+    }
   };
-  AddChoice(parser, "--integrator", take, names, "integrator of the result");
+  AddChoice(
+      parser, "--integrator", take, names,
+      "integrator of the result; auto: implicitfast where servos are too stiff for the model's");
   AddValue(parser, "--timestep", "NUMBER", arguments.options.timestep, "step of the result, s");
   AddValue(parser, "--stiffest-drive", "NUMBER", arguments.options.stiffest_drive,
            "h^2 kp + 2 h kv over the joint's inertia of a servo in a program of your own, up to 3");
@@ -183,6 +199,9 @@ Command AddAttachCommand(CLI::App& program) {
 
   // how it acts, and how warm it begins
   AddChoice(*parser, "--as", arguments->options.form, "how friction acts");
+  parser->add_flag(
+      "--approximate", arguments->options.approximate,
+      "--as native: replaces what springs cannot hold, and prints what that is off by");
   AddValue(*parser, "--initial", "TEXT", arguments->initial,
            "heat at the start: cold, end (of the estimate's recording) or settled:SPEED")
       ->capture_default_str();

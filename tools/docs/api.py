@@ -3,7 +3,7 @@
 import ast
 import re
 
-MODULES = ("log", "estimate", "robot", "friction", "mujoco_attach", "mujoco_bound", "friction_arrays", "reference", "engine")  # in the order of work
+MODULES = ("log", "estimate", "robot", "friction", "mujoco_attach", "mujoco_bound", "native_springs", "friction_arrays", "reference", "engine")  # in the order of work
 
 
 def reference(package):

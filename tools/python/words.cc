@@ -59,7 +59,8 @@ constexpr std::array kSpellings = std::to_array<Spelling>({
     {"armature", "armatures", Behind::pairs},
     {"timestep", "timestep", Behind::number},
     {"stiffest-drive", "stiffest_drive", Behind::number},
-    {"integrator", "integrator", Behind::word, " Euler RK4 implicit implicitfast "},
+    {"integrator", "integrator", Behind::word, " auto Euler RK4 implicit implicitfast "},
+    {"approximate", "approximate", Behind::flag},
     // of simulate and run
     {"realizations", "realizations", Behind::number},
     {"realization", "realization", Behind::number},

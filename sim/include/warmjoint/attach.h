@@ -23,13 +23,23 @@ enum class FrictionForm {
   /// One instance of the plugin for all joints, to which a body refers: states in
   /// mjData.plugin_state; actuators, controls and keyframes of the model stay as they are.
   passive,
+  /// MuJoCo's own joint springs with a yield (4.0), without the plugin: a driver that the program calls after each step sets their yields from the
+  /// heat; without it the friction stays as warm as it began.
+  native,
 };
 
 inline std::span<const Word<FrictionForm>> WordsOf(FrictionForm) {
   static constexpr std::array words{Word{"actuator", FrictionForm::actuator},
-                                    Word{"passive", FrictionForm::passive}};
+                                    Word{"passive", FrictionForm::passive},
+                                    Word{"native", FrictionForm::native}};
   return words;
 }
+
+/// Who chooses the integrator where no one is given.
+enum class IntegratorChoice {
+  model,      // it stays
+  automatic,  // implicitfast where servos are so stiff that joints would shake, and there alone
+};
 
 /// MuJoCo's integrators by their names in MJCF.
 const std::map<std::string, mjtIntegrator>& Integrators();
@@ -52,6 +62,7 @@ struct AttachOptions {
   FrictionForm form = FrictionForm::actuator;
   std::vector<ArmatureForJoints> armatures{};
   std::optional<mjtIntegrator> integrator{};
+  IntegratorChoice integrator_choice = IntegratorChoice::model;
   std::optional<double> timestep{};  // s
   PackageFolders packages{};         // of a URDF's meshes
   /// A sensor "JOINT_friction" for each joint: force on it (N.m or N), heat E (N.m or N), rise of its
@@ -62,14 +73,24 @@ struct AttachOptions {
   bool numbers = false;
   /// Of a servo in a program's own code, which the model does not show: h^2 kp + 2 h kv over the joint's inertia, 0 to 3.
   double stiffest_drive = 0;
+  /// In the native form, whether what springs cannot hold is left out or replaced, with a notice, and not refused.
+  bool approximate = false;
   /// Which kind of joint a friction is of, where that is known: by its `joint` as given.
   std::map<std::string, JointKind> kinds{};
 };
 
+/// A joint spring with a yield that holds friction's level.
+struct NativeSpring {
+  FrictionForJoint friction;  // as the spring holds it
+  double stiffness = 0;       // N.m/rad or N/m
+  double yield = 0;           // with the heat at the start, rad or m
+};
+
 /// What was attached.
 struct Attached {
-  std::vector<std::string> joints;   // that carry the friction now, in the order of its instance
-  std::vector<std::string> notices;  // of reading and of what was changed, one sentence each
+  std::vector<std::string> joints;      // that carry the friction now, in the order of its instance
+  std::vector<std::string> notices;     // of reading and of what was changed, one sentence each
+  std::vector<NativeSpring> springs{};  // of the native form
 };
 
 /// Puts friction on joints of a model:
@@ -80,6 +101,7 @@ struct Attached {
 /// - friction that the model has by an earlier call in the same form joins the new one's instance;
 /// - as actuators: an effort limit of the joint, which would clip friction too, is moved
 ///   (MoveEffortLimits); in the passive form it stays;
+/// - in the native form level, viscous and heat become joint springs, dampers and arrays that a driver reads (sim/model/native_springs.h);
 /// - everything else compiles to the same bits as before.
 /// name: of the model, in messages; files: meshes and textures that lie in memory.
 /// Throws BadInput for a model that does not compile, a joint that is unknown (with the nearest name),

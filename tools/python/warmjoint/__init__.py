@@ -28,9 +28,10 @@ if TYPE_CHECKING:
     from warmjoint import reference
     from warmjoint.friction_arrays import split
     from warmjoint.mujoco_attach import attach, bind
+    from warmjoint.native_springs import native
 
 # what needs MuJoCo, or an engine, is imported where it is asked for: names of modules, and of what stands in one
-_IN = {"attach": "mujoco_attach", "bind": "mujoco_attach", "split": "friction_arrays"}
+_IN = {"attach": "mujoco_attach", "bind": "mujoco_attach", "native": "native_springs", "split": "friction_arrays"}
 _MODULES = ("reference", "mjx", "warp")
 
 
@@ -55,4 +56,4 @@ with contextlib.suppress(Exception):
 
 __all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
            "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify",
-           "identify_robot", "laws", "load", "load_robot", "read", "reference", "run", "score", "simulate", "split"]
+           "identify_robot", "laws", "load", "load_robot", "native", "read", "reference", "run", "score", "simulate", "split"]

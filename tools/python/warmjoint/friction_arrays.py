@@ -208,7 +208,7 @@ def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str], spec: bool =
         raise BadInput("split: no joint of the model has friction of warmjoint; attach it")
     _refuse(joints)
     bare = _without_friction(copied)
-    return _without_extension(copied, bare) if spec else bare, _arrays(bare, joints)
+    return _without_extension(copied, bare) if spec else bare, arrays_of(bare, joints)
 
 
 def _refuse(joints: list[dict[str, Any]]) -> None:
@@ -262,7 +262,8 @@ def _same_numbers(one: mujoco.MjModel, other: mujoco.MjModel) -> bool:
     return all(a.shape == b.shape and np.allclose(a, b, rtol=1e-5, atol=1e-5 * max(1.0, float(np.abs(b).max(initial=0.0)))) for a, b in arrays)
 
 
-def _arrays(bare: mujoco.MjModel, joints: list[dict[str, Any]]) -> FrictionArrays:
+def arrays_of(bare: mujoco.MjModel, joints: list[dict[str, Any]]) -> FrictionArrays:
+    """The arrays of joints of a model. joints: name, friction, inertia, slope, drive, linear and initial_energy of each (mujoco_plugin.joints_of)."""
     def column(name: str) -> FloatArray:
         found = [place_of(joint["friction"], name) for joint in joints]
         return np.array([_ABSENT.get(name, 0.0) if at is None else at[0].get(at[1], 0.0) for at in found], dtype=np.float64)

@@ -36,7 +36,7 @@ class HasJson(Protocol):
 
 FrictionLike = HasJson | Mapping[str, Any] | str | os.PathLike[str]
 Form = Literal["passive", "actuator"]
-Integrator = Literal["Euler", "RK4", "implicit", "implicitfast", "discrete"]
+Integrator = Literal["auto", "Euler", "RK4", "implicit", "implicitfast", "discrete"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -168,13 +168,30 @@ def attach(
         derivatives know.
     sensors: a sensor JOINT_friction for each joint, which torque, loss and held need.
     randomisable: the numbers as arrays of the model, which randomise needs.
-    armatures: kg.m^2 or kg by joint or pattern, in place of the model's; timestep: s, and integrator, likewise.
+    armatures: kg.m^2 or kg by joint or pattern, in place of the model's; timestep: s, and integrator, likewise; integrator "auto" takes
+        implicitfast where servos are so stiff that joints would shake, and there alone.
     stiffest_drive: h^2 kp + 2 h kv over the joint's inertia of a servo in your own code, 0 to 3, kp and kv in N.m/rad and
         N.m.s/rad (N/m and N.s/m) and h the timestep, s.
     Raises BadInput, and leaves the spec as it was, for a joint that is unknown, given twice, no hinge or slide, of
     another kind than its estimate's, or too light for its friction. The command line (`warmjoint attach`) does the same,
     in the actuator form where none is asked for.
     """
+    if str(form) == "native":
+        raise BadInput("form: is native, whose springs a driver sets after each step; call wj.native, which has it")
+    attached, _ = attach_form(model, frictions, {"form": form, "sensors": sensors, "numbers": randomisable, "stiffest_drive": stiffest_drive}, armatures,
+                              timestep, integrator)
+    return attached
+
+
+def attach_form(
+    model: mujoco.MjSpec | str | os.PathLike[str],
+    frictions: Mapping[str, FrictionLike],
+    options: dict[str, Any],
+    armatures: Mapping[str, float] | None,
+    timestep: float | None,
+    integrator: Integrator | None,
+) -> tuple[Attached, dict[str, Any]]:
+    """What `attach` does, in any form, and the library's answer. options: form, sensors, numbers, approximate, stiffest_drive."""
     armatures = {} if armatures is None else armatures
     for argument, value in (("frictions", frictions), ("armatures", armatures)):
         if not isinstance(value, Mapping):
@@ -184,13 +201,10 @@ def attach(
     request: dict[str, Any] = {
         "model": name,
         "frictions": [{"joint": one.joints, "friction": one.friction} for one in given],
-        "form": form,
-        "sensors": sensors,
-        "numbers": randomisable,
+        **options,
         "armatures": {text_of(joint): number("armatures", armature) for joint, armature in armatures.items()},
     }
     request["units"] = {one.joints: one.units for one in given if one.units}
-    request["stiffest_drive"] = stiffest_drive
     if timestep is not None:
         request["timestep"] = timestep
     if integrator is not None:
@@ -198,4 +212,5 @@ def attach(
     answer = mujoco_plugin.attach_to_spec(spec, request)
     joints = [joint["name"] for joint in answer["joints"]]
     ends = {joint["name"]: given[joint["given"]].end for joint in answer["joints"]}
-    return Attached(spec, joints, [one.notice for one in given if one.notice] + answer["notices"], ends, form)
+    notices = [one.notice for one in given if one.notice] + answer["notices"]
+    return Attached(spec, joints, notices, ends, options["form"]), answer

@@ -10,11 +10,12 @@ from typing import Any, Literal
 
 import mujoco
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import NDArray
 
 from warmjoint import mujoco_plugin
 from warmjoint._core import BadInput
-from warmjoint.friction import place_of, settled_energies
+from warmjoint.friction import Friction, place_of, settled_energies
 from warmjoint.values import kind_of, numbers, shown, text_of, whole
 
 Floats = NDArray[np.float64]
@@ -169,6 +170,53 @@ class BoundFriction(_Sensed):
             states[_heats(joint)[: len(heat)]] = heat
             if joint["form"] == "actuator":
                 self.data.plugin_state[joint["report"] + _STARTS_WARM] = 0
+
+    def inverse(self, q: npt.ArrayLike, v: npt.ArrayLike, a: npt.ArrayLike, heat: npt.ArrayLike | None = None) -> Floats:
+        """Forces along a motion with friction of steady sliding, [nv] or [times x nv], N.m or N: mj_inverse without the plugin, whose bristles have no
+        state off a run, and F(v) at that heat in its place. At speed 0 friction is 0; what it holds there is any force up to its level.
+
+        q: qpos, [nq] or [times x nq]; v, a: qvel and qacc, [nv] or [times x nv]; heat: E, N.m or N, one, [joints] or [times x joints]; by
+        default that of the state. The bound data stay as they are."""
+        one, (positions, speeds, accelerations) = self._motion(q, v, a)
+        energies = np.asarray(self.heat if heat is None else numbers("heat", heat))
+        try:
+            energies = np.broadcast_to(energies, (len(positions), len(self.joints)))
+        except ValueError:
+            raise BadInput(f"heat: has shape {energies.shape}; give one number, [{len(self.joints)}] or [{len(positions)} x {len(self.joints)}]") from None
+        if not np.isfinite(energies).all():
+            raise BadInput("heat: must hold finite numbers")
+        data, forces, loads = mujoco.MjData(self.model), np.zeros(speeds.shape), np.zeros(speeds.shape)
+        for time in range(len(positions)):
+            data.qpos[:], data.qvel[:], data.qacc[:] = positions[time], speeds[time], accelerations[time]
+            mujoco.mj_inverse(self.model, data)
+            # all passive forces but those of plugins, of which friction's are left out
+            passive = data.qfrc_spring + data.qfrc_damper + data.qfrc_gravcomp + data.qfrc_fluid
+            forces[time], loads[time] = data.qfrc_inverse, data.qfrc_bias
+            for joint in self._joints:
+                dof = self.model.joint(joint["name"]).dofadr[0]
+                if joint["form"] == "passive":
+                    forces[time, dof] += data.qfrc_passive[dof] - passive[dof]
+                forces[time, dof] += data.qfrc_damper[dof] if joint["damping"] else 0.0
+        for i, joint in enumerate(self._joints):
+            of = self.model.joint(joint["name"])
+            dof, place = of.dofadr[0], of.qposadr[0]
+            friction = Friction.from_dict(_with_numbers(joint, self.model, {}))
+            forces[:, dof] += friction(speeds[:, dof], positions[:, place], energies[:, i], loads[:, dof])
+        return forces[0] if one else forces
+
+    def _motion(self, q: npt.ArrayLike, v: npt.ArrayLike, a: npt.ArrayLike) -> tuple[bool, list[Floats]]:
+        """Whether it is one moment, and the motion as [times x n] each."""
+        found = []
+        for argument, values, size in (("q", q, self.model.nq), ("v", v, self.model.nv), ("a", a, self.model.nv)):
+            rows = np.asarray(numbers(argument, values))
+            if rows.ndim not in (1, 2) or rows.shape[-1] != size:
+                raise BadInput(f"{argument}: has shape {rows.shape}; give [{size}] or [times x {size}]")
+            if not np.isfinite(rows).all():
+                raise BadInput(f"{argument}: must hold finite numbers")
+            found.append(rows)
+        if len({rows.shape[:-1] for rows in found}) > 1:
+            raise BadInput(f"q, v and a have shapes {', '.join(str(rows.shape) for rows in found)}; give each for as many times")
+        return found[0].ndim == 1, [np.atleast_2d(rows) for rows in found]
 
     def of(self, worlds: Any) -> WorldsFriction:
         """The same numbers in all worlds of a mujoco.batch.Batch of the bound model (MuJoCo 3.17 and later)."""

@@ -1,0 +1,184 @@
+"""Joint springs with a yield beside the plugin. They came with MuJoCo 4.0."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+mujoco = pytest.importorskip("mujoco")
+
+import friction_worlds as worlds  # noqa: E402
+import warmjoint as wj  # noqa: E402
+
+pytestmark = pytest.mark.skipif(int(mujoco.__version__.split(".")[0]) < 4, reason="MuJoCo 4.0 brought springs with a yield")
+
+HINGE = """<mujoco><compiler angle="{angle}"/><option timestep="{h}" integrator="{integrator}" gravity="0 0 0"/><worldbody><body>
+<joint name="hinge" axis="0 1 0" ref="20" {more}/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body></worldbody>
+<actuator><motor joint="hinge"/></actuator><keyframe><key qpos=".3"/></keyframe></mujoco>"""
+WARM = wj.Friction("viscous_coulomb", viscous=5, coulomb=15, thermal_gain=-0.25, thermal_time_constant=60)
+
+
+def hinge(angle="radian", h=1e-3, integrator="implicitfast", more=""):
+    return HINGE.format(angle=angle, h=h, integrator=integrator, more=more)
+
+
+def beside_the_plugin(friction, torque, seconds, **options):
+    """Heat and position of both under a torque of the time, and the level that each held."""
+    attached, native = wj.attach(hinge(), {"hinge": friction}), wj.native(hinge(), {"hinge": friction}, **options)
+    model = attached.spec.compile()
+    data, other = mujoco.MjData(model), mujoco.MjData(native.model)
+    bound = attached.bind(model, data)
+    bound.reset(warm=0.3)
+    native.start(other, warm=0.3)
+    apart = 0.0
+    for step in range(round(seconds * 1000)):
+        data.qfrc_applied[0] = other.qfrc_applied[0] = torque(step * 1e-3)
+        mujoco.mj_step(model, data)
+        native.step(other)
+        apart = max(apart, abs(data.qpos[0] - other.qpos[0]))
+    return bound.heat[0], native.heat[0], apart
+
+
+@pytest.mark.parametrize("friction", [
+    WARM,
+    wj.Friction("viscous_coulomb", viscous=5, coulomb=15, thermal_gain=-0.2, thermal_time_constant=20, second={"thermal_gain": -0.1, "thermal_time_constant": 200}),
+    wj.Friction("stribeck", viscous=5, coulomb=12, static=15, stribeck_velocity=0.2, thermal_gain=-0.25, thermal_time_constant=60),
+], ids=["one heat", "two heats", "stribeck"])
+def test_heat_and_motion_are_those_of_the_plugin(friction):
+    heat, ours, apart = beside_the_plugin(friction, lambda t: 25 * np.sin(2 * np.pi * 0.5 * t), 12)
+    print(f"\nE {heat:.5f} N.m, of the springs {ours:.5f}; positions apart by {apart:.1e} rad")
+    assert abs(ours / heat - 1) <= 1e-3 and heat < -0.5
+    assert apart <= 2e-3
+
+
+def test_what_is_held_rests():
+    native = wj.native(hinge(), {"hinge": WARM})
+    data = mujoco.MjData(native.model)
+    native.start(data)
+    data.qfrc_applied[0] = 14.0
+    native.step(data, 4000)
+    before = data.qpos[0]
+    native.step(data, 2000)
+    assert abs(data.qpos[0] - before) * 30 <= 1e-3 and native.heat[0] == pytest.approx(0, abs=1e-3)
+    data.qfrc_applied[0] = 16.0
+    native.step(data, 1000)
+    assert data.qvel[0] > 0.05
+
+
+@pytest.mark.parametrize("angle", ["degree", "radian"])
+def test_yield_and_start_are_in_the_model_s_own_units_and_the_text_loads_anywhere(angle):
+    native = wj.native(hinge(angle), {"hinge": WARM})
+    for model in (native.model, mujoco.MjModel.from_xml_string(native.xml)):
+        np.testing.assert_allclose(model.jnt_springyield * model.jnt_stiffness[:, 0] if model.jnt_stiffness.ndim > 1 else model.jnt_springyield * model.jnt_stiffness,
+                                   15, rtol=1e-12)
+        assert model.nplugin == 0 and model.dof_damping[0] == 5
+        # relaxed at the reference pose and in the keyframe
+        data = mujoco.MjData(model)
+        assert data.plastic[0] == data.qpos[0]
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+        assert data.plastic[0] == data.qpos[0] == 0.3
+
+
+def test_springs_are_as_stiff_as_the_step_carries_in_every_pose():
+    spec = worlds.bare_spec("panda")
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    native = wj.native(spec, worlds.frictions(spec, "viscous_coulomb"))
+    model, data = native.model, mujoco.MjData(native.model)
+    inertia, random, modes = np.zeros((model.nv, model.nv)), np.random.default_rng(3), []
+    for _ in range(200):
+        data.qpos[:] = random.uniform(-np.pi, np.pi, model.nq)
+        mujoco.mj_forward(model, data)
+        mujoco.mj_fullM(model, data, inertia)
+        modes.append(np.linalg.eigvals(np.linalg.solve(inertia, np.diag(native.stiffness))).real.max() * model.opt.timestep**2)
+    # 1 in the poses that were looked at, and of the 4 that the step carries no more than half in others
+    assert 0.5 < max(modes) < 2
+
+
+@pytest.mark.parametrize("friction, words", [
+    (wj.Friction("stiction", viscous=5, coulomb=12, static=15), "stiction .*12 .*15"),
+    (wj.Friction("asymmetric", viscous=5, coulomb_positive=15, coulomb_negative=11), "asymmetry .*off by 2"),
+    (wj.Friction("lugre", viscous=5, coulomb=12, static=15, stribeck_velocity=0.1, bristle_stiffness=1e4, bristle_damping=100), "bristle"),
+    (wj.Friction("viscous_coulomb", viscous=5, coulomb=15, maps=[worlds.POSITION_MAP]), "map .*0.14"),
+    (wj.Friction("viscous_coulomb", viscous=5, coulomb=15, load_gain=0.1), "load_gain"),
+    (wj.Friction("coulomb", coulomb=15), "viscous of 0 .*1.5"),
+    (wj.Friction("viscous_coulomb", viscous=0.2, coulomb=15), "viscous of 0.2 .*1.5"),
+], ids=lambda one: one.law if isinstance(one, wj.Friction) else "")
+def test_what_a_spring_cannot_hold_is_refused_or_replaced_with_its_size(friction, words):
+    spec = mujoco.MjSpec.from_string(hinge())
+    before = spec.to_xml()
+    with pytest.raises(wj.BadInput, match=words):
+        wj.native(spec, {"hinge": friction})
+    assert spec.to_xml() == before
+    native = wj.native(spec, {"hinge": friction}, approximate=True)
+    assert len(native.notices) == 1 and native.friction.laws[0] in ("viscous_coulomb", "stribeck")
+    data = mujoco.MjData(native.model)
+    native.step(data, 10)
+    assert data.qpos[0] == pytest.approx(20, abs=1e-9)
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"h": 0.1}, "too long.*timestep=0.0.*armatures"), ({"integrator": "RK4"}, "RK4|explicitly"), ({"integrator": "discrete"}, "discrete"),
+    ({"more": 'stiffness="3"'}, "spring of its own")])
+def test_steps_and_joints_that_springs_do_not_suit_are_refused(options, words):
+    with pytest.raises(wj.BadInput, match=words):
+        wj.native(hinge(**options), {"hinge": WARM})
+    with pytest.raises(wj.BadInput, match="already"):
+        wj.native(wj.native(hinge(), {"hinge": WARM}).spec, {"hinge": WARM})
+
+
+def test_a_pose_that_was_set_anew_and_a_reset_begin_relaxed_with_the_heat_of_the_last_start():
+    native = wj.native(hinge(), {"hinge": WARM})
+    data = mujoco.MjData(native.model)
+    native.start(data, warm=0.5)
+    begun = native.heat[0]
+    assert begun == pytest.approx(0.5 * WARM.settled_heat(1.0))
+    native.step(data, 100)
+    data.qpos[0] += 1
+    native.step(data)
+    assert abs(data.qvel[0]) <= 1e-9
+    mujoco.mj_resetData(native.model, data)
+    native.step(data)
+    assert native.heat[0] == pytest.approx(begun, rel=1e-3)
+    # a number that is none leaves the heat as it was
+    data.qvel[0] = np.nan
+    native.step(data, 2)
+    assert np.isfinite(native.heat).all() and np.isfinite(data.qvel).all()
+
+
+def test_a_scene_that_holds_the_robot():
+    native = wj.native(hinge(), {"hinge": WARM})
+    scene = mujoco.MjSpec()
+    scene.option.timestep, scene.option.integrator = 1e-3, mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    scene.attach(native.spec.copy(), prefix="left_", frame=scene.worldbody.add_frame())
+    model = scene.compile()
+    driver = native.bind(model, "left_")
+    data = mujoco.MjData(model)
+    driver.start(data)
+    data.qfrc_applied[0] = 25
+    driver.step(data, 1000)
+    assert driver.joints == ["left_hinge"] and driver.heat[0] < -0.1 and data.qvel[0] > 0.5
+
+
+def test_the_driver_in_c_has_the_heat_of_the_one_in_python(tmp_path):
+    """tools/examples/native_friction.c, where there is a compiler and a libmujoco beside the package."""
+    import pathlib
+
+    from warmjoint import mujoco_library
+
+    compiler, library = shutil.which("cc"), mujoco_library.library()
+    if not compiler or not library:
+        pytest.skip("no C compiler")
+    source = pathlib.Path(__file__).resolve().parents[2] / "tools/examples/native_friction.c"
+    subprocess.run([compiler, "-std=c11", "-Wall", "-Werror", source, f"-I{library.parent}/include", library, f"-Wl,-rpath,{library.parent}", "-lm",
+                    "-o", tmp_path / "drive"], check=True)
+    native = wj.native(hinge().replace('<motor joint="hinge"/>', '<motor joint="hinge" gear="25"/>'), {"hinge": WARM})
+    (tmp_path / "warm.xml").write_text(native.xml)
+    done = subprocess.run([tmp_path / "drive", tmp_path / "warm.xml", "5"], capture_output=True, text=True, check=True)
+    data = mujoco.MjData(native.model)
+    data.ctrl[0] = 1
+    native.step(data, 5000)
+    time, position, heat = (float(value) for value in done.stdout.split("\n")[-2].split())
+    print(f"\n{time} {position} {heat}; in Python {data.time} {data.qpos[0]} {native.heat[0]}")
+    assert time == pytest.approx(data.time, abs=1e-9)
+    assert heat == pytest.approx(native.heat[0], rel=1e-9) and position == pytest.approx(data.qpos[0], rel=1e-9)

@@ -1,0 +1,177 @@
+"""Warm friction in MuJoCo's own words: joint springs with a yield (MuJoCo 4.0), whose yields a few lines set after each step from the heat.
+
+    native = wj.native("robot.xml", {"elbow": "estimate.json"})
+    data = mujoco.MjData(native.model)
+    native.start(data, warm=0.5)
+    native.step(data, 500)
+    native.heat
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from warmjoint._core import BadInput
+from warmjoint.engine_checks import settled_energies_of
+from warmjoint.friction_arrays import Bools, FloatArray, FrictionArrays, arrays_of
+from warmjoint.mujoco_attach import Attached, FrictionLike, Integrator, attach_form, text_of_spec
+from warmjoint.values import kind_of, whole
+
+# a stretch in double precision is a difference of angles, worth 1e-15 of some rad, and a yield is 1e-6 rad at least where it matters
+_AT_YIELD = 1 - 1e-6
+
+
+def native(model: mujoco.MjSpec | str | os.PathLike[str], frictions: Mapping[str, FrictionLike], *, approximate: bool = False,
+           armatures: Mapping[str, float] | None = None, timestep: float | None = None, integrator: Integrator | None = None) -> Native:
+    """Friction on joints of a robot as joint springs with a yield, which need no plugin, in any language that MuJoCo speaks.
+
+    The spring's stiffness k follows from inertia and step: the stiffest mode of all springs, M^-1 h^2 K, is 1 at most over 32 poses. Its yield is
+    level / k, the damping the friction's viscous. A joint gives way by level / k before it slides.
+
+    model, frictions, armatures (kg.m^2 or kg), timestep (s), integrator: as of `attach`; the spec is changed.
+    approximate: what a spring cannot hold (sides, stiction, maps, a bristle of the law's own, load_gain, viscous_per_energy,
+        level_per_temperature, too little viscous) is left out or replaced, and `notices` say by how much that is off.
+    Raises BadInput for these unless approximate, with the nearest numbers that hold for a step too long, and for a spring of the joint's own,
+    other integrators than Euler, implicit and implicitfast, and MuJoCo before 4.0.
+    """
+    if isinstance(frictions, Mapping) and not frictions:
+        raise BadInput("frictions: is empty; give a friction by joint or pattern")
+    attached, answer = attach_form(model, frictions, {"form": "native", "numbers": True, "approximate": approximate}, armatures, timestep, integrator)
+    return Native(attached, answer["springs"])
+
+
+class Native:
+    """A model whose joint springs hold friction, and the driver of their yields. Arrays are [joints]."""
+
+    def __init__(self, attached: Attached, springs: list[dict[str, Any]]):
+        self.spec = attached.spec
+        """The spec with the springs, the one that was given where one was."""
+        self.notices = attached.notices
+        """What was changed besides, one sentence each."""
+        self._springs = {spring["name"]: spring for spring in springs}
+        self._take(self.spec.compile(), "")
+
+    def _take(self, model: mujoco.MjModel, prefix: str) -> None:
+        self.model = model
+        """The compiled model, whose `jnt_springyield` the driver sets."""
+        names = [prefix + name for name in self._springs]
+        ids = np.array([mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in names])
+        if (ids < 0).any() or (model.jnt_plasticadr[ids] < 0).any():
+            raise BadInput("model: lacks joints with the springs; compile it from a spec that holds this one, and give its prefix")
+        described = [{"name": name, "friction": spring["friction"], "inertia": 1.0, "slope": 0.0, "drive": 0.0,
+                      "initial_energy": [*spring["initial_energy"], 0.0, 0.0][:2], "linear": bool(model.jnt_type[one] == mujoco.mjtJoint.mjJNT_SLIDE)}
+                     for name, spring, one in zip(names, self._springs.values(), ids)]
+        self.friction: FrictionArrays = arrays_of(model, described)
+        """The friction as the springs hold it."""
+        self.joints = list(self.friction.joints)
+        """Names of the joints."""
+        self.ids = ids
+        """Of the joints in the model."""
+        self.places = model.jnt_plasticadr[ids]
+        """In mjData.plastic."""
+        self.stiffness: FloatArray = np.array([spring["stiffness"] for spring in self._springs.values()])
+        """k, N.m/rad or N/m."""
+        number, h = self.friction.numbers, self.friction.timestep
+        ratios = h / np.array([number["thermal_time_constant"], number["second_thermal_time_constant"]])
+        self.pole: FloatArray = np.exp(-ratios)
+        """[2 x joints] What stays of each stage's heat after a step."""
+        self.gain: FloatArray = np.array([number["thermal_gain"], number["second_thermal_gain"]]) * -np.expm1(-ratios)
+        """[2 x joints] What a loss of 1 W adds to it, N.m or N."""
+        self.energy: FloatArray = self.friction.initial_energy.copy()
+        """[2 x joints] E1 and E2, N.m or N; with qpos, qvel and plastic of the data the state of a run."""
+        self._levels = self.friction.levels()
+        self._falls = bool((self._levels.rise != 0).any())
+        self._start_energy, self._time = self.energy.copy(), -np.inf
+        self._worlds: Any = None  # of Warp
+        self._set_yields(np.zeros(len(ids)))
+
+    def __repr__(self) -> str:
+        return "\n".join([f"friction on {', '.join(self.joints)} as springs with a yield, without a plugin", *self.notices])
+
+    @property
+    def xml(self) -> str:
+        """The model as MJCF text, with the yields of a joint as warm as it began; any MuJoCo 4.0 loads it."""
+        return text_of_spec(self.spec)
+
+    @property
+    def heat(self) -> FloatArray:
+        """E, by which the level has changed, N.m or N; below 0 where the joint is warm."""
+        heat: FloatArray = self.energy.sum(axis=0)
+        return heat
+
+    def bind(self, model: mujoco.MjModel, prefix: str = "") -> Native:
+        """The driver of a model that the spec was compiled to, or of a scene that holds it under a prefix; cold."""
+        if not isinstance(model, mujoco.MjModel):
+            raise BadInput(f"model: is {kind_of(model)}; give a mujoco.MjModel")
+        other = Native.__new__(Native)
+        other.spec, other.notices, other._springs = self.spec, self.notices, self._springs
+        other._take(model, prefix)
+        return other
+
+    def start(self, data: mujoco.MjData, warm: npt.ArrayLike | None = None, speed: float | None = None) -> None:
+        """Relaxes the springs where the joints are, and sets the heat; call it after mj_resetData and where a pose was set. warm: 0 cold, 1 settled
+        at `speed` (rad/s or m/s; 1 or 0.1 where not given), any share of it, one or [joints]; where not given as the friction begins."""
+        self._start_energy = self.friction.initial_energy.copy()
+        if warm is not None:
+            self._start_energy = settled_energies_of(self.friction, 1, warm, speed)[0].T.copy()
+        self.energy = self._start_energy.copy()
+        self._time = float(data.time)
+        data.plastic[self.places] = data.qpos[self.friction.positions]
+        self._set_yields(data.qvel[self.friction.dofs])
+
+    def step(self, data: mujoco.MjData, nstep: int = 1) -> None:
+        """Steps the model by MuJoCo, and after each step sets the yields from the heat. data: of `model`, one at a time. A pose that was set anew
+        begins with relaxed springs, and a run whose time went back with the heat of the last `start`."""
+        if len(data.plastic) != self.model.nplastic or len(data.qvel) != self.model.nv:
+            raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
+        if data.time < self._time:
+            self.energy = self._start_energy.copy()
+            self._set_yields(data.qvel[self.friction.dofs])
+        stretch = self._stretch(data)
+        moved = ~(np.abs(stretch) <= 2 * self._yields())
+        if moved.any():
+            data.plastic[self.places[moved]] = data.qpos[self.friction.positions[moved]]
+        for _ in range(whole("nstep", nstep)):
+            mujoco.mj_step(self.model, data)
+            self.warm(data)
+        self._time = float(data.time)
+
+    def warm(self, data: mujoco.MjData) -> None:
+        """The driver by itself, after a step by other means: heat and yields. A step that left no finite numbers leaves the heat as it was."""
+        v, stretch, yields = data.qvel[self.friction.dofs], self._stretch(data), self._yields()
+        slides: Bools = (np.abs(stretch) >= _AT_YIELD * yields) & (stretch * v > 0)
+        loss = self.model.dof_damping[self.friction.dofs] * v * v + slides * self.stiffness * yields * np.abs(v)
+        self.energy = self.pole * self.energy + self.gain * np.where(np.isfinite(loss), loss, 0.0)
+        self._set_yields(v)
+
+    def update(self, m: Any, d: Any) -> Any:
+        """The driver for the worlds of mujoco_warp, on the device: call it after each mjw.step(m, d). m: mjw.put_model(native.model), whose
+        jnt_springyield becomes one row a world. Returns the worlds' heat, `WarpNative`, which the first call makes."""
+        from warmjoint import warp_native
+
+        if self._worlds is None or self._worlds.m is not m or self._worlds.nworld != d.qvel.shape[0]:
+            self._worlds = warp_native.WarpNative(self, m, d)
+        self._worlds.update(d)
+        return self._worlds
+
+    def _stretch(self, data: mujoco.MjData) -> FloatArray:
+        stretch: FloatArray = data.qpos[self.friction.positions] - data.plastic[self.places]
+        return stretch
+
+    def _yields(self) -> FloatArray:
+        yields: FloatArray = self.model.jnt_springyield[self.ids]
+        return yields
+
+    def _set_yields(self, v: FloatArray) -> None:
+        """(g(|v|) + E) / k, not below 0."""
+        of = self._levels
+        level = of.positive + self.heat
+        if self._falls:
+            level = level + of.rise * np.exp(-((np.where(np.isfinite(v), np.abs(v), 0.0) / of.velocity) ** of.exponent))
+        self.model.jnt_springyield[self.ids] = np.maximum(0.0, level) / self.stiffness
