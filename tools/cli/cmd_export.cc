@@ -32,9 +32,8 @@ ExitStatus Export(const ExportArguments& arguments) {
   const Exported exported = ExportFrictions(ReadJsonNode(arguments.file), request);
   for (const std::string& notice : exported.notices) SayNotice("notice: {}\n", notice);
 
-  const std::string text = arguments.format == "json"
-                               ? EngineJson(exported, request.to).dump(2) + "\n"
-                               : EngineText(exported.frictions, request.to);
+  const std::string text =
+      arguments.format == "json" ? EngineJson(exported).dump(2) + "\n" : ExportText(exported);
   if (arguments.output.empty()) {
     fmt::print("{}", text);
   } else {
@@ -64,6 +63,10 @@ Command AddExportCommand(CLI::App& program) {
             "rad/s or m/s; where not given the median of the log, else 1 rad/s or 0.1 m/s");
   AddValue(*parser, "--joint", "NAME", arguments->request.joint,
            "the joint's name, which physx, isaaclab and mjlab need; robot.json has its own");
+  parser->add_flag("--native", arguments->request.native,
+                   "mjcf: MuJoCo 4.0's joint springs with a yield in place of frictionloss");
+  AddNumber(*parser, "--timestep", arguments->request.timestep, {1e-9, most, "above 0, s"},
+            "--native: step of the model that the springs are for, s");
   AddValue(*parser, "-o,--output", "FILE", arguments->output, "instead of standard output");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is written");
   return {parser, [arguments] { return Export(*arguments); }};

@@ -241,7 +241,8 @@ EngineFriction InEngine(const SeenFriction& seen, const Warmth& warmth, EngineFo
                        .kind = seen.kind,
                        .warm = warmth.share,
                        .left_out = {},
-                       .half_width = seen.half_width};
+                       .half_width = seen.half_width,
+                       .inertia = seen.inertia};
   if (!std::isfinite(warmth.share) || warmth.share < 0) {
     Refuse({"--warm"}, "is {}; it must be a number of 0 or more, 1 settled", warmth.share);
   }

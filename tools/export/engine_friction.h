@@ -76,6 +76,7 @@ struct EngineFriction {
   double static_level = 0;  // at rest, not below `level`, N.m or N
   std::vector<Omission> left_out;
   std::optional<double> half_width{};  // of SeenFriction, which a text's digits follow
+  std::optional<double> inertia{};     // of SeenFriction
 
   /// Without its name, by which a file has it, and with all digits.
   template <class A>

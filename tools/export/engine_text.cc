@@ -13,6 +13,7 @@
 #include "models/foundation/serialize.h"
 #include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
+#include "tools/export/native_text.h"
 
 namespace warmjoint {
 namespace {
@@ -63,7 +64,9 @@ std::string NameAttribute(const EngineFriction& one) {
   return one.joint.empty() ? "" : fmt::format(" name=\"{}\"", EscapeXml(one.joint));
 }
 
-std::string Head(const EngineFriction& one, EngineFormat format) {
+}  // namespace
+
+std::string EngineHead(const EngineFriction& one, EngineFormat format) {
   const std::string_view speed = kVelocityUnit.For(one.kind), torque = kTorqueUnit.For(one.kind);
   std::string text = Comment(fmt::format("{}: warm {:.3g} (E = {:.4g} {}; 1 has settled at {:.4g} "
                                          "{}), over {:.3g} to {:.3g} {}",
@@ -78,6 +81,8 @@ std::string Head(const EngineFriction& one, EngineFormat format) {
   }
   return text;
 }
+
+namespace {
 
 /// One joint where each has an element or a statement of its own.
 std::string Body(const EngineFriction& one, EngineFormat format) {
@@ -160,29 +165,43 @@ std::vector<SeenFriction> SeenIn(const Node& file, const ExportRequest& request,
 }  // namespace
 
 Exported ExportFrictions(const Node& file, const ExportRequest& request) {
-  Exported exported;
+  if (request.native && request.to != EngineFormat::mjcf) {
+    Refuse({"--native"}, "is for --to mjcf, not for {}: springs with a yield are MuJoCo's",
+           NameOf(request.to));
+  }
+  Exported exported{.request = request, .frictions = {}, .notices = {}};
   for (const SeenFriction& seen : SeenIn(file, request, exported.notices)) {
     exported.frictions.push_back(InEngine(seen, request.warmth, request.to));
+    // a spring with a yield holds
+    if (!request.native) continue;
+    std::erase_if(exported.frictions.back().left_out,
+                  [](const Omission& left) { return left.what == "creep"; });
   }
   return exported;
 }
 
 std::string EngineText(const std::vector<EngineFriction>& frictions, EngineFormat format) {
   std::string text;
-  for (const EngineFriction& one : frictions) text += Head(one, format);
+  for (const EngineFriction& one : frictions) text += EngineHead(one, format);
   if (format == EngineFormat::isaaclab) return text + IsaacLabText(frictions);
   if (format == EngineFormat::mjlab) return text + MjlabText(frictions);
   for (const EngineFriction& one : frictions) text += Body(one, format);
   return text;
 }
 
-Tree EngineJson(const Exported& exported, EngineFormat format) {
+std::string ExportText(const Exported& exported) {
+  const ExportRequest& request = exported.request;
+  return request.native ? NativeText(exported.frictions, request.timestep)
+                        : EngineText(exported.frictions, request.to);
+}
+
+Tree EngineJson(const Exported& exported) {
   Tree joints = Tree::object();
   for (const EngineFriction& one : exported.frictions) joints[CalledIn(one)] = WriteFields(one);
-  return {{"to", NameOf(format)},
+  return {{"to", NameOf(exported.request.to)},
           {"joints", joints},
           {"notices", exported.notices},
-          {"text", EngineText(exported.frictions, format)}};
+          {"text", ExportText(exported)}};
 }
 
 }  // namespace warmjoint

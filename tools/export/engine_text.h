@@ -13,6 +13,8 @@ namespace warmjoint {
 struct ExportRequest {
   EngineFormat to = EngineFormat::mjcf;
   Warmth warmth{};
+  bool native = false;      // of mjcf: springs with a yield in place of frictionloss
+  double timestep = 0.001;  // s, of the model that springs are for
   std::string
       joint{};  // what the joint of an estimate is called; needed where a text finds joints by name (NeedsName)
 
@@ -21,11 +23,14 @@ struct ExportRequest {
     a->Field("to", &to, {.needed = "name an engine"});
     a->Field("warm", &warmth.share);
     a->Field("speed", &warmth.speed, {.unit = "rad/s"});
+    a->Field("native", &native);
+    a->Field("timestep", &timestep, {.unit = "s", .bounds = kPositive});
     a->Field("joint", &joint);
   }
 };
 
 struct Exported {
+  ExportRequest request;
   std::vector<EngineFriction> frictions;
   std::vector<std::string> notices;  // which joints were left out, one sentence each
 };
@@ -39,11 +44,17 @@ inline bool NeedsName(EngineFormat format) {
 /// names. Throws BadInput, also for a joint without a name where the engine needs one.
 Exported ExportFrictions(const Node& file, const ExportRequest& request);
 
+/// The comments on one joint: its warmth, and what its numbers leave out.
+std::string EngineHead(const EngineFriction& one, EngineFormat format);
+
+/// EngineText, or NativeText where springs were asked for.
+std::string ExportText(const Exported& exported);
+
 /// What the engine reads, with what it leaves out as comments. Where the friction has an interval, numbers end at the second digit of its half
 /// width; else they have twelve digits.
 std::string EngineText(const std::vector<EngineFriction>& frictions, EngineFormat format);
 
 /// {to, joints{NAME: {kind, warm, speed, energy, slowest, fastest, viscous, level, static_level, left_out[]}}, notices[], text}
-Tree EngineJson(const Exported& exported, EngineFormat format);
+Tree EngineJson(const Exported& exported);
 
 }  // namespace warmjoint

@@ -263,7 +263,7 @@ void AddFriction(nb::module_& module) {
       [](nb::handle given, nb::handle request) {
         const Node file(ToTree(given, "estimate"), "estimate");
         const auto asked = FieldsFromPython<ExportRequest>(request, "export");
-        return ToPython(EngineJson(ExportFrictions(file, asked), asked.to));
+        return ToPython(EngineJson(ExportFrictions(file, asked)));
       },
       nb::sig("def export_frictions(given: dict[str, typing.Any], request: dict[str, typing.Any]) "
               "-> dict[str, typing.Any]"));

@@ -10,6 +10,7 @@
 #include "models/foundation/bad_input.h"
 #include "tests/support/refusal.h"
 #include "tools/export/engine_text.h"
+#include "tools/export/native_text.h"
 
 namespace warmjoint {
 namespace {
@@ -133,6 +134,31 @@ TEST(Export, WritesTheDigitsThatTheIntervalSupports) {
   EXPECT_THAT(EngineText({InEngine(seen, {}, EngineFormat::mjcf)}, EngineFormat::mjcf),
               testing::HasSubstr(R"(damping="0.1235" frictionloss="0.654")"));
   EXPECT_NEAR(InEngine(seen, {}, EngineFormat::mjcf).viscous, 0.123456789, 1e-12);
+}
+
+TEST(Export, WritesSpringsWithAYieldForAnInertiaAndAStep) {
+  SeenFriction seen{.joint = "elbow", .friction = WarmLine()};
+  // cold, and as stiff as a step of 1 ms carries beside the other joints of an arm
+  const auto text = [&](double timestep) {
+    return NativeText({InEngine(seen, {}, EngineFormat::mjcf)}, timestep);
+  };
+  EXPECT_THAT(test::RefusalOf([&] { text(0.001); }), testing::HasSubstr("--as native"));
+  seen.inertia = 3.3;
+  EXPECT_THAT(
+      text(0.001),
+      testing::HasSubstr(R"(name="elbow" stiffness="1e+06" springyield="1.5e-05" damping="5")"));
+  EXPECT_THAT(test::RefusalOf([&] { text(0.1); }), testing::HasSubstr("--timestep 0.05"));
+  seen.friction.parameters["viscous"] = 0.1;
+  EXPECT_THAT(test::RefusalOf([&] { text(0.001); }), testing::HasSubstr("1.5 or more"));
+  // what a spring holds does not creep
+  const Node friction(
+      nlohmann::json{{"law", "viscous_coulomb"}, {"parameters", {{"viscous", 5}, {"coulomb", 15}}}},
+      "friction.json");
+  const Exported exported = ExportFrictions(friction, {.native = true});
+  EXPECT_THAT(exported.frictions.front().left_out, testing::IsEmpty());
+  EXPECT_THAT(test::RefusalOf(
+                  [&] { ExportFrictions(friction, {.to = EngineFormat::urdf, .native = true}); }),
+              testing::HasSubstr("--native"));
 }
 
 TEST(Export, AsksForANameWhereTheEngineFindsJointsByIt) {
