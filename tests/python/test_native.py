@@ -66,6 +66,23 @@ def test_what_is_held_rests():
     assert data.qvel[0] > 0.05
 
 
+def test_a_driver_that_comes_every_tenth_step_has_the_same_heat():
+    both = []
+    for every in (1, 10):
+        native = wj.native(hinge(), {"hinge": WARM})
+        data = mujoco.MjData(native.model)
+        native.start(data)
+        for step in range(0, 8000, 20):
+            data.qfrc_applied[0] = 25 * np.sin(np.pi * step * 1e-3)
+            native.step(data, 20, every)
+        both.append((native.heat[0], data.qpos[0]))
+    assert both[0] == pytest.approx(both[1], rel=2e-3) and both[0][0] < -0.3
+    stribeck = wj.Friction("stribeck", viscous=5, coulomb=12, static=15, stribeck_velocity=0.2)
+    native = wj.native(hinge(), {"hinge": stribeck})
+    with pytest.raises(wj.BadInput, match="every"):
+        native.step(mujoco.MjData(native.model), 20, every=10)
+
+
 @pytest.mark.parametrize("angle", ["degree", "radian"])
 def test_yield_and_start_are_in_the_model_s_own_units_and_the_text_loads_anywhere(angle):
     native = wj.native(hinge(angle), {"hinge": WARM})

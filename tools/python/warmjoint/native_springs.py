@@ -79,6 +79,7 @@ class Native:
         """k, N.m/rad or N/m."""
         number, h = self.friction.numbers, self.friction.timestep
         ratios = h / np.array([number["thermal_time_constant"], number["second_thermal_time_constant"]])
+        self._ratios = np.maximum(ratios, np.finfo(float).tiny)  # h / tau, of what does not warm 0
         self.pole: FloatArray = np.exp(-ratios)
         """[2 x joints] What stays of each stage's heat after a step."""
         self.gain: FloatArray = np.array([number["thermal_gain"], number["second_thermal_gain"]]) * -np.expm1(-ratios)
@@ -125,9 +126,12 @@ class Native:
         data.plastic[self.places] = data.qpos[self.friction.positions]
         self._set_yields(data.qvel[self.friction.dofs])
 
-    def step(self, data: mujoco.MjData, nstep: int = 1) -> None:
-        """Steps the model by MuJoCo, and after each step sets the yields from the heat. data: of `model`, one at a time. A pose that was set anew
-        begins with relaxed springs, and a run whose time went back with the heat of the last `start`."""
+    def step(self, data: mujoco.MjData, nstep: int = 1, every: int = 1) -> None:
+        """Steps the model by MuJoCo, and after each step, or after `every` so many, sets the yields from the heat. data: of `model`, one at a time. A pose
+        that was set anew begins with relaxed springs, and a run whose time went back with the heat of the last `start`.
+
+        every: of nstep; heat takes seconds to minutes, so that 10 steps of 1 ms lose little and cost a tenth of the driver's time. Levels that fall with
+        speed need each step."""
         if len(data.plastic) != self.model.nplastic or len(data.qvel) != self.model.nv:
             raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
         if data.time < self._time:
@@ -137,17 +141,23 @@ class Native:
         moved = ~(np.abs(stretch) <= 2 * self._yields())
         if moved.any():
             data.plastic[self.places[moved]] = data.qpos[self.friction.positions[moved]]
-        for _ in range(whole("nstep", nstep)):
-            mujoco.mj_step(self.model, data)
-            self.warm(data)
+        count, together = whole("nstep", nstep), whole("every", every)
+        if together < 1 or (together > 1 and self._falls):
+            raise BadInput(f"every: is {together}; it must be 1 or more, and 1 for the law stribeck, whose level follows the speed")
+        for done in range(0, count, together):
+            mujoco.mj_step(self.model, data, min(together, count - done))
+            self.warm(data, min(together, count - done))
         self._time = float(data.time)
 
-    def warm(self, data: mujoco.MjData) -> None:
-        """The driver by itself, after a step by other means: heat and yields. A step that left no finite numbers leaves the heat as it was."""
+    def warm(self, data: mujoco.MjData, steps: int = 1) -> None:
+        """The driver by itself, after so many steps by other means: heat and yields. Where they left no finite numbers the loss counts as 0."""
         v, stretch, yields = data.qvel[self.friction.dofs], self._stretch(data), self._yields()
         slides: Bools = (np.abs(stretch) >= _AT_YIELD * yields) & (stretch * v > 0)
         loss = self.model.dof_damping[self.friction.dofs] * v * v + slides * self.stiffness * yields * np.abs(v)
-        self.energy = self.pole * self.energy + self.gain * np.where(np.isfinite(loss), loss, 0.0)
+        pole, gain = self.pole, self.gain
+        if steps > 1:
+            pole, gain = pole**steps, gain * -np.expm1(-steps * self._ratios) / -np.expm1(-self._ratios)
+        self.energy = pole * self.energy + gain * np.where(np.isfinite(loss), loss, 0.0)
         self._set_yields(v)
 
     def update(self, m: Any, d: Any) -> Any:
