@@ -17,34 +17,17 @@
 #include "identification/inference/cause.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
+#include "identification/unknown.h"
 
 namespace warmjoint {
 
 class IdentifierInput;
 
-/// The part of the model to which a parameter belongs.
-enum class Role { law, load, heat, start, jump, gravity, inertia, lag, delay };
-
-/// Whether a role is part of Fn, the friction of a cold joint: law and load, whose values have physical bounds.
-inline bool IsNominal(Role role) { return role == Role::law || role == Role::load; }
-
-/// The coordinate x in which a fit works, and the one whose errors are about normal: the value for
-/// both, the logarithm of a positive value for both, or x the value and its logarithm normal.
-enum class Coordinate { value, logarithm, positive };
-
-/// One row of a fit's table of parameters. The name is that in estimate.json.
-struct FitParameter {
-  std::string name;
-  Role role = Role::law;
+/// An unknown with its value, a row of a fit's table of parameters.
+struct FitParameter : Unknown {
   double value = 0;
-  std::string unit;
-  Coordinate coordinate = Coordinate::value;
-  double lower = -kInfinity, upper = kInfinity;  // physical bounds of the value
-  bool estimated = true;          // has a column of the Jacobian; else its value was given
-  bool has_interval = true;       // false where only a prior or an option determines it
-  int displacement_power = 0;     // of rad or m in the unit, in addition to the unit of torque
-  int time_power = 0;             // of s
-  LawPart part = LawPart::other;  // of a row of the law
+  bool estimated = true;     // has a column of the Jacobian; else its value was given
+  bool has_interval = true;  // false where only a prior or an option determines it
   double moved = 0;  // of the value, by the row that holds others at a bound (HoldActiveBounds)
 
   /// Derivative of the value by the coordinate x in which the fit works, at a value.

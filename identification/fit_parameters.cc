@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "identification/fit_data.h"
@@ -35,40 +36,25 @@ constexpr ParameterInfo kTorqueDelayInfo{kTorqueDelayName,
                                          0,
                                          "by how much the torque is late against the motion"};
 
-/// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where the log has a current
-/// in place of the torque.
-std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
-  const std::string_view table = info.unit.For(measurements.joint);
-  const std::string_view torque = kTorqueUnit.For(measurements.joint);
-  if (measurements.torque_unit == torque) return std::string(table);
+/// The parameter's unit for the joint and its unit of torque: "A.s/rad" where the log has a current in place of the torque.
+std::string UnitFor(const ParameterInfo& info, const JointUnits& units) {
+  const std::string_view table = info.unit.For(units.joint);
+  const std::string_view torque = kTorqueUnit.For(units.joint);
+  if (units.torque == torque) return std::string(table);
 
   // the thermal gain is torque over torque times velocity
-  if (table == kThermalGainUnit.For(measurements.joint)) {
-    return measurements.joint == JointKind::rotary ? "s/rad" : "s/m";
+  if (table == kThermalGainUnit.For(units.joint)) {
+    return units.joint == JointKind::rotary ? "s/rad" : "s/m";
   }
 
   // the log's unit of torque takes the place of the table's
   if (table.substr(0, torque.size()) != torque) return std::string(table);
-  return measurements.torque_unit + std::string(table.substr(torque.size()));
+  return units.torque + std::string(table.substr(torque.size()));
 }
 
 /// The row of load_gain, as friction files have it.
 const ParameterInfo& LoadGainInfo() {
   return std::ranges::find(FrictionOptions(), &Friction::load_gain, &FrictionOption::value)->info;
-}
-
-/// A parameter of any table with its value.
-FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
-                            const Measurements& measurements) {
-  return {.name = std::string(info.name),
-          .role = role,
-          .value = value,
-          .unit = UnitFor(info, measurements),
-          .lower = info.lower,
-          .upper = info.upper,
-          .displacement_power = info.unit.displacement,
-          .time_power = info.unit.time,
-          .part = info.part};
 }
 
 }  // namespace
@@ -97,66 +83,95 @@ std::string NameOf(Role role, int which) {
   return "";
 }
 
-std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,
-                                        const Measurements& measurements) {
-  std::vector<FitParameter> rows;
-  for (size_t i = 0; i < law.parameters.size(); ++i) {
-    const double value = values[static_cast<Eigen::Index>(i)];
-    rows.push_back(TableParameter(law.parameters[i], Role::law, value, measurements));
+Unknown UnknownOf(const ParameterInfo& info, Role role, const JointUnits& units) {
+  return {.name = std::string(info.name),
+          .role = role,
+          .unit = UnitFor(info, units),
+          .lower = info.lower,
+          .upper = info.upper,
+          .displacement_power = info.unit.displacement,
+          .time_power = info.unit.time,
+          .part = info.part};
+}
+
+std::vector<Unknown> LawUnknowns(const Law& law, Eigen::Index count, const JointUnits& units) {
+  std::vector<Unknown> rows;
+  for (const ParameterInfo& info : law.parameters) {
+    rows.push_back(UnknownOf(info, Role::law, units));
   }
-  const auto d = std::ssize(rows);
-  if (values.size() > d) rows.push_back(LoadParameter(values[d], measurements));
+  if (count > std::ssize(rows)) rows.push_back(LoadUnknown(units));
   return rows;
 }
 
-FitParameter LoadParameter(double value, const Measurements& measurements) {
-  return TableParameter(LoadGainInfo(), Role::load, value, measurements);
+Unknown LoadUnknown(const JointUnits& units) {
+  return UnknownOf(LoadGainInfo(), Role::load, units);
 }
 
-std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements) {
+std::vector<Unknown> HeatUnknowns(const JointUnits& units) {
   const auto& [gain, tau] = Thermal::parameters;
-  std::vector<FitParameter> rows{
-      TableParameter(gain, Role::heat, thermal.gain, measurements),
-      TableParameter(tau, Role::heat, thermal.time_constant, measurements)};
-  // a time constant is fitted by its logarithm
+  std::vector<Unknown> rows{UnknownOf(gain, Role::heat, units), UnknownOf(tau, Role::heat, units)};
   rows[1].coordinate = Coordinate::logarithm;
   return rows;
 }
 
-FitParameter StartParameter(double energy, const Measurements& measurements) {
-  return {NameOf(Role::start), Role::start, energy, measurements.torque_unit};
+Unknown StartUnknown(const JointUnits& units) {
+  return {.name = NameOf(Role::start), .role = Role::start, .unit = units.torque};
 }
 
-FitParameter JumpParameter(std::string name, double energy, const Measurements& measurements) {
-  return {std::move(name), Role::jump, energy, measurements.torque_unit};
+Unknown JumpUnknown(std::string name, const JointUnits& units) {
+  return {.name = std::move(name), .role = Role::jump, .unit = units.torque};
 }
 
-std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,
-                                            const Measurements& measurements) {
-  // coefficients of paired gravity have no names, so that no report lists them
-  std::vector<std::string> names(static_cast<size_t>(values.size()));
-  if (kind == GravityKind::sincos) names = {"gravity_sine", "gravity_cosine"};
-  if (kind == GravityKind::constant) names = {"gravity_offset"};
-  std::vector<FitParameter> rows;
-  for (size_t i = 0; i < names.size(); ++i) {
-    rows.push_back(
-        {names[i], Role::gravity, values[static_cast<Eigen::Index>(i)], measurements.torque_unit});
+std::vector<Unknown> GravityUnknowns(GravityKind kind, Eigen::Index count,
+                                     const JointUnits& units) {
+  std::vector<Unknown> rows(static_cast<size_t>(count),
+                            {.role = Role::gravity, .unit = units.torque});
+  if (kind == GravityKind::sincos) {
+    rows[0].name = "gravity_sine";
+    rows[1].name = "gravity_cosine";
   }
+  if (kind == GravityKind::constant) rows[0].name = "gravity_offset";
   return rows;
 }
 
-FitParameter InertiaParameter(double value, const Measurements& measurements) {
-  return TableParameter(kInertiaInfo, Role::inertia, value, measurements);
+Unknown InertiaUnknown(const JointUnits& units) {
+  return UnknownOf(kInertiaInfo, Role::inertia, units);
 }
 
-FitParameter TorqueLagParameter(double time_constant, const Measurements& measurements) {
-  FitParameter row = TableParameter(kTorqueLagInfo, Role::lag, time_constant, measurements);
+Unknown LagUnknown(const JointUnits& units) {
+  Unknown row = UnknownOf(kTorqueLagInfo, Role::lag, units);
   row.coordinate = Coordinate::logarithm;
   return row;
 }
 
-FitParameter TorqueDelayParameter(double delay, const Measurements& measurements) {
-  return TableParameter(kTorqueDelayInfo, Role::delay, delay, measurements);
+Unknown DelayUnknown(const JointUnits& units) {
+  return UnknownOf(kTorqueDelayInfo, Role::delay, units);
+}
+
+FitParameter WithValue(Unknown row, double value) {
+  FitParameter parameter{std::move(row)};
+  parameter.value = value;
+  return parameter;
+}
+
+std::vector<FitParameter> WithValues(const std::vector<Unknown>& rows,
+                                     const Eigen::VectorXd& values) {
+  std::vector<FitParameter> table;
+  for (const Unknown& row : rows) table.push_back(WithValue(row, values[std::ssize(table)]));
+  return table;
+}
+
+std::vector<FitParameter> TableAt(const std::vector<Unknown>& rows, const Eigen::VectorXd& x) {
+  std::vector<FitParameter> table = WithValues(rows, x);
+  for (FitParameter& row : table) {
+    if (row.coordinate == Coordinate::logarithm) row.value = std::exp(row.value);
+  }
+  return table;
+}
+
+std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements) {
+  return WithValues(HeatUnknowns(UnitsOf(measurements)),
+                    Eigen::Vector2d{thermal.gain, thermal.time_constant});
 }
 
 void Append(const std::vector<FitParameter>& rows, Fit& fit) {

@@ -1,4 +1,4 @@
-// The rows of a fit's table of parameters: their names, units and bounds, in one place.
+// The rows of the table of unknowns: their names, units and bounds, in one place.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -17,35 +17,43 @@ namespace warmjoint {
 /// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia, lag and delay.
 std::string NameOf(Role role, int which = 0);
 
-/// The law's parameters and, where there is one value more, load_gain. values: [d] or [d + 1] in the order of its table.
-std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,
-                                        const Measurements& measurements);
+/// What a joint's units are of.
+struct JointUnits {
+  JointKind joint = JointKind::rotary;
+  std::string torque;  // "N.m", or "A" of a log with a current in place of the torque
+};
+inline JointUnits UnitsOf(const Measurements& m) { return {m.joint, m.torque_unit}; }
 
+/// The row of a parameter that friction files, laws or the heat have in their tables.
+Unknown UnknownOf(const ParameterInfo& info, Role role, const JointUnits& units);
+
+/// The law's parameters and, where there is one more, load_gain. count: of the rows
+std::vector<Unknown> LawUnknowns(const Law& law, Eigen::Index count, const JointUnits& units);
 /// load_gain of a friction.
-FitParameter LoadParameter(double value, const Measurements& measurements);
-
+Unknown LoadUnknown(const JointUnits& units);
 /// thermal_gain and thermal_time_constant, the latter by its logarithm.
-std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
-
+std::vector<Unknown> HeatUnknowns(const JointUnits& units);
 /// initial_energy: E(0), N.m or N.
-FitParameter StartParameter(double energy, const Measurements& measurements);
-
-/// A change of E that no logged loss explains, by its name (JumpNames). energy: N.m or N
-FitParameter JumpParameter(std::string name, double energy, const Measurements& measurements);
-
-/// gravity_sine and gravity_cosine, or gravity_offset; of `paired`, whose knots are many, rows
-/// without an interval that reports leave out.
-std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,
-                                            const Measurements& measurements);
-
+Unknown StartUnknown(const JointUnits& units);
+/// A change of E that no logged loss explains, by its name (JumpNames), N.m or N.
+Unknown JumpUnknown(std::string name, const JointUnits& units);
+/// gravity_sine and gravity_cosine, or gravity_offset; of `paired`, whose knots are many, rows that reports leave out.
+std::vector<Unknown> GravityUnknowns(GravityKind kind, Eigen::Index count, const JointUnits& units);
 /// inertia, M of Eq. (5).
-FitParameter InertiaParameter(double value, const Measurements& measurements);
-
+Unknown InertiaUnknown(const JointUnits& units);
 /// torque_lag: T of a first-order lag, s, by its logarithm.
-FitParameter TorqueLagParameter(double time_constant, const Measurements& measurements);
-
+Unknown LagUnknown(const JointUnits& units);
 /// torque_delay: by how much the torque is late against the motion, s.
-FitParameter TorqueDelayParameter(double delay, const Measurements& measurements);
+Unknown DelayUnknown(const JointUnits& units);
+
+/// Rows with their values at x, in the coordinates of the fit. x: as long as rows
+std::vector<FitParameter> TableAt(const std::vector<Unknown>& rows, const Eigen::VectorXd& x);
+/// A row with its value.
+FitParameter WithValue(Unknown row, double value);
+std::vector<FitParameter> WithValues(const std::vector<Unknown>& rows,
+                                     const Eigen::VectorXd& values);
+/// The rows of a heat with its values.
+std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
 
 /// Appends rows to those of the fit's table.
 void Append(const std::vector<FitParameter>& rows, Fit& fit);

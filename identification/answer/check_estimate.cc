@@ -31,7 +31,7 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   const bool carries = m.load || estimate.gravity;
   if (carries && estimate.Find(NameOf(Role::load))) values.push_back(fit.friction.load_gain);
   const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
-  fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
+  fit.parameters = WithValues(LawUnknowns(*FindLaw(fit.friction.law), law.size(), UnitsOf(m)), law);
 
   // heat and start, where the estimate has them
   if (fit.friction.thermal && Find(Role::heat, estimate)) {
@@ -39,7 +39,7 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   }
   if (const EstimatedParameter* start = Find(Role::start, estimate)) {
     fit.initial_energy = start->value;
-    fit.parameters.push_back(StartParameter(start->value, m));
+    fit.parameters.push_back(WithValue(StartUnknown(UnitsOf(m)), start->value));
   }
   return fit;
 }

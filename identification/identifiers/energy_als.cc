@@ -319,7 +319,7 @@ Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const Descent
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = last.thermal;
   fit.friction.maps = WithWeights(part.maps, at.weights.Of(last.nominal));
-  fit.parameters = LawParameters(law, values, m);
+  fit.parameters = WithValues(LawUnknowns(law, values.size(), UnitsOf(m)), values);
   Append(HeatParameters(last.thermal, m), fit);
   AddRigid(part.gravity, at.rigid.Of(last.nominal), m, fit);
   return fit;

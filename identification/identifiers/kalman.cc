@@ -278,7 +278,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   const Thermal thermal = last.thermal();
   Fit fit;
   fit.identifier = kName;
-  fit.parameters = LawParameters(track.law, x, m);
+  fit.parameters = WithValues(LawUnknowns(track.law, x.size(), UnitsOf(m)), x);
   Append(HeatParameters(thermal, m), fit);
   if (!last.mean.allFinite() || !(thermal.time_constant > 0) ||
       !std::isfinite(thermal.time_constant)) {

@@ -247,7 +247,7 @@ void SetModel(const LogSamples& m, const LugreProblem& problem, const Eigen::Vec
   damping.coordinate = Coordinate::positive;
   damping.estimated = !problem.IsConstant(at.damping());
   if (problem.IsConstant(at.inertia())) return;
-  Append({InertiaParameter(x[at.inertia()], m)}, fit);
+  Append({WithValue(InertiaUnknown(UnitsOf(m)), x[at.inertia()])}, fit);
 }
 
 /// Why the fit is refused; nothing where it is not.

@@ -191,7 +191,7 @@ Fit FitOnline(const IdentifierInput& given) {
   const Eigen::VectorXd values = x.head(task.law_count());
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = thermal;
-  fit.parameters = LawParameters(law, values, m);
+  fit.parameters = WithValues(LawUnknowns(law, values.size(), UnitsOf(m)), values);
   AddRigid(gravity, x.tail(gravity.count()), m, fit);
 
   // and how well they fit

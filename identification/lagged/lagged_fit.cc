@@ -124,7 +124,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   const VectorXd held = rows->InitialStates(measured - lagged).col(0);
 
   // the model after the lag
-  Append({TorqueLagParameter(rows->lag(), m)}, fit);
+  Append({WithValue(LagUnknown(UnitsOf(m)), rows->lag())}, fit);
   fit.torque = measured;
   fit.fitted = lagged + rows->Decaying(held);
   fit.torque_lag = FittedLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};

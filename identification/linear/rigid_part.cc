@@ -130,12 +130,12 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
   const Eigen::Index q = rigid.gravity_count();
   if (q > 0) {
     fit.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};
-    Append(GravityParameters(rigid.kind, values.head(q), measurements), fit);
+    Append(WithValues(GravityUnknowns(rigid.kind, q, UnitsOf(measurements)), values.head(q)), fit);
   }
   if (!measurements.acceleration) return;
   // without a column it is given, as 0
   fit.inertia = rigid.inertia ? values[q] : 0;
-  FitParameter row = InertiaParameter(*fit.inertia, measurements);
+  FitParameter row = WithValue(InertiaUnknown(UnitsOf(measurements)), *fit.inertia);
   row.estimated = row.has_interval = rigid.inertia;
   Append({row}, fit);
 }

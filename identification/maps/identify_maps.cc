@@ -43,7 +43,8 @@ std::optional<std::string> Unseen(MapQuantity quantity, const LogSamples& measur
 
 /// The table's rows of the law, without intervals and with a warning where kernels can imitate it.
 void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, Fit& fit) {
-  fit.parameters = LawParameters(law, maps.law(), measurements);
+  const Eigen::VectorXd values = maps.law();
+  fit.parameters = WithValues(LawUnknowns(law, values.size(), UnitsOf(measurements)), values);
   std::vector<std::string> imitated;
   // a column that kernels can imitate has no interval of its own
   for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free())) {

@@ -8,7 +8,7 @@
 
 #include "identification/layout.h"
 #include "identification/model/heat_loop.h"
-#include "identification/model/unknown.h"
+#include "identification/unknown.h"
 
 namespace warmjoint {
 

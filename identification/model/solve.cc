@@ -59,8 +59,10 @@ SquaresProblem WithinLimits(const Model& model, const std::vector<Index>& held) 
   problem.largest_step.resize(p);
   for (Index i = 0; i < p; ++i) {
     const Unknown& row = model.table[static_cast<std::size_t>(i)];
-    problem.lower[i] = row.lower;
-    problem.upper[i] = row.upper;
+    // in the coordinate of the fit
+    const bool logarithm = row.coordinate == Coordinate::logarithm;
+    problem.lower[i] = logarithm ? std::log(std::max(row.lower, 0.0)) : row.lower;
+    problem.upper[i] = logarithm ? std::log(row.upper) : row.upper;
     problem.largest_step[i] = row.largest_step;
   }
   return problem;

@@ -82,7 +82,7 @@ void SetFallingModel(const FallingLaw& law, double exponent, const Layout& at,
                      const Eigen::VectorXd& x, const LogSamples& measurements, Fit& fit) {
   const Eigen::VectorXd values = law.values(x, exponent);
   fit.friction = FrictionOf(law.law, values, measurements);
-  fit.parameters = LawParameters(law.law, values, measurements);
+  fit.parameters = WithValues(LawUnknowns(law.law, values.size(), UnitsOf(measurements)), values);
   // vs is fitted by its logarithm; an exponent, which follows the rows that are in x, was given
   fit.parameters[at.log_vs()].coordinate = Coordinate::logarithm;
   for (FitParameter& given : std::span(fit.parameters).subspan(at.shape.end())) {

@@ -8,6 +8,7 @@
 
 #include "identification/answer/speed_figures.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
 #include "identification/model/normal_equations.h"
@@ -53,20 +54,13 @@ bool KnowsGain(const JointFit& fit) {
 
 FitParameter ParameterOf(const JointFit& fit, Index row) {
   const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
-  const bool bounded = unknown.role == Role::law || unknown.role == Role::load;
   // at its bound, but for rounding
   const double value = ValueOf(fit, row),
                at_bound = kRounding * HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), row));
-  const bool held = bounded && value - unknown.lower <= at_bound;
-  FitParameter parameter{
-      .name = unknown.name,
-      .role = unknown.role,
-      .value = held ? unknown.lower : value,
-      .unit = unknown.unit,
-      .coordinate = unknown.coordinate,
-      .lower = bounded ? unknown.lower : -kInfinity,
-      .has_interval = !unknown.name.empty() && (row != fit.at.given.log_gain || KnowsGain(fit))};
-  parameter.part = unknown.part;
+  const bool held = IsNominal(unknown.role) && value - unknown.lower <= at_bound;
+  FitParameter parameter = WithValue(unknown, held ? unknown.lower : value);
+  parameter.has_interval =
+      !unknown.name.empty() && (row != fit.at.given.log_gain || KnowsGain(fit));
   return parameter;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/model/normal_equations.h"
 #include "identification/robot/find_heat.h"
 #include "identification/uncertainty/tails.h"
@@ -33,21 +34,7 @@ constexpr double kTold = .1;
 /// Share of the log, at its end, that a further mechanism has to predict.
 constexpr double kUnseen = .4;
 
-std::string UnitFor(const JointUnit& unit, const JointColumns& c) {
-  // a viscous friction of a current is A.s/rad
-  std::string text(unit.For(c.kind));
-  const std::string_view torque = kTorqueUnit.For(c.kind);
-  if (text.starts_with(torque)) text.replace(0, torque.size(), c.torque_unit);
-  return text;
-}
-
-Unknown LawUnknown(const ParameterInfo& info, const JointColumns& c) {
-  return {.name = std::string(info.name),
-          .role = Role::law,
-          .unit = UnitFor(info.unit, c),
-          .lower = 0,
-          .part = info.part};
-}
+JointUnits UnitsOf(const JointColumns& c) { return {c.kind, c.torque_unit}; }
 
 /// An unknown with a prior about 0, which reports leave out.
 Unknown Nuisance(double deviation) {
@@ -80,20 +67,20 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   Model& model = fit.model;
   model.samples = c.velocity.size();
   std::vector<Unknown> law;
+  const JointUnits units = UnitsOf(c);
   for (const ParameterInfo& info : {kViscousRow, kCoulombPositiveRow, kCoulombNegativeRow}) {
-    law.push_back(LawUnknown(info, c));
+    law.push_back(UnknownOf(info, Role::law, units));
   }
-  if (slows) law.push_back(LawUnknown(kStaticRiseRow, c));
+  if (slows) law.push_back(UnknownOf(kStaticRiseRow, Role::law, units));
   fit.at.law = model.Append(law);
-  fit.at.load = model.Append({{.name = "load_gain",
-                               .role = Role::load,
-                               .unit = "1",
-                               .lower = 0,
-                               .prior = Normal{0, kLoadSpread}}});
-  fit.at.rotor = model.Append(
-      {{.name = "rotor_inertia",
-        .role = Role::inertia,
-        .unit = c.torque_unit + (c.kind == JointKind::rotary ? ".s^2/rad" : ".s^2/m")}});
+  Unknown load = LoadUnknown(units);
+  load.prior = Normal{0, kLoadSpread};
+  fit.at.load = model.Append({load});
+  // an error of the description's own may be negative
+  Unknown rotor = InertiaUnknown(units);
+  rotor.name = "rotor_inertia";
+  rotor.lower = -kInfinity;
+  fit.at.rotor = model.Append({rotor});
 
   // the rigid part, its gain about that of the robot's other joints
   const double start = guess.IsSure() ? std::abs(guess.value) : q.middle_gain;
@@ -128,16 +115,11 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
 }
 
 void AddHeat(const JointColumns& c, const HeatGuess& guess, JointFit& fit) {
-  const auto& [gain, tau] = Thermal::parameters;
-  const std::string unit(c.kind == JointKind::rotary ? "N.m/W" : "N/W");
-  fit.at.heat = fit.model.Append(
-      {{.name = std::string(gain.name), .role = Role::heat, .unit = unit, .start = guess.gain},
-       {.name = std::string(tau.name),
-        .role = Role::heat,
-        .unit = "s",
-        .coordinate = Coordinate::logarithm,
-        .start = std::log(guess.time_constant),
-        .largest_step = .5}});
+  std::vector<Unknown> heat = HeatUnknowns(UnitsOf(c));
+  heat[0].start = guess.gain;
+  heat[1].start = std::log(guess.time_constant);
+  heat[1].largest_step = .5;
+  fit.at.heat = fit.model.Append(heat);
   // the speed in the direction in which the joint moves
   const VectorXd moved = c.velocity.cwiseAbs().cwiseProduct(c.sign);
   fit.model.heat = HeatLoop{.loop = std::make_shared<const ClosedLoop>(

@@ -151,7 +151,10 @@ void Whiten(LawFit& law) {
       FindDisagreement({plain.x, uncertainty.covariance}, {white.x, innovation * white.cofactor},
                        uncertainty.degrees_of_freedom);
   const Law& nominal = law.problem.task().law;
-  if (law.unwhitened || LeavesBounds(LawParameters(nominal, white.law(), law.measurements()))) {
+  const Eigen::VectorXd values = white.law();
+  const JointUnits units = UnitsOf(law.measurements());
+  if (law.unwhitened ||
+      LeavesBounds(WithValues(LawUnknowns(nominal, values.size(), units), values))) {
     return;
   }
   law.whitening = std::move(whitening);
@@ -314,7 +317,9 @@ std::string Summary(const LawFit& law) {
 /// The table of parameters in the order of x: law, heat, E(0), jumps, gravity and inertia.
 void FillTable(const LawFit& law, Fit& fit) {
   const LogSamples& m = law.measurements();
-  fit.parameters = LawParameters(law.problem.task().law, law.fit.law(), m);
+  const Eigen::VectorXd values = law.fit.law();
+  fit.parameters =
+      WithValues(LawUnknowns(law.problem.task().law, values.size(), UnitsOf(m)), values);
   if (law.fit.has_heat()) Append(HeatTable(law.fit, law.problem.gaps(), m), fit);
   AddRigid(law.problem.task().gravity, law.fit.rigid(), m, fit);
 }
@@ -411,15 +416,16 @@ Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat) 
 
 std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
                                     const LogSamples& measurements) {
+  const JointUnits units = UnitsOf(measurements);
   std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
   if (warm.estimates_initial_energy()) {
-    rows.push_back(StartParameter(warm.initial_energy(), measurements));
+    rows.push_back(WithValue(StartUnknown(units), warm.initial_energy()));
   }
   // the jumps in the order of x
   const Eigen::VectorXd jumps = warm.jumps();
   const std::vector<std::string> names = JumpNames(gaps, measurements);
   for (size_t i = 0; i < names.size(); ++i) {
-    rows.push_back(JumpParameter(names[i], jumps[static_cast<Eigen::Index>(i)], measurements));
+    rows.push_back(WithValue(JumpUnknown(names[i], units), jumps[static_cast<Eigen::Index>(i)]));
   }
   return rows;
 }

@@ -132,7 +132,7 @@ MatrixXd RowsOf(const Fit& fit, const VectorXd& by_delay) {
 /// The delay as one more unknown of a fit that was made at it.
 void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& fit) {
   fit.torque_delay = delay;
-  Append({TorqueDelayParameter(delay, m)}, fit);
+  Append({WithValue(DelayUnknown(UnitsOf(m)), delay)}, fit);
   fit.jacobian = [of_model = std::move(fit.jacobian), by_delay] {
     return ConcatColumns(of_model(), by_delay);
   };

@@ -79,7 +79,7 @@ TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
   const auto identify = [](const IdentifierInput& input) {
     Fit fit = KnowTableOne(input);
     fit.jump_samples = {100};
-    fit.parameters = {JumpParameter(NameOf(Role::jump), -2, input.measurements)};
+    fit.parameters = {WithValue(JumpUnknown(NameOf(Role::jump), UnitsOf(input.measurements)), -2)};
     fit.parameters[0].estimated = false;
     return fit;
   };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/fit_parameters.h"
 #include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/whitening.h"
@@ -101,7 +102,7 @@ Fit LevelFit() {
     // white enough: a sequence of signs with little correlation
     noise[i] = 0.1 * ((i * 7919 + i * i * 31) % 97 < 48 ? -1 : 1);
   }
-  fit.parameters = {FitParameter{.name = "coulomb", .value = 15, .unit = "N.m"}};
+  fit.parameters = {WithValue({.name = "coulomb", .unit = "N.m"}, 15)};
   fit.used.keep = decltype(fit.used.keep)::Constant(n, true);
   fit.fitted = 15 * sign;
   fit.torque = fit.fitted + noise;
