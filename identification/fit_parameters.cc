@@ -124,8 +124,10 @@ Unknown JumpUnknown(std::string name, const JointUnits& units) {
 
 std::vector<Unknown> GravityUnknowns(GravityKind kind, Eigen::Index count,
                                      const JointUnits& units) {
-  std::vector<Unknown> rows(static_cast<size_t>(count),
-                            {.role = Role::gravity, .unit = units.torque});
+  Unknown row;
+  row.role = Role::gravity;
+  row.unit = units.torque;
+  std::vector<Unknown> rows(static_cast<size_t>(count), row);
   if (kind == GravityKind::sincos) {
     rows[0].name = "gravity_sine";
     rows[1].name = "gravity_cosine";

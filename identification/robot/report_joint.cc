@@ -259,6 +259,8 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   m.velocity = c.velocity;
   m.position = c.position;
   m.torque = c.samples.torque;
+  const SampleRange all{0, c.samples.time.size()};
+  m.load = fit.at.given.Gain(fit.solved.x) * c.carried.At(all, fit.at.given.z.Of(fit.solved.x));
 
   // judged as any other fit
   const Fit made = FitOf(fit, c);
