@@ -5,7 +5,9 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <mutex>
 
 #include "models/foundation/atomic_file.h"
@@ -14,6 +16,8 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/names.h"
 #include "models/foundation/node.h"
+#include "models/foundation/parse_number.h"
+#include "models/foundation/xml_tags.h"
 
 namespace warmjoint {
 namespace fs = std::filesystem;
@@ -76,6 +80,27 @@ RobotInfo ReadRobot(const std::string& name) {
   robot.friction = ReadFriction(folder / "friction.json");
   robot.friction_joint = ReadFrictionJoint(folder / "friction.json", robot.joints);
   return robot;
+}
+
+constexpr double kLargest = std::numeric_limits<double>::max();
+
+/// The text with the largest number in place of an infinite limit, which urdfdom refuses.
+std::string WithFiniteLimits(const std::string& text) {
+  std::string written;
+  std::size_t copied = 0;
+  XmlTagReader reader(text);
+  while (const auto tag = reader.Next()) {
+    if (tag->name != "limit") continue;
+    for (const auto& [name, value] : tag->Attributes()) {
+      const auto number = ParseNumber(value);
+      if (!number || !std::isinf(*number)) continue;
+      const auto at = static_cast<std::size_t>(value.data() - text.data());
+      written += text.substr(copied, at - copied);
+      written += fmt::format("{}", std::copysign(kLargest, *number));
+      copied = at + value.size();
+    }
+  }
+  return written + text.substr(copied);
 }
 
 /// Keeps what urdfdom would print.
@@ -161,11 +186,18 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   const std::lock_guard lock(one_at_a_time);
 
   // read, checked and parsed, with what the parser says kept for the refusal
-  const std::string text = ReadDescription(path).text;
+  const std::string text = WithFiniteLimits(ReadDescription(path).text);
   Collector collector;
   urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   const Place place{path.string()};
   if (!robot) Refuse(place, "cannot be used as URDF: {}", collector.errors);
+  for (const auto& [name, joint] : robot->joints_) {
+    if (!joint->limits) continue;
+    urdf::JointLimits& limits = *joint->limits;
+    for (double* limit : {&limits.lower, &limits.upper, &limits.effort, &limits.velocity}) {
+      if (std::abs(*limit) == kLargest) *limit = std::copysign(kInfinity, *limit);
+    }
+  }
   for (const auto& [name, link] : robot->links_) RequireName("the name of a link", name, place);
   for (const auto& [name, joint] : robot->joints_) RequireName("the name of a joint", name, place);
   return robot;

@@ -36,7 +36,7 @@ def broken(path):
     """Why a file that the program wrote is none of its kind; nothing where it is."""
     data = path.read_bytes()
     try:
-        if path.suffix in (".json", ".xml", ".svg", ".html", ".py", ".csv", ".yaml"):
+        if path.suffix in (".json", ".xml", ".elements", ".svg", ".html", ".py", ".csv", ".yaml"):
             text = data.decode()
             if found := re.search(UNPRINTABLE, text):
                 return f"holds {found[0]!r}"
@@ -44,6 +44,8 @@ def broken(path):
             json.loads(text)
         elif path.suffix in (".xml", ".svg"):
             xml.etree.ElementTree.fromstring(text)
+        elif path.suffix == ".elements":  # to be pasted into a document
+            xml.etree.ElementTree.fromstring(f"<all>{text}</all>")
         elif path.suffix == ".html" and not text.rstrip().endswith("</html>"):
             return "has no end"
         elif path.suffix == ".png" and not (data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82")):

@@ -247,7 +247,7 @@ def answers(attack):
         one["friction_at_speeds"] = [{"speed": v, "value": v, "std": 0.1, "interval95": [v - 1, v + 1], "speed_unit": "rad/s", "unit": "N.m"} for v in (-1.0, -0.5, 0.5, 1.0)]
     attack.remove("good.json")
     chance = random.Random(3)
-    commands = [["attach", "r.urdf", "--friction", "o.json", "-o", "w.xml"], ["export", "o.json", "--to", "mjcf", "-o", "x.xml"],
+    commands = [["attach", "r.urdf", "--friction", "o.json", "-o", "w.xml"], ["export", "o.json", "--to", "mjcf", "-o", "x.elements"],
                 ["export", "o.json", "--to", "isaaclab", "-o", "x.py"], ["report", "o.json", "-o", "p.html"]]
     attack.file("o.json", json.dumps(good))
     for command in commands:

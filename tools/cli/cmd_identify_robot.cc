@@ -92,6 +92,10 @@ RobotTool ReadTool(const std::string& text) {
     tool.centre[axis++] = NumberIn("--tool", "com", begins ? part.substr(4) : part);
   }
   if (!has_mass) Refuse({"--tool"}, "'{}' gives no mass: --tool mass=KG,com=X,Y,Z", Excerpt(text));
+  if (axis < 3) {
+    Refuse({"--tool"}, "'{}' gives {} of the three numbers of com: --tool mass=KG,com=X,Y,Z",
+           Excerpt(text), axis);
+  }
   return tool;
 }
 

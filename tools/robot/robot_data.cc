@@ -20,6 +20,8 @@
 namespace warmjoint {
 namespace {
 
+constexpr double kLargestFactor = 1e3;  // of a coupling; why: no gear between joints has more
+
 using Eigen::Index;
 
 /// Beyond which no joint stands whose description has no narrower limits: four turns, as the last joints of some arms have.
@@ -193,7 +195,10 @@ Eigen::MatrixXd ReadCoupling(const std::vector<std::string>& texts,
       std::string term = text.substr(at, end - at);
       if (const std::size_t times = term.find('*'); times != std::string::npos) {
         const auto number = ParseNumber(term.substr(0, times));
-        if (!number) Refuse({"--coupling"}, "'{}' is no factor", Excerpt(term.substr(0, times)));
+        if (!number || !(std::abs(*number) <= kLargestFactor)) {
+          Refuse({"--coupling"}, "'{}' is no factor from {:g} to {:g}",
+                 Excerpt(term.substr(0, times)), -kLargestFactor, kLargestFactor);
+        }
         factor *= *number;
         term = term.substr(times + 1);
       }
