@@ -33,6 +33,7 @@ constexpr double kUnresolvedTurns =
     5e-3;  // of the path; why: a warming may have an error of that size before a warning is given
 constexpr double kHeld =
     0.5;  // of the samples in motion; why: fewer held samples, peaks among them, show less than the other samples
+constexpr double kDrifts = 0.5;    // why: most of what the speed does is then an acceleration
 constexpr double kFollowed = 0.5;  // why: of half the samples deviations are 1.4 times as large
 
 double RootMeanSquare(const VectorXd& x) {
@@ -187,6 +188,24 @@ std::vector<Segment> ContradictedSegments(const Measurements& m, const Selection
   return contradicted;
 }
 
+/// The share of the changes of speed within segments that is a drift from one end to the other, beyond that of white noise: near
+/// 0 where speeds are held, with whatever ripple, and near 1 where pieces of a smooth motion pass for holds.
+double DriftWithin(const Measurements& m, const std::vector<Segment>& segments) {
+  double drift = 0, all = 0;
+  for (const Segment& one : segments) {
+    const Index n = one.end - one.begin;
+    if (n < 3) continue;
+    const Eigen::ArrayXd t =
+        m.time.segment(one.begin, n).array() - m.time.segment(one.begin, n).mean();
+    const Eigen::ArrayXd v =
+        m.velocity.segment(one.begin, n).array() - m.velocity.segment(one.begin, n).mean();
+    const double squares = v.square().sum(), along = std::pow((t * v).sum(), 2) / t.square().sum();
+    drift += along - (squares - along) / static_cast<double>(n - 2);
+    all += squares;
+  }
+  return all > 0 ? drift / all : 0;
+}
+
 }  // namespace
 
 BetweenSamples MeansBetween(const Measurements& m, const std::vector<SampleRange>& pieces,
@@ -291,7 +310,7 @@ bool HoldsSpeeds(const Measurements& m, const Selection& selection, MotionSource
     held.segment(one.begin, one.end - one.begin) = false;
   }
   const auto all = static_cast<double>(moving.count()), count = static_cast<double>(held.count());
-  if (count >= kHeld * all) return true;
+  if (count >= kHeld * all) return all == 0 || DriftWithin(m, selection.segments) < kDrifts;
   // holds lost in noise, with jumps from one speed to the next that motion of any kind cannot follow
   return count >= kSomeHeld * all && UnresolvedTurns(m, source) >= kUnresolvedTurns;
 }

@@ -37,7 +37,8 @@ BetweenSamples MeansBetween(const Measurements& measurements,
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 
 /// Whether a log shows friction mainly at constant speeds: half or more of the samples in clear motion are kept in segments
-/// whose positions, where they are known, change at their speed, to a factor of two. Or a tenth of them, where the joint turns
+/// whose positions, where they are known, change at their speed, to a factor of two, and within which the speed does not mainly
+/// drift from one end to the other, as in pieces of a smooth motion that noise hides. Or a tenth of them, where the joint turns
 /// between samples so suddenly that half a per cent of its path or more cannot be followed: holds that noise hides in part.
 bool HoldsSpeeds(const Measurements& measurements, const Selection& selection,
                  MotionSource source = MotionSource::velocity);

@@ -123,6 +123,21 @@ VectorXd ByDelay(const Fit& fit, const IdentifierInput& given, double delay, dou
   return by_delay;
 }
 
+/// What a lag of first order has in addition to a delay of the same size: d^2/2 d^2 tau/dt^2, since 1/(1 + s d) = exp(-s d) +
+/// s^2 d^2/2 - ...; 0 where the torque jumps nearby. given: as it was logged. [N] N.m or N
+VectorXd ByShape(const Fit& fit, const IdentifierInput& given, double delay, double step) {
+  const double width = std::max(step, kDifference / 2);
+  const auto at = [&](double more) -> VectorXd {
+    return TorqueAlong(fit, Delayed(given.measurements, delay + more));
+  };
+  const VectorXd bend = (at(width) - 2 * at(0) + at(-width)) / (width * width);
+  const auto reach = static_cast<Index>(std::ceil(width / step));
+  const auto shift = static_cast<Index>(std::floor(delay / step));
+  const SampleMask fits = WithoutJumps(given.selection.keep, reach + std::max<Index>(shift + 1, 0),
+                                       reach + std::max<Index>(-shift, 0));
+  return fits.select(0.5 * delay * delay * bend, VectorXd::Zero(bend.size()));
+}
+
 /// The rows of a fit, followed by the column of the delay, as the fit solved them. [n x p + 1]
 MatrixXd RowsOf(const Fit& fit, const VectorXd& by_delay) {
   MatrixXd rows = ConcatColumns(Kept(fit.jacobian(), fit.used), Kept(by_delay, fit.used));
@@ -182,6 +197,21 @@ Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
   return cause;
 }
 
+/// By how much a fit with a delay is biased where a filter makes the torque late, of first order at most: the log does not
+/// determine the shape. rows: RowsOf the fit; shape: [N] ByShape
+Cause UntoldShape(const Fit& fit, const MatrixXd& rows, const VectorXd& shape) {
+  VectorXd force = Kept(shape, fit.used);
+  if (fit.errors.whitening) force = fit.errors.whitening->Of(force);
+  const VectorXd bias = SolveLeastSquares(rows, force).solution;
+  Cause cause{.source = Source::late_torque, .action = Action::widen};
+  Index column = 0;
+  for (size_t i = 0; i < fit.parameters.size() && bias.size() > 0; ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (row.estimated) cause.Add(i, row.ValueByCoordinate(row.value) * bias[column++]);
+  }
+  return cause;
+}
+
 }  // namespace
 
 bool IsLate(const Fit& fit) {
@@ -237,6 +267,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
         return in_time;
       }
       fit.causes.push_back(Note(ExplainDelay(*fit.torque_delay, step)));
+      fit.causes.push_back(UntoldShape(fit, rows, ByShape(fit, given, *delay, step)));
     }
     return fit;
   }

@@ -65,6 +65,11 @@ void MoveEffortLimits(mjSpec& spec, const std::vector<std::string>& joints, cons
   for (const std::string& name : joints) {
     mjsJoint* joint = FindJoint(spec, name, place);
     if (!Limited(*joint)) continue;
+    // what has no end limits nothing
+    if (std::isinf(joint->actfrcrange[0]) && std::isinf(joint->actfrcrange[1])) {
+      joint->actfrclimited = mjLIMITED_FALSE;
+      continue;
+    }
     const int motors = LimitMotors(spec, name, joint->actfrcrange);
     if (motors == 0) {
       dropped.push_back(

@@ -158,6 +158,28 @@ TEST(PreparedLog, TellsWhetherItHoldsSpeeds) {
   EXPECT_TRUE(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400))).holds_speeds());
 }
 
+/// Motion of a hand: sines of several periods of seconds, or holds of 2 s, with noise of the velocity that hides part of it.
+enum class NoisyMotion { holds, smooth };
+Measurements HiddenByNoise(NoisyMotion motion) {
+  const bool held = motion == NoisyMotion::holds;
+  RandomStream noise({5, held}, Stream::test);
+  Eigen::VectorXd velocity(12000);
+  for (Eigen::Index i = 0; i < velocity.size(); ++i) {
+    const double t = 0.016 * static_cast<double>(i);
+    const double smooth = 0.5 * std::sin(0.9 * t) + 0.3 * std::sin(2.3 * t + 1);
+    const double steady = (i / 125 % 2 ? -0.2 : 0.2) * static_cast<double>(1 + i / 250 % 3);
+    velocity[i] = held ? steady : smooth;
+  }
+  Measurements m = test::Record(0.016, velocity, Eigen::VectorXd::Zero(velocity.size()));
+  for (double& v : m.velocity) v += 0.01 * noise.Normal();
+  return m;
+}
+
+TEST(PreparedLog, PiecesOfASmoothMotionThatNoiseHidesHoldNoSpeed) {
+  EXPECT_FALSE(Prepare(HiddenByNoise(NoisyMotion::smooth)).holds_speeds());
+  EXPECT_TRUE(Prepare(HiddenByNoise(NoisyMotion::holds)).holds_speeds());
+}
+
 /// Speed that goes up and down between -1 and 1 rad/s, 4 s a period, by straight lines or as a sine.
 /// Positions are exact; both are sampled every h from `phase` on, s.
 struct Swing {
