@@ -96,7 +96,7 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
 }
 
 std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool varied, const Fit& fit) {
-  if (!varied || held_out.n < kFewest || held_out.fit >= 0) return std::nullopt;
+  if (!varied || held_out.n < kFewest || !(held_out.fit < 0)) return std::nullopt;
   return Floor(Source::worse_than_mean, Status::inadequate_model,
                ExplainWorseHeldOut(held_out.fit, fit));
 }

@@ -171,7 +171,7 @@ struct Judged {
     const Eigen::Map<const Eigen::VectorXd> x(values.data(),
                                               static_cast<Eigen::Index>(values.size()));
     fit.friction = FrictionOf(*FindLaw(law), x, {});
-    fit.parameters = WithValues(LawUnknowns(*FindLaw(law), x.size(), {}), x);
+    fit.parameters = WithValues(LawUnknowns(*FindLaw(law), x.size(), UnitsOf({})), x);
     inference.message = "fitted";
     for (const double value : values) {
       inference.parameters.push_back({value, 0.05, {{value - 0.1, value + 0.1}}});
