@@ -38,7 +38,7 @@ def test_an_example_runs(arguments, needed, said, recording, tmp_path):
     assert said in done.stdout
 
 
-@pytest.mark.parametrize("page", ["README.md", "tools/python/README.md", "tools/docs/mujoco.md", "tools/docs/training.md", "tools/docs/tutorial.md"])
+@pytest.mark.parametrize("page", ["README.md", "tools/python/README.md", "tools/docs/mujoco.md", "tools/docs/training.md", "tools/docs/compensate.md", "tools/docs/tutorial.md"])
 def test_the_python_of_a_page_runs(page, recording, tmp_path):
     for needed in ("mujoco.batch", "matplotlib", "jinja2", "pandas"):
         pytest.importorskip(needed)

@@ -1,4 +1,4 @@
-// warmjoint export FILE --to ENGINE: friction as the numbers that other engines take.
+// warmjoint export FILE --to ENGINE: friction as the numbers that other engines take, or as code of a controller.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -47,13 +47,15 @@ ExitStatus Export(const ExportArguments& arguments) {
 
 Command AddExportCommand(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* parser =
-      program.add_subcommand("export", "Friction as the numbers that other engines take");
+  CLI::App* parser = program.add_subcommand(
+      "export", "Friction as the numbers of other engines, or as code of a controller");
   AddValue(*parser, "FILE", "FILE", arguments->file,
            "estimate.json of identify, robot.json of identify-robot, or a friction file")
       ->required();
   GiveExample(*parser, "warmjoint export estimate.json --to isaaclab --joint elbow -o elbow.py");
-  AddChoice(*parser, "--to", arguments->request.to, "whose numbers")->required();
+  AddChoice(*parser, "--to", arguments->request.to,
+            "whose numbers; c, cpp, python: code of a controller, with heat and maps")
+      ->required();
 
   // how warm the joint is, and what it is called
   constexpr double most = std::numeric_limits<double>::infinity();

@@ -11,6 +11,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/friction/friction_json.h"
+#include "tools/shown/friction_doubt.h"
 
 namespace warmjoint {
 namespace {
@@ -221,10 +222,12 @@ SeenFriction SeenOf(const std::string& joint, const Estimate& estimate, const st
   }
   RefuseAmperes(*estimate.friction, {file});
   SeenFriction seen{joint, *estimate.friction};
+  seen.doubt = shown::DoubtOf(estimate);
   for (const EstimatedParameter& one : estimate.parameters) {
     const bool linear = one.unit == kTorqueUnit.linear || one.unit == kViscousUnit.linear;
     if (linear) seen.kind = JointKind::linear;
     if (one.name == "inertia" && one.value > 0) seen.inertia = one.value;
+    if (one.interval95) seen.intervals[one.name] = *one.interval95;
   }
   for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
     if (one.speed != 0) seen.speeds.push_back(std::abs(one.speed));

@@ -1,23 +1,29 @@
-// Friction as the numbers that engines without heat, maps and directions take, and what these numbers leave out.
+// Friction as the numbers that engines without heat, maps and directions take, and what these numbers leave out; and as the
+// code of a controller.
 #pragma once
 
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "models/friction/compensator.h"
+
 namespace warmjoint {
 
-/// Whose numbers are asked for.
-enum class EngineFormat { mjcf, urdf, physx, isaaclab, mjlab };
+/// Whose numbers are asked for; c, cpp and python: code of a controller (controller_code.h).
+enum class EngineFormat { mjcf, urdf, physx, isaaclab, mjlab, c, cpp, python };
 
 inline std::span<const Word<EngineFormat>> WordsOf(EngineFormat) {
   static constexpr std::array words{
-      Word{"mjcf", EngineFormat::mjcf}, Word{"urdf", EngineFormat::urdf},
+      Word{"mjcf", EngineFormat::mjcf},   Word{"urdf", EngineFormat::urdf},
       Word{"physx", EngineFormat::physx}, Word{"isaaclab", EngineFormat::isaaclab},
-      Word{"mjlab", EngineFormat::mjlab}};
+      Word{"mjlab", EngineFormat::mjlab}, Word{"c", EngineFormat::c},
+      Word{"cpp", EngineFormat::cpp},     Word{"python", EngineFormat::python}};
   return words;
 }
 
@@ -41,6 +47,8 @@ struct SeenFriction {
   std::optional<double> inertia{};  // kg.m^2 or kg
   std::optional<double>
       half_width{};  // of the friction at the speed where it is known best, N.m or N
+  std::map<std::string, std::array<double, 2>> intervals{};  // of its parameters, 95 %
+  FrictionDoubt doubt{};
 };
 
 /// The friction of an estimate. Throws BadInput, from `file`, where it holds none, or one in amperes.

@@ -13,6 +13,7 @@
 #include "models/foundation/serialize.h"
 #include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
+#include "tools/export/controller_code.h"
 #include "tools/export/native_text.h"
 
 namespace warmjoint {
@@ -169,8 +170,16 @@ Exported ExportFrictions(const Node& file, const ExportRequest& request) {
     Refuse({"--native"}, "is for --to mjcf, not for {}: springs with a yield are MuJoCo's",
            NameOf(request.to));
   }
-  Exported exported{.request = request, .frictions = {}, .notices = {}};
-  for (const SeenFriction& seen : SeenIn(file, request, exported.notices)) {
+  const Warmth& warmth = request.warmth;
+  if (IsCode(request.to) && (warmth.share != 0 || warmth.speed)) {
+    Refuse({warmth.speed ? "--speed" : "--warm"},
+           "is for engines without heat, and {} has heat as a state of the joint; leave it out",
+           NameOf(request.to));
+  }
+  Exported exported{.request = request, .frictions = {}, .notices = {}, .whole = {}};
+  exported.whole = SeenIn(file, request, exported.notices);
+  if (IsCode(request.to)) return exported;
+  for (const SeenFriction& seen : exported.whole) {
     exported.frictions.push_back(InEngine(seen, request.warmth, request.to));
     // a spring with a yield holds
     if (!request.native) continue;
@@ -191,6 +200,7 @@ std::string EngineText(const std::vector<EngineFriction>& frictions, EngineForma
 
 std::string ExportText(const Exported& exported) {
   const ExportRequest& request = exported.request;
+  if (IsCode(request.to)) return CodeText(exported.whole, request.to);
   return request.native ? NativeText(exported.frictions, request.timestep)
                         : EngineText(exported.frictions, request.to);
 }

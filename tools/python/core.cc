@@ -32,6 +32,7 @@
 #include "tools/identify/catalogue.h"
 #include "tools/identify/identify_recording.h"
 #include "tools/identify/predict_recording.h"
+#include "tools/python/compensators.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/logs.h"
 #include "tools/python/trees.h"
@@ -343,6 +344,7 @@ NB_MODULE(_core, module) {
   python::AddLogs(module);
   python::AddIdentification(module);
   python::AddFriction(module);
+  python::AddCompensators(module);
   python::AddWords(module);
   python::WaitAtExit();
 }

@@ -1,4 +1,4 @@
-// robot.json through what reads it: attach, export to every engine, and the facts of a report.
+// robot.json through what reads it: attach, export to every engine and controller, and the facts of a report.
 #include <nlohmann/json.hpp>
 
 #include "identification/robot/robot_estimate.h"
@@ -40,13 +40,12 @@ void warmjoint::fuzz::Read(std::string_view bytes) {
     shown::ShownData data;
     shown::RobotFacts(robot, data).dump();
   });
-  for (const EngineFormat format : {EngineFormat::mjcf, EngineFormat::urdf, EngineFormat::physx,
-                                    EngineFormat::isaaclab, EngineFormat::mjlab}) {
+  for (const Word<EngineFormat>& format : WordsOf(EngineFormat{})) {
     Try([&] {
       ExportRequest request;
-      request.to = format;
+      request.to = format.value;
       const Exported exported = ExportFrictions(ReadJsonNode(file.path()), request);
-      RequireText(EngineText(exported.frictions, format));
+      RequireText(ExportText(exported));
     });
   }
   Try([&] {

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
 from warmjoint.answers import FrictionAtSpeed, Parameter, Prediction, Residuals
+from warmjoint.compensate import Compensated, Compensator
 from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
 from warmjoint.estimate import Estimate, Rejected, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
@@ -54,6 +55,6 @@ with contextlib.suppress(Exception):
     importlib.import_module("warmjoint.mujoco_plugin")
 
 
-__all__ = ["BadInput", "Board", "Check", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
+__all__ = ["BadInput", "Board", "Check", "Compensated", "Compensator", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
            "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify",
            "identify_robot", "laws", "load", "load_robot", "native", "read", "reference", "run", "score", "simulate", "split"]

@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from warmjoint import _core
 from warmjoint.answers import FrictionAtSpeed, Parameter, Prediction, Residuals, interval_text, value_text
+from warmjoint.compensate import Compensator
 from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
@@ -261,8 +262,16 @@ class Estimate:
         facts, arrays = _core.shown_on_page(self.data, log._core)
         _core.write_text(path_of(path), pages.fill("log", view.unpacked(facts, arrays)))
 
+    def compensator(self, **how: Any) -> Compensator:
+        """What compensates this friction on a robot, from a cold joint on; its doubts are those of the estimate. how: share, dead_band,
+        correct and the other arguments of Compensator. Raises Rejected where there is no friction."""
+        if not self.data.get("friction"):
+            raise Rejected(self.message)
+        return Compensator(self, **how)
+
     def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None, joint: str = "") -> Export:
-        """The friction as the numbers that another engine takes: what `warmjoint export` does. to: mjcf, urdf, physx, isaaclab or mjlab.
+        """The friction as the numbers that another engine takes: what `warmjoint export` does. to: mjcf, urdf, physx, isaaclab or mjlab,
+        or the whole friction as code of a controller: c, cpp or python, which take neither warm nor speed.
         warm: 0 cold, 1 as warm as sliding at `speed` makes it (rad/s or m/s; the log's median where not given). joint: its name in what
         the engine reads, which physx, isaaclab and mjlab need. The text has as many digits as the interval supports, `joints` has all.
         Raises BadInput for an estimate without friction, or with one in amperes."""

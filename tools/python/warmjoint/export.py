@@ -10,7 +10,7 @@ from typing import Any, Literal
 from warmjoint import _core
 from warmjoint.values import path_of
 
-EngineFormat = Literal["mjcf", "urdf", "physx", "isaaclab", "mjlab"]
+EngineFormat = Literal["mjcf", "urdf", "physx", "isaaclab", "mjlab", "c", "cpp", "python"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,7 +38,7 @@ class EngineFriction:
 
 @dataclasses.dataclass(frozen=True)
 class Export:
-    """What the engine reads, and the numbers in it."""
+    """What the engine reads, and the numbers in it; of code the text alone."""
 
     text: str
     joints: dict[str, EngineFriction]
