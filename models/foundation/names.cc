@@ -7,6 +7,8 @@
 namespace warmjoint {
 namespace {
 
+constexpr std::size_t kLongest = 200;  // bytes of a name; why: a picture's title holds no more
+
 /// Refuses the first character that is not shown as it is, and for which `allowed` says no.
 template <typename Allowed>
 void Require(std::string_view what, std::string_view text, const Place& place, Allowed allowed) {
@@ -33,6 +35,10 @@ void Require(std::string_view what, std::string_view text, const Place& place, A
 }  // namespace
 
 void RequireName(std::string_view what, std::string_view name, const Place& place) {
+  if (name.size() > kLongest) {
+    Refuse(place, "{} '{}' has {} bytes; at most {} are read", what, Excerpt(name), name.size(),
+           kLongest);
+  }
   Require(what, name, place, [](char32_t) { return false; });
 }
 

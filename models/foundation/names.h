@@ -8,7 +8,7 @@
 namespace warmjoint {
 
 /// Throws BadInput from `place` for a name that is no text: with bytes that are no UTF-8, or with a character on which a terminal,
-/// an XML parser or a line of a program acts (Printable in excerpt.h). what: "the name of a joint".
+/// an XML parser or a line of a program acts (Printable in excerpt.h), or longer than 200 bytes. what: "the name of a joint".
 void RequireName(std::string_view what, std::string_view name, const Place& place);
 
 /// The same of a text that may have several lines and marks of writing direction: refused are bytes that are no UTF-8, and the

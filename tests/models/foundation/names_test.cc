@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <string>
+
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/description_text.h"
 #include "models/foundation/node.h"
@@ -35,6 +37,14 @@ TEST(Names, AreText) {
                 }),
                 AllOf(HasSubstr("r.urdf:7: the name of a joint '"), HasSubstr(words)));
   }
+}
+
+TEST(Names, HaveAnEnd) {
+  RequireName("the name of a joint", std::string(200, 'x'), {"r.urdf"});
+  EXPECT_THAT(test::RefusalOf([] {
+                RequireName("the name of a joint", std::string(201, 'x'), {"r.urdf", 7});
+              }),
+              AllOf(HasSubstr("r.urdf:7: "), HasSubstr("has 201 bytes; at most 200")));
 }
 
 TEST(Names, TextsMayHaveLines) {

@@ -1,11 +1,25 @@
 """What HDF5, MATLAB and netCDF files hold: groups, structs, cells, arrays of structs, compounds and references. Links lead to no other file."""
 
 import h5py
+import numpy
 import scipy.io
 from columns import MOST_PATHS
 from refusal import Refusal, first_line
 
 DEEPEST = 16  # groups within groups
+
+
+class Told(numpy.ndarray):
+    """An array with attributes, as the datasets of HDF5 have them."""
+
+    attrs = {}
+
+
+def told(variable):
+    """A variable of a netCDF file. Its numbers are big-endian there."""
+    array = numpy.array(variable.data, dtype=variable.data.dtype.newbyteorder("=")).view(Told)
+    array.attrs = {"units": variable.units} if hasattr(variable, "units") else {}
+    return array
 
 
 class Looking:
@@ -56,7 +70,7 @@ def tree(path, notes):
             return looking.at(looking.file, 0)
         if path.suffix.lower() == ".nc":  # of version 3; 4 is HDF5
             with scipy.io.netcdf_file(path, mmap=False) as file:
-                return dict(file.variables)
+                return {name: told(one) for name, one in file.variables.items()}
         return {name: value for name, value in scipy.io.loadmat(path, simplify_cells=True).items() if not name.startswith("__")}
     except (Refusal, MemoryError):
         raise
