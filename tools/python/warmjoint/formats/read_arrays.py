@@ -10,9 +10,7 @@ DEEPEST = 16  # groups within groups
 
 
 class Told(numpy.ndarray):
-    """An array with attributes, as the datasets of HDF5 have them."""
-
-    attrs = {}
+    """An array that may have attributes, in `attrs`, as the datasets of HDF5 have."""
 
 
 def told(variable):
