@@ -20,8 +20,10 @@ constexpr std::size_t kMostIterations = 100;  // why: of the solver (solve_by_ce
 }  // namespace
 
 std::string SlowSpeeds(const LogSamples& measurements, const Selection& selection) {
-  const Eigen::ArrayXd speed = Kept(measurements.velocity, selection).col(0).array().abs();
-  const double slowest = speed.minCoeff();
+  // of all samples, where none is left
+  const Eigen::VectorXd& all = measurements.velocity;
+  const Eigen::VectorXd speed = selection.count() > 0 ? Kept(all, selection) : all;
+  const double slowest = speed.cwiseAbs().minCoeff();
   return ExplainSlowSpeeds(slowest, slowest / 10, measurements.joint);
 }
 
