@@ -33,6 +33,9 @@ typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& given,
   return kept;
 }
 
+/// The values of the kept samples at their places among all, and `elsewhere` at the others. kept: [n]; returns [N]
+Eigen::VectorXd AmongAll(const Eigen::VectorXd& kept, const Selection& selection, double elsewhere);
+
 /// Why nothing can be fitted to these data: a number that is not finite, too few kept samples for
 /// `parameters`, or a constant torque. Empty where the data can be used.
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "identification/fit_data.h"
@@ -178,11 +179,8 @@ bool ShowsWeight(const IdentifierInput& input) {
   if (without.refusal || !unseen) return false;
 
   // on the rows of both
-  VectorXd left = VectorXd::Constant(m.size(), std::numeric_limits<double>::quiet_NaN());
-  const VectorXd residual = without.residual();
-  for (Index i = 0, row = 0; i < m.size(); ++i) {
-    if (without.used.keep[i]) left[i] = residual[row++];
-  }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const VectorXd left = AmongAll(without.residual(), without.used, none);
   Selection common = input.selection;
   common.keep = common.keep && left.array().isFinite() && unseen->array().isFinite();
   const std::vector<StructureCandidate> both{

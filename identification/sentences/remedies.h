@@ -59,8 +59,7 @@ inline constexpr const char* kActsAsWeight =  // before a command
     "it acts as the weight of what the joint carries: ";
 inline constexpr const char* kIdentifyRecordings =
     "the joint carried another weight in each recording, or was mounted in another way: identify "
-    "each "
-    "recording by itself";
+    "each recording by itself";
 inline constexpr const char* kMoreThanLoad =
     "the map over load does not follow it: friction depends on more than the load";
 inline constexpr const char* kIdentifyPartsOfStep =

@@ -6,19 +6,6 @@
 #include "identification/linear/linear_laws.h"
 
 namespace warmjoint {
-namespace {
-
-/// [n] at the kept samples, 0 elsewhere: [N].
-Eigen::VectorXd AtSamples(const Eigen::VectorXd& kept, const Selection& selection) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(selection.keep.size());
-  Eigen::Index n = 0;
-  for (Eigen::Index i = 0; i < all.size(); ++i) {
-    if (selection.keep[i]) all[i] = kept[n++];
-  }
-  return all;
-}
-
-}  // namespace
 
 LawProblem::LawProblem(const IdentifierInput& input, const LinearTask& task)
     : input_(input),
@@ -32,9 +19,9 @@ RowTreatment LawProblem::AsMeasured() const {
 
 ModelSamples LawProblem::SamplesFor(const RowTreatment& rows) const {
   const Selection& selection = input_.selection;
-  return {.torque = AtSamples(rows.torque, selection),
+  return {.torque = AmongAll(rows.torque, selection, 0),
           .keep = selection.keep,
-          .weights = rows.weights.size() > 0 ? AtSamples(rows.weights, selection) : rows.weights,
+          .weights = rows.weights.size() > 0 ? AmongAll(rows.weights, selection, 0) : rows.weights,
           .transform = rows.transform.get()};
 }
 

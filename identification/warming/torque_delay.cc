@@ -161,23 +161,13 @@ void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& 
   fit.effective_parameters += 1;
 }
 
-/// What a fit leaves of each sample, 0 of those that it did not use. [N]
-VectorXd LeftOf(const Fit& fit) {
-  VectorXd left = VectorXd::Zero(fit.used.keep.size());
-  const VectorXd residual = fit.residual();
-  for (Index i = 0, n = 0; i < left.size(); ++i) {
-    if (fit.used.keep[i]) left[i] = residual[n++];
-  }
-  return left;
-}
-
 /// Whether a fit with a delay leaves less of the samples that both used than another: by more than so many variances of the noise,
 /// as coloured as it is.
 bool Improves(const Fit& late, const Fit& other, double variances) {
   if (other.refusal) return true;
   const VectorXd both = (late.used.keep && other.used.keep).cast<double>();
-  const double with = LeftOf(late).cwiseProduct(both).squaredNorm();
-  const double without = LeftOf(other).cwiseProduct(both).squaredNorm();
+  const double with = AmongAll(late.residual(), late.used, 0).cwiseProduct(both).squaredNorm();
+  const double without = AmongAll(other.residual(), other.used, 0).cwiseProduct(both).squaredNorm();
   const double variance = with / std::max(both.sum(), 1.0);
   const double inflation = CovarianceOf(late).noise.variance_inflation;
   return without - with > variances * variance * inflation;
