@@ -176,7 +176,8 @@ def attach(
     another kind than its estimate's, or too light for its friction. The command line (`warmjoint attach`) does the same,
     in the actuator form where none is asked for.
     """
-    if isinstance(form, str) and form == "native":
+    asked: object = form  # what a program without types may give
+    if isinstance(asked, str) and asked == "native":
         raise BadInput("form: is native, whose springs a driver sets after each step; call wj.native, which has it")
     attached, _ = attach_form(model, frictions, {"form": form, "sensors": sensors, "numbers": randomisable, "stiffest_drive": stiffest_drive}, armatures,
                               timestep, integrator)
