@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Some 6,000 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
+"""Some 15,000 wrong calls of the Python package, in processes that may die of them. package.py; package.py --many COUNT
 
 Each call gives an answer or raises an exception that says what is wrong: BadInput, TypeError that names an argument, KeyError of a name,
 Rejected. A RuntimeError, an exception of the inside, a text with options of the command line or with control characters, or the end of the
@@ -86,6 +86,23 @@ def oddities():
     }
 
 
+def said(raised):
+    """What an exception says, also where it cannot be printed, as of numbers with thousands of digits."""
+    try:
+        return str(raised)
+    except ValueError as unprinted:
+        return f"{type(raised).__name__} that cannot be printed: {unprinted}"
+
+
+def can_be_key(value):
+    """Whether Python lets a value name something in a dict; what it does not is no call of ours."""
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True
+
+
 def attach_calls(odd, friction):
     """(name, call) of friction in MuJoCo."""
     import mujoco
@@ -100,7 +117,8 @@ def attach_calls(odd, friction):
         yield f"attach({name})", lambda v=value: wj.attach(v, {"elbow": friction})
         yield f"attach(frictions={name})", lambda v=value: wj.attach(arm, v)
         yield f"attach(friction={name})", lambda v=value: wj.attach(arm, {"elbow": v})
-        yield f"attach(joint={name})", lambda v=value: wj.attach(arm, {v: friction})
+        if can_be_key(value):
+            yield f"attach(joint={name})", lambda v=value: wj.attach(arm, {v: friction})
         for member in ("friction", "status", "state_end", "parameters"):
             tree = {"friction": friction.data, "status": "ok", member: value}
             yield f"attach({member}={name})", lambda t=tree: wj.attach(arm, {"elbow": t})
@@ -188,6 +206,7 @@ def tool_calls(odd, log, estimate, friction):
         yield f"attached.bind(data={name})", lambda v=value: attached.bind(model, v)
         yield f"attached.bind(prefix={name})", lambda v=value: attached.bind(model, data, v)
         yield f"split({name})", lambda v=value: wj.split(v)
+        yield f"split(spec={name})", lambda v=value: wj.split(attached, v)
         for number in ("coulomb", "viscous", "thermal_gain", "static", "nonsense"):
             yield f"arrays.changed({number}={name})", lambda n=number, v=value: arrays.changed(**{n: v})
         yield f"arrays.in_model({name})", lambda v=value: arrays.in_model(v)
@@ -214,6 +233,51 @@ def tool_calls(odd, log, estimate, friction):
         for argument in ("position", "heat", "band", "load"):
             yield f"estimate.friction({argument}={name})", lambda a=argument, v=value: estimate.friction(1.0, **{a: v})
         yield f"reference.start({name})", lambda v=value: wj.reference.start(v)
+
+
+def compensator_calls(odd, log, estimate, friction):
+    """(name, call) of compensation."""
+    import warmjoint as wj
+
+    held = wj.Compensator(friction)
+    for name, value in odd.items():
+        yield f"Compensator({name})", lambda v=value: wj.Compensator(v)
+        for argument in ("level_std", "heat_std", "noise", "noise_time", "share", "dead_band", "most_speed", "longest_gap", "contact_time", "deviations",
+                         "heat", "correct", "nonsense"):
+            yield f"compensator({argument}={name})", lambda a=argument, v=value: estimate.compensator(**{a: v})
+            yield f"Compensator({argument}={name})", lambda a=argument, v=value: wj.Compensator(friction, **{a: v})
+        yield f"step({name})", lambda v=value: held.step(v)
+        for argument in ("torque", "dt", "position", "motor_position", "load", "ambient_rise", "reference"):
+            yield f"step({argument}={name})", lambda a=argument, v=value: held.step(1.0, **{a: v})
+        for method in ("run", "rest", "restore"):
+            yield f"compensator.{method}({name})", lambda m=method, v=value: getattr(held, m)(v)
+        yield f"restore(seconds_off={name})", lambda v=value: held.restore(held.state, v)
+        yield f"restore(energy={name})", lambda v=value: held.restore({**held.state, "energy": v})
+
+
+def native_calls(odd, friction):
+    """(name, call) of friction as MuJoCo's springs."""
+    import mujoco
+    import warmjoint as wj
+
+    arm = """<mujoco><worldbody><body><joint name="elbow" armature="1"/><geom size="0.1"/></body></worldbody></mujoco>"""
+    own = wj.native(arm, {"elbow": friction})
+    data, other = mujoco.MjData(own.model), mujoco.MjData(mujoco.MjModel.from_xml_string(arm))
+    yield "native.step(other data)", lambda: own.step(other)
+    for name, value in odd.items():
+        yield f"native({name})", lambda v=value: wj.native(v, {"elbow": friction})
+        yield f"native(frictions={name})", lambda v=value: wj.native(arm, v)
+        for argument in ("approximate", "armatures", "timestep", "integrator", "nonsense"):
+            yield f"native({argument}={name})", lambda a=argument, v=value: wj.native(arm, {"elbow": friction}, **{a: v})
+        yield f"native.bind({name})", lambda v=value: own.bind(v)
+        yield f"native.bind(prefix={name})", lambda v=value: own.bind(own.model, v)
+        for method in ("start", "step", "warm"):
+            yield f"native.{method}({name})", lambda m=method, v=value: getattr(own, m)(v)
+        for argument in ("warm", "speed"):
+            yield f"native.start({argument}={name})", lambda a=argument, v=value: own.start(data, **{"warm": 1, a: v})
+        for argument in ("nstep", "every"):
+            yield f"native.step({argument}={name})", lambda a=argument, v=value: own.step(data, **{a: v})
+        yield f"native.warm(steps={name})", lambda v=value: own.warm(data, v)
 
 
 def calls(group, folder):
@@ -243,7 +307,7 @@ def calls(group, folder):
     elif group == "identify":
         for name, value in odd.items():
             yield f"identify({name})", lambda v=value: wj.identify(v)
-            for argument in ("method", "gravity", "motion", "start", "relevance", "holdout", "progress", "law", "torque_lag", "unit", "nonsense"):
+            for argument in ("method", "gravity", "motion", "start", "relevance", "holdout", "progress", "law", "torque_lag", "unit", "force", "nonsense"):
                 if (argument, name) == ("progress", "type"):  # int, which raises of words
                     continue
                 yield f"identify({argument}={name})", lambda a=argument, v=value: wj.identify(log, **{"method": "nominal-ls", a: v})
@@ -276,6 +340,10 @@ def calls(group, folder):
         yield from attach_calls(odd, friction)
     elif group == "robot":
         yield from robot_calls(odd, folder)
+    elif group == "compensator":
+        yield from compensator_calls(odd, log, estimate, friction)
+    elif group == "native":
+        yield from native_calls(odd, friction)
     elif group == "tools":
         yield from tool_calls(odd, log, estimate, friction)
     else:
@@ -288,7 +356,7 @@ def calls(group, folder):
             yield f"run({name})", lambda v=value: wj.run(v, os.path.join(folder, "run"), realizations=1)
 
 
-GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "attach", "robot", "tools", "engine"]
+GROUPS = ["columns", "settings", "files", "identify", "friction", "estimate", "attach", "robot", "tools", "compensator", "native", "engine"]
 
 
 def inside(group):
@@ -303,7 +371,7 @@ def inside(group):
         try:
             call()
         except allowed as refusal:
-            text = str(refusal)
+            text = said(refusal)
             if not text.strip() or len(text) > 20_000:
                 print("fault", name, type(refusal).__name__, "says nothing, or a book")
             elif isinstance(refusal, wj.BadInput) and OPTION.search(text):
@@ -313,7 +381,7 @@ def inside(group):
             elif isinstance(refusal, TypeError) and not NAMES.search(text):
                 print("fault", name, "a TypeError of the inside:", text[:300])
         except BaseException as fault:
-            print("fault", name, type(fault).__name__, ascii(str(fault))[:300])
+            print("fault", name, type(fault).__name__, ascii(said(fault))[:300])
     print("end", flush=True)
 
 

@@ -15,7 +15,7 @@ mujoco = pytest.importorskip("mujoco")
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-from warmjoint import BadInput, Friction, attach, mujoco_attach, mujoco_plugin, split  # noqa: E402
+from warmjoint import BadInput, Friction, attach, identify_robot, mujoco_attach, mujoco_plugin, split  # noqa: E402
 
 ROBOT = """
 <mujoco model="arm">
@@ -270,6 +270,19 @@ def test_wrong_calls_are_refused_by_name_and_change_nothing():
     with pytest.raises(ValueError, match="smaller speed"):
         growing = BIG | {"thermal": {"thermal_gain": 0.5, "thermal_time_constant": 10}}
         bound(frictions={"joint1": growing}).reset(warm=1, speed=3)
+
+
+def test_what_mujoco_refuses_is_said_in_one_line():
+    massless = "<mujoco><worldbody><body><joint name='joint1'/></body></worldbody></mujoco>"
+    for call in (lambda: attach("no \x1b[31m such\n file.xml", {"joint1": BIG}), lambda: attach("<mujoco><worldbdy/></mujoco>", {"joint1": BIG}),
+                 lambda: split(mujoco.MjSpec.from_string(massless)), lambda: identify_robot(mujoco.MjSpec.from_string(massless), {"time": [1]})):
+        with pytest.raises(BadInput, match=r"^model: MuJoCo cannot") as refused:
+            call()
+        assert str(refused.value).isprintable() and "\\x0A" not in str(refused.value)
+    bare, arrays = split(attach(ROBOT, {"joint1": BIG}))
+    for arguments, words in ((("model",), "^model: "), ((bare, 5), "^prefix: is 5"), ((bare, "\udcff"), "^prefix: .*no UTF-8")):
+        with pytest.raises(BadInput, match=words):
+            arrays.in_model(*arguments)
 
 
 def test_models_from_specs_files_and_memory(tmp_path):

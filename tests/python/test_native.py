@@ -166,6 +166,20 @@ def test_steps_and_joints_that_springs_do_not_suit_are_refused(options, words):
         wj.native(wj.native(hinge(), {"hinge": WARM}).spec, {"hinge": WARM})
 
 
+@pytest.mark.parametrize(("call", "words"), [
+    (lambda native, data: native.start(None), "^data: is None; give a mujoco.MjData"),
+    (lambda native, data: native.start(data, warm="hot"), "^warm: "),
+    (lambda native, data: native.start(data, warm=1, speed=[1, 2]), "^speed: "),
+    (lambda native, data: native.warm(data, 0.5), "^steps: "),
+    (lambda native, data: native.step(mujoco.MjData(mujoco.MjModel.from_xml_string("<mujoco/>"))), "^data: is of another model"),
+    (lambda native, data: native.bind(native.model, prefix=1), "^prefix: "),
+])
+def test_wrong_calls_of_the_driver_are_refused_by_the_name_of_the_argument(call, words):
+    native = wj.native(hinge(), {"hinge": WARM})
+    with pytest.raises(wj.BadInput, match=words):
+        call(native, mujoco.MjData(native.model))
+
+
 def test_a_pose_that_was_set_anew_and_a_reset_begin_relaxed_with_the_heat_of_the_last_start():
     native = wj.native(hinge(), {"hinge": WARM})
     data = mujoco.MjData(native.model)

@@ -173,6 +173,29 @@ def test_what_is_no_column_is_refused_by_its_name(si, column, values, words):
         wj.Log(**{**si, column: values(si[column])})
 
 
+@pytest.mark.parametrize(("call", "words"), [
+    (lambda log, friction: log.between("early", 5), "^begin: "),
+    (lambda log, friction: log.between(0, None), "^end: is None"),
+    (lambda log, friction: wj.Log.from_frame({}, map=True), "^map: is a value of the type bool"),
+    (lambda log, friction: wj.laws(["linear"]), "^joint: .*give 'rotary' or 'linear'"),
+    (lambda log, friction: wj.score("estimate.json", {}), "^estimate: is a value of the type str; give a warmjoint.Estimate"),
+    (lambda log, friction: wj.identify(log, force=np.zeros(3)), "^force: .*give True or False"),
+    (lambda log, friction: friction.changed(np.zeros((9, 9)), 1), "^array"),
+    (lambda log, friction: wj.Compensator(np.zeros(1, "M8[s]")), "^friction: is a value of the type ndarray"),
+    (lambda log, friction: wj.Compensator(friction).step(1.0, load="heavy"), "^load: "),
+    (lambda log, friction: wj.Compensator(friction).restore("cold"), "^state: "),
+])
+def test_wrong_calls_are_refused_by_the_name_of_the_argument_in_one_line(si, call, words):
+    with pytest.raises(wj.BadInput, match=words) as refused:
+        call(wj.Log(**si), wj.Friction(viscous=1, coulomb=2))
+    assert len(str(refused.value).splitlines()) == 1
+
+
+def test_a_refusal_holds_nothing_that_a_terminal_acts_on():
+    assert str(wj.BadInput("a\x1b[31mb\n\u202ec\udcff\xe9")) == "a\\x1B[31mb\\x0A\\u202Ec\\udcff\xe9"
+    assert str(wj.BadInput()) == ""
+
+
 def test_files_and_frames_are_read_by_one_rule(foreign, tmp_path):
     """The same names and numbers from a file and from a frame give the same log, the same notes and the same doubts."""
     pandas = pytest.importorskip("pandas")

@@ -337,7 +337,9 @@ NB_MODULE(_core, module) {
   namespace nb = nanobind;
   using namespace warmjoint;
   // refusals keep the program's text, with arguments in place of options
-  nb::exception<BadInput>(module, "BadInput", PyExc_ValueError);
+  const nb::exception<BadInput> refusal(module, "BadInput", PyExc_ValueError);
+  // also of what Python raises, whose text holds names and sentences of other libraries
+  nb::setattr(refusal, "__str__", nb::cpp_function(python::PrintableText, nb::is_method()));
   nb::exception<OutputFailed>(module, "OutputFailed", PyExc_OSError);
   python::SpeakPython(module);
   module.attr("version") = Version();

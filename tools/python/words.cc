@@ -61,6 +61,9 @@ constexpr std::array kSpellings = std::to_array<Spelling>({
     {"stiffest-drive", "stiffest_drive", Behind::number},
     {"integrator", "integrator", Behind::word, " auto Euler RK4 implicit implicitfast "},
     {"approximate", "approximate", Behind::flag},
+    // of export
+    {"warm", "warm", Behind::number},
+    {"speed", "speed", Behind::number},
     // of simulate and run
     {"realizations", "realizations", Behind::number},
     {"realization", "realization", Behind::number},
@@ -289,6 +292,14 @@ std::vector<Tree> CallsIn(std::string_view text) {
   }
   if (is_example) calls.pop_back();
   return calls;
+}
+
+std::string PrintableText(nanobind::handle raised) {
+  const nanobind::object said = nanobind::handle(PyExc_ValueError).attr("__str__")(raised);
+  // halves of pairs, which UTF-8 does not hold, by their codes
+  const auto bytes =
+      nanobind::cast<nanobind::bytes>(said.attr("encode")("utf-8", "backslashreplace"));
+  return Printable({bytes.c_str(), bytes.size()});
 }
 
 void SpeakPython(nanobind::module_ core) {

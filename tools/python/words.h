@@ -19,6 +19,9 @@ std::string InPython(std::string_view text);
 /// The calls that a text recommends: of each run of options with values a map from argument to value, in their order.
 std::vector<Tree> CallsIn(std::string_view text);
 
+/// What an exception of Python says, with nothing in it that a terminal acts on.
+std::string PrintableText(nanobind::handle raised);
+
 /// Lets a module's functions raise BadInput and OutputFailed of `core` with such messages.
 void SpeakPython(nanobind::module_ core);
 

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from warmjoint import _core
 from warmjoint.log import log_of
-from warmjoint.values import Array, kind_of, number
+from warmjoint.values import Array, flag, kind_of, named, number
 
 NAN = math.nan
 DOUBT = ("level_std", "heat_std", "noise", "noise_time")
@@ -54,12 +54,12 @@ class Compensator:
                  noise_time: float | None = None, share: float = 0.9, dead_band: float | None = None, most_speed: float = 0,
                  longest_gap: float = 0, contact_time: float = 0, deviations: float = 0, heat: Literal["model", "torque"] = "model",
                  correct: bool = True) -> None:
-        data = getattr(friction, "data", friction)
+        data = friction.data if hasattr(friction, "to_json") else friction
         if not isinstance(data, Mapping):
             raise _core.BadInput(f"friction: is {kind_of(friction)}; give an Estimate, a Friction, or what a friction file holds")
         given = zip(DOUBT, (level_std, heat_std, noise, noise_time), strict=True)
         doubt = {name: number(name, value) for name, value in given if value is not None}
-        settings: dict[str, Any] = {"share": number("share", share), "heat": heat, "correct": "by_torque" if correct else "none"}
+        settings: dict[str, Any] = {"share": number("share", share), "heat": heat, "correct": "by_torque" if flag("correct", correct) else "none"}
         numbers = {"most_speed": most_speed, "longest_gap": longest_gap, "contact_time": contact_time, "deviations": deviations}
         settings.update({name: number(name, value) for name, value in numbers.items()})
         if dead_band is not None:
@@ -75,7 +75,13 @@ class Compensator:
         call, s; one that is not above 0 repeats a sample. position: rad or m; motor_position: rad, where it is measured; load: that the
         joint transmits, N.m or N; ambient_rise: surroundings less those of the friction, K; reference: the velocity that is asked
         for, rad/s or m/s, by which the torque is made in place of the measured one."""
-        return self._core.step(velocity, torque, dt, (position, motor_position, load, ambient_rise, reference))
+        try:
+            return self._core.step(velocity, torque, dt, (position, motor_position, load, ambient_rise, reference))
+        except TypeError:  # of what is no number of Python
+            given = {"velocity": velocity, "torque": torque, "dt": dt, "position": position, "motor_position": motor_position, "load": load,
+                     "ambient_rise": ambient_rise, "reference": reference}
+            v, measured, seconds, q, motor, weight, warmer, asked = (number(name, value) for name, value in given.items())
+            return self._core.step(v, measured, seconds, (q, motor, weight, warmer, asked))
 
     def run(self, log: Any) -> Compensated:
         """Along a log, sample by sample, and on from there. Weight and inertia that an estimate knows are taken off the torque. Raises BadInput
@@ -122,7 +128,8 @@ class Compensator:
     def restore(self, state: Mapping[str, float], seconds_off: float = NAN) -> None:
         """Goes on with a kept `state` after seconds_off without power, in which the joint cooled; nan: nobody knows for how long, so
         that half of the heat is left, with the variance of all between none and all. Raises BadInput for what is no state."""
-        self._core.restore({**state, "time": 0.0}, float(seconds_off))
+        kept = {name: number(name, value) for name, value in named("state", state).items()}
+        self._core.restore({**kept, "time": 0.0}, number("seconds_off", seconds_off))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"given": self._given, "memory": list(self._core.memory())}

@@ -20,7 +20,7 @@ from warmjoint import _core, mujoco_library
 from warmjoint.answers import FrictionAtSpeed, Parameter
 from warmjoint.estimate import Estimate
 from warmjoint.log import Log
-from warmjoint.values import kind_of, path_of, whole
+from warmjoint.values import kind_of, of_kind, path_of, whole
 
 if TYPE_CHECKING:
     import pandas
@@ -67,6 +67,9 @@ def score(estimate: Estimate, truth: Simulated | Mapping[str, Any], log: Log | N
     """An estimate against the truth: {continuous{parameter: {truth, estimate, estimated, interval95, covered, relative_error,
     bound}}, discrete, npe_continuous, npe_discrete, ...}. bound: Cramer-Rao standard deviation, SI. log: that it was identified
     from, where the estimate does not know it."""
+    of_kind("estimate", estimate, Estimate)
+    if log is not None:
+        of_kind("log", log, Log)
     if not isinstance(truth, (Simulated, Mapping)):
         raise _core.BadInput(f"truth: is {kind_of(truth)}; give what simulate returns, or what truth.json holds")
     known = truth.truth if isinstance(truth, Simulated) else dict(truth)

@@ -14,6 +14,7 @@ from warmjoint._core import BadInput
 from warmjoint.friction import place_of, settled_energies
 from warmjoint.friction_arrays import FloatArray, FrictionArrays
 from warmjoint.mujoco_bound import USUAL_LINEAR_SPEED, USUAL_SPEED
+from warmjoint.values import number, numbers
 
 
 class Untested(UserWarning):
@@ -55,18 +56,19 @@ def check_timestep(friction: FrictionArrays, timestep: npt.ArrayLike) -> None:
 def settled_energies_of(friction: FrictionArrays, nworld: int, warm: npt.ArrayLike, speed: float | None) -> FloatArray:
     """[worlds x J x 2] E1 and E2 of worlds that are so warm: a share of what their own friction settles at, N.m or N. warm: one, [J] or
     [worlds x J]; speed: rad/s or m/s. Raises BadInput."""
-    share = np.asarray(warm, dtype=np.float64)
+    share = numbers("warm", warm)
     try:
         share = np.broadcast_to(share, (nworld, len(friction.joints)))
     except ValueError:
         raise BadInput(f"warm: has shape {share.shape}; give one number, [{len(friction.joints)}] or [{nworld} x {len(friction.joints)}]") from None
     if not np.isfinite(share).all() or (share < 0).any():
         raise BadInput("warm: must be 0 or more, 1 settled")
+    given = None if speed is None else number("speed", speed)
     rows = friction.worlds or 1
     settled = np.zeros((rows, len(friction.joints), 2))
     for row in range(rows):
         for i in range(len(friction.joints)):
-            at = speed if speed is not None else USUAL_LINEAR_SPEED if friction.linear[i] else USUAL_SPEED
+            at = given if given is not None else USUAL_LINEAR_SPEED if friction.linear[i] else USUAL_SPEED
             heats = settled_energies(with_numbers(friction, i, row), at)
             settled[row, i, : len(heats)] = heats
     return share[:, :, None] * settled

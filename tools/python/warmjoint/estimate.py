@@ -23,7 +23,7 @@ from warmjoint.compensate import Compensator
 from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
-from warmjoint.values import Array, kind_of, number, numbers, path_of, shown
+from warmjoint.values import Array, flag, kind_of, number, numbers, path_of, shown
 
 if TYPE_CHECKING:
     import pandas
@@ -48,7 +48,7 @@ class Estimate:
 
     def __init__(self, data: dict[str, Any], log: Log | None = None, force: bool = False) -> None:
         self.data = data
-        self.force = force
+        self.force = flag("force", force)
         self._log = log
 
     def __getstate__(self) -> dict[str, Any]:
@@ -112,13 +112,13 @@ class Estimate:
 
     def __getitem__(self, name: str) -> Parameter:
         found = self._rows()
-        if name not in found:
+        if not isinstance(name, str) or name not in found:
             raise KeyError(f"{shown(name)} was not estimated; there are {', '.join(found) or 'no parameters: ' + self.message}")
         self._warn_of_void()
         return found[name]
 
     def __contains__(self, name: object) -> bool:
-        return name in self.data["parameters"]
+        return isinstance(name, str) and name in self.data["parameters"]
 
     def __iter__(self) -> Iterator[str]:
         """The names of the parameters."""
@@ -183,7 +183,7 @@ class Estimate:
         any shape that NumPy broadcasts. band: (value, lower, upper), the 95 % band of the law's parameters to first order."""
         fitted = self.fitted
         value = fitted(speed, position, heat)
-        if not band:
+        if not flag("band", band):
             return value
         half = 1.96 * self._deviation(fitted, speed, position, heat)
         return value, value - half, value + half
@@ -378,14 +378,14 @@ def identify(log: Log | str | os.PathLike[str] | Sequence[Any] | Any, method: st
     """
     one = log_of(log, **{name: options.pop(name) for name in READING if name in options})
     settings = {"identifier": method, "gravity": gravity, "motion": motion, "start": start, "relevance": relevance,
-                "void_numbers": "show" if force else "withhold",
+                "void_numbers": "show" if flag("force", force) else "withhold",
                 "options": {name: _word(name, value) for name, value in options.items()}}
     if isinstance(holdout, (int, float, np.number)) and not isinstance(holdout, bool):
         share, other = number("holdout", holdout), None
     else:
         share, other = 0.0, log_of(holdout, "holdout")._core
     with _Progress(progress) as told:
-        return Estimate(_core.identify(one._core, settings, share, other, told), one, bool(force))
+        return Estimate(_core.identify(one._core, settings, share, other, told), one, force)
 
 
 class _Progress:

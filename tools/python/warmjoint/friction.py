@@ -153,6 +153,8 @@ def settled_energies(data: dict[str, Any], speed: float) -> list[float]:
 
 def laws(joint: Literal["rotary", "linear"] = "rotary") -> dict[str, Any]:
     """{law: {"equation", "parameters": {name: {"symbol", "unit", "meaning", "default"}}}}"""
+    if not isinstance(joint, str) or joint not in ("rotary", "linear"):
+        raise _core.BadInput(f"joint: is {shown(joint)}; give 'rotary' or 'linear'")
     found = {}
     for law in _core.laws():
         # behind the laws comes what joins any of them, first its warming

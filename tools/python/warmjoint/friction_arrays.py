@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from warmjoint import _core
 from warmjoint._core import BadInput
 from warmjoint.friction import place_of
+from warmjoint.values import flag, of_kind, text
+from warmjoint.values import numbers as values_of
 
 if TYPE_CHECKING:
     import mujoco
@@ -113,7 +115,7 @@ class FrictionArrays:
             if name not in _NAMES or not any(having):
                 known = [one for one in _NAMES if any(place_of(friction, one) for friction in self.frictions)]
                 raise BadInput(f"'{name}' is no number of this friction; there are {', '.join(known)}")
-            values = np.asarray(given, dtype=np.float64)
+            values = values_of(name, given)
             if values.ndim > 2 or values.shape[-1:] not in ((), (1,), (len(self.joints),)):
                 raise BadInput(f"{name}: has shape {values.shape}; give one number, [{len(self.joints)}] or [worlds x {len(self.joints)}]")
             new[name] = np.where(having, values, self.numbers[name])
@@ -128,6 +130,8 @@ class FrictionArrays:
         """The same in a scene that holds the robot under a prefix, by the joints' names. Raises BadInput for one that the scene lacks."""
         import mujoco
 
+        of_kind("model", model, mujoco.MjModel)
+        text("prefix", prefix)
         ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, prefix + joint) for joint in self.joints]
         if -1 in ids:
             raise BadInput(f"the model has no joint '{prefix + self.joints[ids.index(-1)]}'; give the prefix under which the robot was attached")
@@ -196,19 +200,21 @@ def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str], spec: bool =
     """
     import mujoco
 
-    from warmjoint import mujoco_plugin
+    from warmjoint import mujoco_library, mujoco_plugin
     from warmjoint.mujoco_attach import Attached, _spec_of
 
+    as_spec = flag("spec", spec)
     if isinstance(model, mujoco.MjModel):
         raise BadInput("split: is a compiled model, from which the plugin cannot be taken; give what attach returned, or its spec")
     copied = (model.spec if isinstance(model, Attached) else _spec_of(model)[0]).copy()
-    full = copied.compile()
+    with mujoco_library.refusing("model: MuJoCo cannot compile it"):
+        full = copied.compile()
     joints = mujoco_plugin.joints_of(full)
     if not joints:
         raise BadInput("split: no joint of the model has friction of warmjoint; attach it")
     _refuse(joints)
     bare = _without_friction(copied)
-    return _without_extension(copied, bare) if spec else bare, arrays_of(bare, joints)
+    return _without_extension(copied, bare) if as_spec else bare, arrays_of(bare, joints)
 
 
 def _refuse(joints: list[dict[str, Any]]) -> None:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from warmjoint import _core, other_formats
 from warmjoint.tables import Asked, Table, list_of, table_of, with_objects
-from warmjoint.values import Array, Column, column, columns_of, kind_of, path_of, text_of
+from warmjoint.values import Array, Column, column, columns_of, kind_of, number, path_of, text_of
+from warmjoint.values import named as texts_by_name
 
 if TYPE_CHECKING:
     import pandas
@@ -71,7 +72,7 @@ class Log:
         columns = columns_of(frame)
         if columns is None:
             raise _core.BadInput(f"frame: is {kind_of(frame)}; give a data frame, or a dict of columns")
-        settings = _settings([name], map={**dict(map or {}), **{key: text_of(one) for key, one in named.items()}}, joint=joint, unit=unit,
+        settings = _settings([name], map={**texts_by_name("map", map), **{key: text_of(one) for key, one in named.items()}}, joint=joint, unit=unit,
                              scale=scale, rate=rate, gear=gear, torque_constant=torque_constant, wrap=wrap, trim=trim,
                              shortest_hold=shortest_hold)
         return cls._of(_of_table(columns, settings))
@@ -158,13 +159,16 @@ class Log:
     def between(self, begin: float, end: float) -> Log:
         """The samples of the times begin to end, s, end left out."""
         time = self.time
-        return self[int(time.searchsorted(begin)):int(time.searchsorted(end))]
+        return self[int(time.searchsorted(number("begin", begin))):int(time.searchsorted(number("end", end)))]
 
     def __getitem__(self, samples: slice) -> Log:
         """Samples as a log of their own, prepared again; of one recording."""
         if not isinstance(samples, slice) or samples.step not in (None, 1):
             raise TypeError("a log is cut by log[first:last]; its columns are log.time, log.torque, ...")
-        first, last, _ = samples.indices(len(self))
+        try:
+            first, last, _ = samples.indices(len(self))
+        except TypeError:
+            raise TypeError("a log is cut by log[first:last] with whole numbers; log.between(begin, end) cuts by times") from None
         return Log._of(self._core.slice(first, max(first, last)))
 
     def __len__(self) -> int:

@@ -20,10 +20,10 @@ from typing import Any, Literal, Protocol
 
 import mujoco
 
-from warmjoint import _core, mujoco_plugin
+from warmjoint import _core, mujoco_library, mujoco_plugin
 from warmjoint._core import BadInput
 from warmjoint.mujoco_bound import BoundFriction, bind
-from warmjoint.values import kind_of, number, path_of, text_of
+from warmjoint.values import kind_of, number, path_of, text, text_of
 
 __all__ = ["Attached", "attach", "bind"]
 
@@ -94,14 +94,12 @@ def _spec_of(model: mujoco.MjSpec | str | os.PathLike[str]) -> tuple[mujoco.MjSp
     """The spec of a model, and what messages call it."""
     if isinstance(model, mujoco.MjSpec):
         return model, model.modelname
-    try:
+    with mujoco_library.refusing("model: MuJoCo cannot read it"):
         if isinstance(model, str) and model.lstrip().startswith("<"):
             spec = mujoco.MjSpec.from_string(model)
             return spec, spec.modelname
         path = pathlib.Path(path_of(model, "model")).resolve()
         spec = mujoco.MjSpec.from_file(str(path))
-    except (ValueError, mujoco.FatalError) as refusal:  # of the compiler, and BadInput
-        raise BadInput(str(refusal)) from None
     # its text finds its meshes from anywhere
     spec.meshdir = str(path.parent / spec.meshdir)
     spec.texturedir = str(path.parent / spec.texturedir)
@@ -143,6 +141,7 @@ class Attached:
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData, prefix: str = "") -> BoundFriction:
         """The friction in a model that the spec was compiled to, or in a scene that holds it under a prefix."""
+        text("prefix", prefix)
         ends = {prefix + joint: end for joint, end in self._ends.items()}
         return BoundFriction(model, data, ends, [prefix + joint for joint in self.joints])
 

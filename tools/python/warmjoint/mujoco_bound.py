@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from warmjoint import mujoco_plugin
 from warmjoint._core import BadInput
 from warmjoint.friction import Friction, place_of, settled_energies
-from warmjoint.values import kind_of, numbers, shown, text_of, whole
+from warmjoint.values import kind_of, numbers, of_kind, shown, text_of, whole
 
 Floats = NDArray[np.float64]
 Warm = float | Sequence[float] | Floats | Literal["end"]
@@ -88,9 +88,8 @@ class BoundFriction(_Sensed):
         ends: Mapping[str, list[float] | None],
         joints: Sequence[str] | None,
     ):
-        for argument, value, kind in (("model", model, mujoco.MjModel), ("data", data, mujoco.MjData)):
-            if not isinstance(value, kind):
-                raise BadInput(f"{argument}: is {kind_of(value)}; give a mujoco.{kind.__name__}")
+        of_kind("model", model, mujoco.MjModel)
+        of_kind("data", data, mujoco.MjData)
         if (len(data.qvel), len(data.act), len(data.plugin_state)) != (model.nv, model.na, model.npluginstate):
             raise BadInput("data: is of another model; make it by mujoco.MjData(model)")
         self.model = model

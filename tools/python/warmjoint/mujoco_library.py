@@ -8,6 +8,23 @@ import ctypes
 import importlib.util
 import os
 import pathlib
+from collections.abc import Iterator
+
+from warmjoint._core import BadInput
+from warmjoint.values import one_line
+
+
+@contextlib.contextmanager
+def refusing(what: str) -> Iterator[None]:
+    """What MuJoCo raises within is a BadInput that begins with `what`."""
+    import mujoco
+
+    try:
+        yield
+    except BadInput:
+        raise
+    except (ValueError, mujoco.FatalError) as refusal:
+        raise BadInput(f"{what}: {one_line(refusal)}") from None
 
 
 def library(version: str = "") -> pathlib.Path | None:

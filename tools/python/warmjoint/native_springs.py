@@ -21,7 +21,7 @@ from warmjoint._core import BadInput
 from warmjoint.engine_checks import settled_energies_of
 from warmjoint.friction_arrays import Bools, FloatArray, FrictionArrays, arrays_of
 from warmjoint.mujoco_attach import Attached, FrictionLike, Integrator, attach_form, text_of_spec
-from warmjoint.values import kind_of, whole
+from warmjoint.values import of_kind, text, whole
 
 # a stretch in double precision is a difference of angles, worth 1e-15 of some rad, and a yield is 1e-6 rad at least where it matters
 _AT_YIELD = 1 - 1e-6
@@ -108,8 +108,8 @@ class Native:
 
     def bind(self, model: mujoco.MjModel, prefix: str = "") -> Native:
         """The driver of a model that the spec was compiled to, or of a scene that holds it under a prefix; cold."""
-        if not isinstance(model, mujoco.MjModel):
-            raise BadInput(f"model: is {kind_of(model)}; give a mujoco.MjModel")
+        of_kind("model", model, mujoco.MjModel)
+        text("prefix", prefix)
         other = Native.__new__(Native)
         other.spec, other.notices, other._springs = self.spec, self.notices, self._springs
         other._take(model, prefix)
@@ -118,6 +118,7 @@ class Native:
     def start(self, data: mujoco.MjData, warm: npt.ArrayLike | None = None, speed: float | None = None) -> None:
         """Relaxes the springs where the joints are, and sets the heat; call it after mj_resetData and where a pose was set. warm: 0 cold, 1 settled
         at `speed` (rad/s or m/s; 1 or 0.1 where not given), any share of it, one or [joints]; where not given as the friction begins."""
+        self._check(data)
         self._start_energy = self.friction.initial_energy.copy()
         if warm is not None:
             self._start_energy = settled_energies_of(self.friction, 1, warm, speed)[0].T.copy()
@@ -132,8 +133,7 @@ class Native:
 
         every: of nstep; heat takes seconds to minutes, so that 10 steps of 1 ms lose little and cost a tenth of the driver's time. Levels that fall with
         speed need each step."""
-        if len(data.plastic) != self.model.nplastic or len(data.qvel) != self.model.nv:
-            raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
+        self._check(data)
         if data.time < self._time:
             self.energy = self._start_energy.copy()
             self._set_yields(data.qvel[self.friction.dofs])
@@ -151,12 +151,14 @@ class Native:
 
     def warm(self, data: mujoco.MjData, steps: int = 1) -> None:
         """The driver by itself, after so many steps by other means: heat and yields. Where they left no finite numbers the loss counts as 0."""
+        self._check(data)
+        count = float(whole("steps", steps))
         v, stretch, yields = data.qvel[self.friction.dofs], self._stretch(data), self._yields()
         slides: Bools = (np.abs(stretch) >= _AT_YIELD * yields) & (stretch * v > 0)
         loss = self.model.dof_damping[self.friction.dofs] * v * v + slides * self.stiffness * yields * np.abs(v)
         pole, gain = self.pole, self.gain
-        if steps > 1:
-            pole, gain = pole**steps, gain * -np.expm1(-steps * self._ratios) / -np.expm1(-self._ratios)
+        if count > 1:
+            pole, gain = pole**count, gain * -np.expm1(-count * self._ratios) / -np.expm1(-self._ratios)
         self.energy = pole * self.energy + gain * np.where(np.isfinite(loss), loss, 0.0)
         self._set_yields(v)
 
@@ -169,6 +171,11 @@ class Native:
             self._worlds = warp_native.WarpNative(self, m, d)
         self._worlds.update(d)
         return self._worlds
+
+    def _check(self, data: mujoco.MjData) -> None:
+        of_kind("data", data, mujoco.MjData)
+        if len(data.plastic) != self.model.nplastic or len(data.qvel) != self.model.nv:
+            raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
 
     def _stretch(self, data: mujoco.MjData) -> FloatArray:
         stretch: FloatArray = data.qpos[self.friction.positions] - data.plastic[self.places]

@@ -18,6 +18,7 @@ import numpy as np
 from warmjoint._core import BadInput
 from warmjoint.friction_arrays import Bools, FloatArray, FrictionArrays, Ints, Levels
 from warmjoint.friction_maps import map_level
+from warmjoint.values import of_kind
 
 DAMPER_LEVELS = 2.0
 """The damper of a bristle within its levels gives up to so many times them."""
@@ -44,6 +45,7 @@ class Stepped(NamedTuple):
 
 def start(friction: FrictionArrays) -> State:
     """The state at a reset."""
+    of_kind("friction", friction, FrictionArrays)
     count = len(friction.joints)
     return State(np.zeros(count), friction.initial_energy.copy(), np.zeros(count))
 

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from warmjoint import _core, other_formats
+from warmjoint import _core, mujoco_library, other_formats
 from warmjoint.answers import Parameter, Residuals
 from warmjoint.engine import _engine
 from warmjoint.estimate import Estimate, Rejected
@@ -210,10 +210,8 @@ def _model(model: Any, folder: str) -> str:
 
     if not isinstance(model, (mujoco.MjModel, mujoco.MjSpec)):
         return path_of(model, "model")
-    try:
+    with mujoco_library.refusing("model: MuJoCo cannot compile it"):
         compiled = model.compile() if isinstance(model, mujoco.MjSpec) else model
-    except (ValueError, mujoco.FatalError) as refusal:
-        raise _core.BadInput(f"model: MuJoCo cannot compile it: {refusal}") from None
     path = os.path.join(folder, "robot.mjb")
     mujoco.mj_saveModel(compiled, path)
     return path

@@ -143,6 +143,23 @@ def named(argument: str, given: Any) -> dict[str, Any]:
     return dict(given)
 
 
+def text(argument: str, given: Any) -> str:
+    """A text that UTF-8 holds. Raises BadInput for what is none."""
+    try:
+        if isinstance(given, str) and given.encode() is not None:
+            return given
+    except UnicodeEncodeError:
+        raise _core.BadInput(f"{argument}: is {shown(given)}, which is no UTF-8; give a text") from None
+    raise _core.BadInput(f"{argument}: is {shown(given)}; give a text")
+
+
+def flag(argument: str, given: Any) -> bool:
+    """True or False, of NumPy as well. Raises BadInput for what is neither."""
+    if not isinstance(given, (bool, np.bool_)):
+        raise _core.BadInput(f"{argument}: is {shown(given)}; give True or False")
+    return bool(given)
+
+
 def texts(argument: str, given: Any) -> list[str]:
     """A list of texts, or one text. Raises BadInput for what is none."""
     found = list(given) if isinstance(given, (list, tuple)) else [given]
@@ -168,6 +185,13 @@ def path_of(path: Any, argument: str = "path") -> str:
     return text
 
 
+def of_kind(argument: str, given: Any, kind: type) -> None:
+    """Raises BadInput for what is not of a class."""
+    if not isinstance(given, kind):
+        module = kind.__module__.split(".")[0]
+        raise _core.BadInput(f"{argument}: is {kind_of(given)}; give a {module}.{kind.__name__}")
+
+
 def kind_of(value: Any) -> str:
     """What a value is, for messages."""
     return "None" if value is None else f"a value of the type {type(value).__name__}"
@@ -178,9 +202,14 @@ def shown(value: Any) -> str:
     if isinstance(value, CONTAINERS):  # which may hold each other without end
         return kind_of(value)
     try:
-        return ascii(value)[:60]
+        return one_line(ascii(value))[:60]
     except ValueError:  # of numbers with thousands of digits
         return kind_of(value)
+
+
+def one_line(said: object) -> str:
+    """What another library says, or shows of a value, on one line."""
+    return " ".join(str(said).split())
 
 
 def text_of(name: Any) -> str:
