@@ -250,6 +250,10 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
                                const std::optional<JointHoldOut>& holdout) {
   const double gain = ValueOf(fit, fit.at.given.log_gain);
   summary.gain = gain;
+  if (c.basis.cols() == fit.at.given.z.size && c.described.size() > 0) {
+    const VectorXd mended = c.described + c.basis * fit.at.given.z.Of(fit.solved.x);
+    summary.inertials.assign(mended.begin(), mended.end());
+  }
   summary.gain_is_known = KnowsGain(fit);
 
   LogSamples m;

@@ -34,6 +34,9 @@ struct JointColumns {
   Eigen::MatrixXd ripple;  // [N x 4h] harmonics of the motor's angle in each direction; or [N x 0]
   GivenForce rigid;        // gravity, Coriolis and inertia by the description, N.m or N
   GivenForce carried;      // without inertia: what loads the joint
+  /// What `rigid` follows from: parameters of the description [10 L], and their change by each of the directions [10 L x r].
+  Eigen::VectorXd described;
+  Eigen::MatrixXd basis;
   ModelSamples samples;
 
   /// Direction in which friction brakes, through the filter. [N]

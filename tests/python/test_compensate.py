@@ -1,6 +1,8 @@
 """Compensation: an estimate's own, along a log, over a day with the truth beside it, as code, and from the program."""
 
 import copy
+import csv
+import json
 import math
 import pathlib
 import pickle
@@ -164,6 +166,38 @@ def test_the_program_exports_the_same_code(estimate, program):
     estimate.save(program.folder / "estimate.json")
     assert program("export", "estimate.json", "--to", "cpp", "--joint", "elbow") == estimate.export("cpp", joint="elbow").text
     program("export", "estimate.json", "--to", "cpp", "--speed", 0.5, status=2)
+
+
+def rows_of(path):
+    with open(path) as file:
+        rows = list(csv.DictReader(file))
+    return {name.partition(" [")[0]: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0]}
+
+
+def test_the_program_does_so_with_a_state(estimate, recording, program):
+    estimate.save(program.folder / "estimate.json")
+    log = ("compensate", recording, "--friction", "estimate.json")
+    told = json.loads(program(*log, "--correct", "--state", "state.json", "-o", "out.csv", "--format", "json"))
+    found, columns = estimate.compensator().run(wj.read(recording)), rows_of(program.folder / "out.csv")
+    np.testing.assert_allclose(columns["friction"], found.friction, rtol=1e-12)
+    np.testing.assert_allclose(columns["compensation"], found.compensation, rtol=1e-12)
+    np.testing.assert_allclose(columns["energy"], found.energy, rtol=1e-12, atol=1e-12)
+    assert told["residual_rms"] < told["friction_rms"] / 10
+    kept = json.loads((program.folder / "state.json").read_text())
+    assert kept == told["state_end"]
+
+    # the next log begins with what is left after the pause; stamps of both begin at 0 and tell none
+    program(*log, "--state", "state.json", status=2)
+    assert json.loads((program.folder / "state.json").read_text()) == kept
+    program(*log, "--state", "state.json", "--pause", 600, "-o", "next.csv")
+    assert rows_of(program.folder / "next.csv")["energy"][0] == pytest.approx(kept["energy"] * math.exp(-600 / estimate["thermal_time_constant"].value))
+
+    # as HDF5, too
+    program(*log, "-o", "out.h5")
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(program.folder / "out.h5") as file:
+        assert {"friction", "residual", "energy", "contact"} <= set(file)
+        assert file["friction"].attrs["unit"] in ("N.m", b"N.m")
 
 
 @pytest.mark.parametrize("how, words", [({"share": 1.2}, "share"), ({"heat": "oven"}, "model"), ({"noise": -1}, "noise"), ({"dead_band": "x"}, "dead_band")])

@@ -1,5 +1,6 @@
 """The friction of a whole robot, from a description that is wrong by a tenth and a log made of a known truth."""
 
+import csv
 import json
 import pathlib
 import sys
@@ -213,3 +214,45 @@ def test_files_that_are_no_robot_are_refused(tmp_path):
         (tmp_path / "robot.json").write_text(text)
         with pytest.raises(wj.BadInput, match=words):
             wj.load_robot(tmp_path / "robot.json")
+
+
+def test_a_push_is_found_with_its_force(wrong, log):
+    """A force on the last link from the 100th to the 130th second, and the band without it."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    data, place, force = mujoco.MjData(model), np.array([0.1, 0, 0.1]), np.array([6.0, 4.0, -8.0])
+    pushed = (log["time"] >= 100) & (log["time"] < 130)
+    torque, jacobian = log["torque"].copy(), np.empty((3, 3))
+    for i in np.flatnonzero(pushed):
+        data.qpos[:] = log["position"][i]
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_jac(model, data, jacobian, None, data.xpos[-1] + data.xmat[-1].reshape(3, 3) @ place, model.nbody - 1)
+        # the motors hold against it
+        torque[i] -= jacobian.T @ force
+    robot = wj.identify_robot(wrong, log)
+    found = robot.external_torque({**log, "torque": torque}, wrong, tool={"mass": 0.0, "com": place})
+    assert set(found.joints) == {"shoulder", "elbow", "wrist"}
+    during = (found.time > 101) & (found.time < 129)
+    free = (found.time < 99) | (found.time > 131)
+    for one in found.joints.values():
+        assert np.mean(np.abs(one.external[free]) <= one.half_width[free]) > 0.9
+    told = np.isfinite(found.force[during]).all(axis=1)
+    assert told.mean() > 0.5
+    off = np.abs(found.force[during][told] - force) / found.force_half_width[during][told]
+    assert np.mean(off <= 1) > 0.9
+    assert np.abs(np.median(found.force[during][told], axis=0) - force).max() < 2
+
+
+def test_the_program_finds_it_as_well(wrong, log, program):
+    mujoco.mj_saveModel(wrong, str(program.folder / "arm.mjb"))
+    robot = wj.identify_robot(wrong, log)
+    robot.save(program.folder / "arm.json")
+    table = np.column_stack([log["time"], log["position"], log["torque"]])
+    header = "time," + ",".join(f"{name}_{part}" for part in ("position", "torque") for name in robot)
+    np.savetxt(program.folder / "arm.csv", table, delimiter=",", header=header, comments="", fmt="%.17g")
+    program("compensate", "arm.csv", "--friction", "arm.json", "--robot", "arm.mjb", "-o", "external.csv")
+    with open(program.folder / "external.csv") as file:
+        elbow = [float(row["elbow.external [N.m]"]) for row in csv.DictReader(file)]
+    found = robot.external_torque(log, wrong)
+    np.testing.assert_allclose(elbow, found.joints["elbow"].external, rtol=1e-9, atol=1e-9)
+    program("compensate", "arm.csv", "--friction", "arm.json", status=2)

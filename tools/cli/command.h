@@ -35,6 +35,7 @@ Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
 Command AddIdentifyRobotCommand(CLI::App& program);
 Command AddPredictCommand(CLI::App& program);
+Command AddCompensateCommand(CLI::App& program);
 Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);

@@ -84,12 +84,12 @@ class Help : public CLI::Formatter {
 /// Adds all subcommands to the program's command line.
 std::vector<Command> AddCommands(CLI::App& program) {
   return {
-      AddListCommand(program),    AddNewCommand(program),    AddSimulateCommand(program),
-      AddConvertCommand(program), AddCheckCommand(program),  AddIdentifyCommand(program),
-      AddPredictCommand(program), AddAttachCommand(program), AddRunCommand(program),
-      AddStatusCommand(program),  AddMergeCommand(program),  AddCompareCommand(program),
-      AddPlotCommand(program),    AddReportCommand(program), AddIdentifyRobotCommand(program),
-      AddExportCommand(program),
+      AddListCommand(program),          AddNewCommand(program),        AddSimulateCommand(program),
+      AddConvertCommand(program),       AddCheckCommand(program),      AddIdentifyCommand(program),
+      AddPredictCommand(program),       AddCompensateCommand(program), AddAttachCommand(program),
+      AddRunCommand(program),           AddStatusCommand(program),     AddMergeCommand(program),
+      AddCompareCommand(program),       AddPlotCommand(program),       AddReportCommand(program),
+      AddIdentifyRobotCommand(program), AddExportCommand(program),
   };
 }
 

@@ -45,6 +45,25 @@ void CheckUnits(const TorqueModel& model, const LogSamples& m) {
   }
 }
 
+/// Heat or correction beyond so many cold levels are another joint's. why: grease is ten times as stiff some 40 K colder, which is
+/// what surroundings change by.
+constexpr double kMostLevels = 10;
+
+/// Refuses a state that this friction cannot have.
+void CheckState(const wj_friction& friction, const KeptState& kept, const std::string& file) {
+  const double level =
+      std::max(friction.coulomb_positive, friction.coulomb_negative) + friction.static_rise;
+  // friction by maps alone has no level
+  if (!(level > 0)) return;
+  const double heat = kept.energy + kept.second_energy;
+  if (heat < -level || std::max(heat, std::abs(kept.correction)) > kMostLevels * level) {
+    Refuse({file},
+           "holds a heat of {:.4g} and a correction of {:.4g} of a level of {:.4g}, so it is of "
+           "another joint; give that joint's friction, or another --state FILE",
+           heat, kept.correction, level);
+  }
+}
+
 }  // namespace
 
 JointToCompensate ToCompensate(const Estimate& estimate, const std::string& file) {
@@ -76,6 +95,7 @@ double GoOn(Compensator& compensator, const KeptState& kept, double begin,
            "give --pause SECONDS, from the last sample of the one to the first of the other",
            file, kept.time, begin);
   }
+  CheckState(compensator.joint().friction, kept, file);
   const wj_state state{kept.energy, kept.second_energy, kept.correction, kept.variance};
   wj_restore(&compensator.joint(), &state, seconds);
   return seconds;

@@ -20,6 +20,7 @@
 
 #include "identification/robot/robot_estimate.h"
 #include "sim/model/engine_warnings.h"
+#include "tools/compensate/robot/external_torque.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
@@ -165,6 +166,48 @@ nb::object IdentifyRobotInPython(const std::string& robot, const nb::list& logs,
   return nb::make_tuple(ToPython(RobotEstimateToTree(answer)), ToPython(data.facts), arrays);
 }
 
+/// [N x 3] as an array of NumPy.
+nb::object MatrixToPython(const Eigen::MatrixXd& matrix) {
+  nb::list columns;
+  for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+    columns.append(ToPython(Eigen::VectorXd(matrix.col(k))));
+  }
+  return nb::module_::import_("numpy").attr("column_stack")(columns);
+}
+
+/// answer: path of a robot.json. Returns what RobotExternal has, as dicts of arrays.
+nb::object ExternalTorqueInPython(const std::string& robot, const std::string& answer,
+                                  const nb::list& logs, nb::handle read, nb::handle given,
+                                  nb::handle compensation) {
+  const auto settings = FieldsFromPython<RobotSettings>(given, "external_torque");
+  const auto how = FieldsFromPython<CompensatorSettings>(compensation, "external_torque");
+  const RobotSource source{LogsFromPython(logs),
+                           FieldsFromPython<RecordingSource>(read, "log").read};
+  const RobotExternal found = WithWarnings([&] {
+    nb::gil_scoped_release released;
+    return FindExternal(robot, ReadRobotEstimate(answer), source, settings, how);
+  });
+  nb::dict joints;
+  for (const JointExternal& one : found.joints) {
+    nb::dict columns;
+    const std::pair<const char*, const Eigen::VectorXd*> all[]{
+        {"velocity", &one.velocity},     {"torque", &one.torque},  {"rigid", &one.rigid},
+        {"friction", &one.friction},     {"energy", &one.energy},  {"external", &one.external},
+        {"half_width", &one.half_width}, {"contact", &one.contact}};
+    for (const auto& [name, values] : all) columns[name] = ToPython(Eigen::VectorXd(*values));
+    joints[one.joint.c_str()] = columns;
+  }
+  nb::dict dict;
+  dict["time"] = ToPython(Eigen::VectorXd(found.time));
+  dict["joints"] = joints;
+  dict["force"] = MatrixToPython(found.force);
+  dict["force_half_width"] = MatrixToPython(found.force_half_width);
+  nb::list notices;
+  for (const std::string& notice : found.notices) notices.append(notice);
+  dict["notices"] = notices;
+  return dict;
+}
+
 }  // namespace
 }  // namespace warmjoint::python
 
@@ -190,6 +233,11 @@ NB_MODULE(_engine, module) {
                      "read: dict[str, object], settings: dict[str, object]) -> "
                      "tuple[dict[str, typing.Any], list[dict[str, typing.Any]], "
                      "list[numpy.typing.NDArray[numpy.float64]]]"));
+  module.def("external_torque", &python::ExternalTorqueInPython,
+             nb::sig("def external_torque(robot: str, answer: str, logs: list[tuple[str, "
+                     "list[tuple[str, str, numpy.typing.NDArray[numpy.float64] | None, str]] | "
+                     "None, str | None]], read: dict[str, object], settings: dict[str, object], "
+                     "compensation: dict[str, object]) -> dict[str, typing.Any]"));
   module.def("leaderboard", [](const std::string& directory, const std::string& format) {
     return FormatLeaderboard(directory, format);
   });

@@ -139,6 +139,8 @@ JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
   }
   c.rigid = {y * rows.parameters, y * basis};
   c.carried = {still * rows.parameters, still * basis};
+  c.described = rows.parameters;
+  c.basis = std::move(basis);
   return c;
 }
 

@@ -24,6 +24,8 @@ struct RobotJointSummary {
       rms_held_out;  // on samples away from reversals that a second fit has not seen
   std::optional<double> rms_moving;            // the same on all samples in motion
   std::optional<double> rms_without_friction;  // held out: gain times rigid torque and an offset
+  /// [10 L] of the links from the base on, the description's as this joint's fit mends them: what RobotLink::parameters has
+  std::vector<double> inertials{};
 
   /// Its fields without the name, which is the key in a file.
   template <class A>
@@ -39,6 +41,9 @@ struct RobotJointSummary {
     a->Field("rms_moving", &rms_moving, OrNull("the same with samples beside reversals"));
     a->Field("rms_without_friction", &rms_without_friction,
              OrNull("the same of gain times rigid torque, and an offset"));
+    a->Field("inertials", &inertials,
+             LeftOut("of the links from the base on, ten numbers each (kg, kg.m, kg.m^2), as the "
+                     "joint's torque shows them"));
   }
 };
 

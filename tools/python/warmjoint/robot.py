@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
 import pathlib
@@ -19,9 +20,34 @@ from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 from warmjoint.tables import Asked, Table, numbers_of, tables_of, with_objects
-from warmjoint.values import named, number, numbers, path_of, shown, texts
+from warmjoint.values import Array, named, number, numbers, path_of, shown, texts
 
 Numbers = float | Mapping[str, float]
+
+
+@dataclasses.dataclass(frozen=True)
+class ExternalJoint:
+    """One joint along a log, filtered; arrays [N]."""
+
+    velocity: Array  # rad/s or m/s
+    torque: Array  # measured, N.m or N
+    rigid: Array  # weight, inertia and rotor, N.m or N
+    friction: Array  # 0 at rest, N.m or N
+    energy: Array  # heat E, N.m or N
+    external: Array  # on the joint: rigid + friction - torque, N.m or N
+    half_width: Array  # of its 95 % band, N.m or N; at rest friction is anywhere within its level
+    contact: Array  # 1 where it is more than friction explains, else 0
+
+
+@dataclasses.dataclass(frozen=True)
+class ExternalTorque:
+    """What acts on a robot from outside, along a log of N samples."""
+
+    time: Array  # [N] s
+    joints: dict[str, ExternalJoint]  # those whose friction is known
+    force: Array  # [N, 3] at the last link, N, in the axes of the world; nan where the joints do not tell it
+    force_half_width: Array  # [N, 3] of its 95 % bands, N
+    notices: list[str]  # one sentence each
 
 
 class RobotJoint(Estimate):
@@ -120,6 +146,28 @@ class RobotEstimate(Mapping[str, Estimate]):
         """The frictions of all joints that are known in N.m or N as the numbers that another engine takes (Estimate.export)."""
         return export_frictions(self.data, to, warm=warm, speed=speed, joint="")
 
+    def external_torque(self, log: Any, model: Any = None, *, correct: bool = False, map: Mapping[str, str] | None = None,
+                        unit: Mapping[str, str] | None = None, scale: Mapping[str, float] | None = None, columns: Sequence[str] = (),
+                        rate: float = 0, joints: Sequence[str] = (), tool: Mapping[str, Any] | None = None, coupling: str | Sequence[str] = (),
+                        cutoff: float = 10, torque_constant: Numbers = 0, topic: str | None = None) -> ExternalTorque:
+        """What of a log's torques is neither rigid-body torque nor friction: what `warmjoint compensate LOG --robot` finds. log: of the
+        robot that was identified, as identify_robot takes one. model: its description; where not given the file that identify_robot
+        read. correct: the level of each friction by the torque, while there is no contact. The other arguments are those of the
+        identification. The force is at the origin of the last link, or at tool's com. Raises BadInput, also where no joint has a friction in
+        N.m or N."""
+        settings = _settings(scale=scale, joints=joints, gear=0, inertials=0.1, tool=tool, coupling=coupling, cutoff=cutoff,
+                             torque_constant=torque_constant, holdout=0)
+        tables = tables_of(log, "log", Asked(topic, joints="all"))
+        read = _read(tables, map, unit, columns, rate)
+        compensation = {"correct": "by_torque" if correct else "none"}
+        with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
+            answer = os.path.join(folder, "robot.json")
+            self.save(answer)
+            path = _model(self.data["robot"] if model is None else model, folder)
+            found = _engine().external_torque(path, answer, [_given(one) for one in tables], read, settings, compensation)
+        return ExternalTorque(found["time"], {name: ExternalJoint(**one) for name, one in found["joints"].items()}, found["force"],
+                              found["force_half_width"], found["notices"])
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes robot.json, which `warmjoint attach MODEL --friction robot.json` reads."""
         _core.write_text(path_of(path), json.dumps(self.data, indent=2) + "\n")
@@ -143,22 +191,11 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
     scale={"J4.torque": -1}, gear=101 or {"J4": 101}. inertials: share by which the description may be wrong. tool: {"mass": kg, "com":
     (x, y, z)} at the last link. Needs MuJoCo 4.0. Raises BadInput.
     """
-    factors: dict[str, dict[str, float]] = {"torque": {}, "position": {}}
-    for name, factor in named("scale", scale).items():
-        joint, _, column = name.rpartition(".")
-        if column not in factors:
-            raise _core.BadInput(f"scale: {shown(name)} is neither torque nor position, nor JOINT.torque or JOINT.position")
-        factors[column][joint] = number("scale", factor)
-    is_exact = isinstance(inertials, str) and inertials == "exact"
-    settings: dict[str, object] = {
-        "joints": texts("joints", joints), "gear": _numbers("gear", gear), "inertials": 0.0 if is_exact else number("inertials", inertials),
-        "coupling": texts("coupling", coupling), "cutoff": number("cutoff", cutoff),
-        "torque_constant": _numbers("torque_constant", torque_constant), "torque_scale": factors["torque"],
-        "position_scale": factors["position"], "holdout": number("holdout", holdout), "tool": _tool(tool)}
+    settings = _settings(scale=scale, joints=joints, gear=gear, inertials=inertials, tool=tool, coupling=coupling, cutoff=cutoff,
+                         torque_constant=torque_constant, holdout=holdout)
     asked = Asked(topic, joints="all")
     tables = tables_of(log, "log", asked)
-    read = {"files": [one.name for one in tables], "map": named("map", map), "unit": named("unit", unit), "columns": texts("columns", columns),
-            "rate": number("rate", rate)}
+    read = _read(tables, map, unit, columns, rate)
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
         path = _model(model, folder)
         try:
@@ -167,6 +204,29 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
             again = _with_objects(tables, refusal, asked)
             data, facts, arrays = _engine().identify_robot(path, [_given(one) for one in again], read, settings)
     return RobotEstimate(data, unpacked(facts, arrays))
+
+
+def _settings(*, scale: Mapping[str, float] | None, joints: Sequence[str], gear: Numbers, inertials: float | Literal["exact"],
+              tool: Mapping[str, Any] | Literal["unknown"] | None, coupling: str | Sequence[str], cutoff: float, torque_constant: Numbers,
+              holdout: float) -> dict[str, object]:
+    """What the engine is asked besides the log."""
+    factors: dict[str, dict[str, float]] = {"torque": {}, "position": {}}
+    for name, factor in named("scale", scale).items():
+        joint, _, column = name.rpartition(".")
+        if column not in factors:
+            raise _core.BadInput(f"scale: {shown(name)} is neither torque nor position, nor JOINT.torque or JOINT.position")
+        factors[column][joint] = number("scale", factor)
+    is_exact = isinstance(inertials, str) and inertials == "exact"
+    return {"joints": texts("joints", joints), "gear": _numbers("gear", gear), "inertials": 0.0 if is_exact else number("inertials", inertials),
+            "coupling": texts("coupling", coupling), "cutoff": number("cutoff", cutoff),
+            "torque_constant": _numbers("torque_constant", torque_constant), "torque_scale": factors["torque"],
+            "position_scale": factors["position"], "holdout": number("holdout", holdout), "tool": _tool(tool)}
+
+
+def _read(tables: list[Table], map: Mapping[str, str] | None, unit: Mapping[str, str] | None, columns: Sequence[str], rate: float) -> dict[str, object]:
+    """How the logs are read."""
+    return {"files": [one.name for one in tables], "map": named("map", map), "unit": named("unit", unit), "columns": texts("columns", columns),
+            "rate": number("rate", rate)}
 
 
 def load_robot(path: str | os.PathLike[str]) -> RobotEstimate:

@@ -1,0 +1,83 @@
+"""Compensation of real logs: friction from the first 60 % of each, residual over the last 40 %, by arm.
+
+    python3 tests/studies/compensation_logs.py     # needs WARMJOINT_SHARED, and the package on PYTHONPATH
+
+Fixed: the law that is identified, its heat left out. Least squares: slope and level that forget over 60 s, by log_forgetting. The estimate may be refused; it is
+used all the same, and its status is printed. rms in % of the torque less weight and inertia.
+"""
+
+import os
+import tempfile
+
+import numpy as np
+import shared_logs
+import warmjoint as wj
+
+NAMES = ("xArm6", "EMPS", *(f"NIST {j}" for j in range(1, 7)))
+FIRST = 0.6
+UNITS = {"xArm6": {"unit": {"position": "deg", "velocity": "deg/s", "torque": "A", "temperature": "degC"}}, "EMPS": {"joint": "linear"}}
+
+
+def read(name, log, folder):
+    path = log.path(os.environ["WARMJOINT_SHARED"], folder)
+    time, position, velocity, torque = log.columns
+    names = {"time": time, "position": position, "velocity": velocity, "torque": torque}
+    how = UNITS.get(name, {"unit": {"position": "deg", "torque": "A"}})
+    return wj.read(path, map={key: value for key, value in names.items() if value}, **how)
+
+
+def log_forgetting(found, seconds=60.0):
+    """[N] prediction of slope and level along a Compensated, fitted by recursive least squares up to the sample before."""
+    force = found.residual + found.friction  # torque less weight and inertia
+    slope = level = 0.0
+    a, b, c = 1e3, 0.0, 1e3
+    predicted = np.full(len(force), np.nan)
+    steps = np.diff(found.time, prepend=found.time[0])
+    for i, (v, y, dt) in enumerate(zip(found.velocity.tolist(), force.tolist(), steps.tolist())):
+        if not np.isfinite(y):
+            continue
+        x, side = abs(v), 1 if v > 0 else -1
+        predicted[i] = side * (slope * x + level)
+        keep, error = np.exp(-max(dt, 0) / seconds), side * (y - predicted[i])
+        u, w = a * x + b, b * x + c
+        d = keep + x * u + w
+        slope, level = slope + u / d * error, level + w / d * error
+        a, b, c = (a - u * u / d) / keep, (b - u * w / d) / keep, (c - w * w / d) / keep
+    return predicted
+
+
+def arms(estimate, log):
+    """{arm: [N] torque less weight, inertia and friction}, and that torque itself."""
+    cold = {key: value for key, value in estimate.data["friction"].items() if key not in ("thermal", "viscous_per_energy", "level_per_temperature")}
+    cold["maps"] = [one for one in cold.get("maps", []) if all(axis["quantity"] != "energy" for axis in one["axes"])]
+    fixed_data = {**estimate.data, "friction": cold}
+    run = lambda data, correct: wj.Compensator(wj.Estimate(data, force=True), correct=correct).run(log)
+    open_loop, fixed = run(estimate.data, False), run(fixed_data, False)
+    force = open_loop.residual + open_loop.friction
+    return force, {"fixed": fixed.residual, "least squares, 60 s": force - log_forgetting(open_loop), "level without heat, corrected": run(fixed_data, True).residual,
+                   "heat, open loop": open_loop.residual, "heat, corrected": run(estimate.data, True).residual}
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        logs = shared_logs.logs(os.environ["WARMJOINT_SHARED"])
+        for name in NAMES:
+            if name not in logs:
+                continue
+            log = read(name, logs[name], folder)
+            first = int(FIRST * len(log.time))
+            estimate = wj.identify(log[:first], force=True)
+            if not estimate.data["friction"]:
+                print(f"{name}: {estimate.status}, no friction")
+                continue
+            force, left = arms(estimate, log)
+            unseen = np.arange(len(force)) >= first
+            unseen &= np.isfinite(force) & np.all([np.isfinite(one) for one in left.values()], axis=0)
+            rms = np.sqrt(np.mean(force[unseen] ** 2))
+            print(f"{name} ({estimate.status}, {estimate.fitted.law}{', warms' if 'thermal' in estimate.data['friction'] else ''}), {unseen.sum()} samples")
+            for arm, residual in left.items():
+                print(f"  {arm:32}{100 * np.sqrt(np.mean(residual[unseen] ** 2)) / rms:7.1f} %")
+
+
+if __name__ == "__main__":
+    main()
