@@ -7,11 +7,10 @@
 #include <cctype>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/parse_number.h"
 #include "models/recording/time_names.h"
+#include "models/robot_log/column_pattern.h"
 
 namespace warmjoint {
 namespace {
@@ -20,9 +19,9 @@ using Words = std::vector<std::string>;
 
 // words of column names, the likeliest first
 const Words kPositions{"q", "pos", "position", "positions", "angle", "theta", "winkel"};
-const Words kTorques{"torque",   "tau",        "trq", "effort", "moment",
-                     "force",    "drehmoment", "mom", "load",   "current",
-                     "currents", "iq",         "cur", "strom",  "i"};
+const Words kTorques{"torque", "tau",        "trq",   "effort", "eff",     "moment",
+                     "force",  "drehmoment", "mom",   "load",   "current", "currents",
+                     "iq",     "cur",        "strom", "i"};
 const Words kCurrents{"current", "currents", "iq", "cur", "strom", "i"};
 /// What was asked for and not measured, or of another place.
 const Words kNotMeasured{"target",   "desired",   "des",    "ref",      "reference", "cmd",
@@ -35,12 +34,15 @@ bool Holds(const Words& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
+bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
 /// The words of a name in lower case: of letters that stand together.
 Words WordsIn(const std::string& name) {
   Words words;
   bool inside = false;
   for (const char c : name) {
-    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    const bool letter = IsLetter(c);
     if (letter && !inside) words.emplace_back();
     if (letter) words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     inside = letter;
@@ -55,17 +57,64 @@ struct Family {
   Words joints;     // whose they are; empty: by number, from the base outwards
 };
 
-/// By the joints' names.
+/// The joints' names without a word "joint" at their end or front, which descriptions have and loggers leave out; as they are where that
+/// leaves no letter, or the name of another.
+Words ShortNames(const Words& joints) {
+  Words found;
+  for (const std::string& joint : joints) {
+    std::string name = joint;
+    for (const char stroke : {'_', '-', '.', '/', ' '}) {
+      const std::string end = std::string(1, stroke) + "joint",
+                        front = std::string("joint") + stroke;
+      if (name.ends_with(end)) name.resize(name.size() - end.size());
+      if (name.starts_with(front)) name.erase(0, front.size());
+    }
+    found.push_back(std::ranges::any_of(name, IsLetter) ? name : joint);
+  }
+  const Words all = found;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const bool is_other =
+        std::ranges::count(joints, all[j]) > 0 || std::ranges::count(all, all[j]) > 1;
+    if (is_other) found[j] = joints[j];
+  }
+  return found;
+}
+
+/// Where a column's name holds a joint's; npos where it does not, or as a part of another number ("joint1" in "joint10").
+std::size_t PlaceOfName(const std::string& joint, const std::string& column) {
+  const std::size_t at = column.find(joint), end = at + joint.size();
+  if (at == std::string::npos) return at;
+  return end < column.size() && IsDigit(column[end]) ? std::string::npos : at;
+}
+
+/// The same of a word or several by themselves ("lift" is not in "forklift").
+std::size_t PlaceOfWords(const std::string& joint, const std::string& column) {
+  const auto inside = [&](std::size_t i) {
+    return i < column.size() && (IsLetter(column[i]) || IsDigit(column[i]));
+  };
+  std::size_t at = column.find(joint);
+  while (at != std::string::npos && ((at > 0 && inside(at - 1)) || inside(at + joint.size()))) {
+    at = column.find(joint, at + 1);
+  }
+  return at;
+}
+
+/// By the joints' names, in columns that hold none by their short ones.
 std::vector<Family> NamedFamilies(const Words& names, const Words& joints) {
   std::map<std::string, std::map<std::size_t, std::string>> found;
-  for (const std::string& name : names) {
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const std::size_t at = name.find(joints[j]);
-      // "joint1" stands in "joint10", too
-      const std::size_t end = at + joints[j].size();
-      if (at == std::string::npos || (end < name.size() && std::isdigit(name[end]))) continue;
-      found[name.substr(0, at) + "{}" + name.substr(end)][j] = name;
+  const auto take = [&](const std::string& column, const Words& spoken, auto&& place) {
+    bool holds_one = false;
+    for (std::size_t j = 0; j < spoken.size(); ++j) {
+      const std::size_t at = place(spoken[j], column);
+      if (at == std::string::npos) continue;
+      found[column.substr(0, at) + "{}" + column.substr(at + spoken[j].size())][j] = column;
+      holds_one = true;
     }
+    return holds_one;
+  };
+  const Words shorts = ShortNames(joints);
+  for (const std::string& column : names) {
+    if (!take(column, joints, PlaceOfName)) take(column, shorts, PlaceOfWords);
   }
   std::vector<Family> families;
   for (const auto& [key, members] : found) {
@@ -84,9 +133,9 @@ std::vector<Family> NumberedFamilies(const Words& names) {
   std::map<std::string, std::map<std::size_t, std::string>> found;
   for (const std::string& name : names) {
     for (std::size_t at = 0; at < name.size(); ++at) {
-      if (!std::isdigit(name[at])) continue;
+      if (!IsDigit(name[at])) continue;
       std::size_t end = at;
-      while (end < name.size() && std::isdigit(name[end])) ++end;
+      while (end < name.size() && IsDigit(name[end])) ++end;
       if (end - at <= 2) {
         const std::size_t number = std::stoul(name.substr(at, end - at));
         found[name.substr(0, at) + "{}" + name.substr(end)][number] = name;
@@ -146,13 +195,20 @@ Family Choose(const std::vector<Family>& families, const Words& wanted, const ch
   return *best.front();
 }
 
-/// The columns that a pattern names.
-Family Mapped(const std::string& pattern, const Words& joints) {
-  Family family{pattern, {}, joints};
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    family.columns.push_back(ColumnOfJoint(pattern, joints, j));
-  }
-  return family;
+/// The columns that a pattern names: by the joints' short names where the file has these columns, and none by their own.
+Family Mapped(const std::string& pattern, const Words& joints, const Words& names) {
+  const auto columns = [&](const Words& spoken) {
+    Words found;
+    for (std::size_t j = 0; j < spoken.size(); ++j) {
+      found.push_back(ColumnOfJoint(pattern, spoken, j));
+    }
+    return found;
+  };
+  const auto is_there = [&](const std::string& column) { return Holds(names, column); };
+  const Words own = columns(joints), shorter = columns(ShortNames(joints));
+  const bool by_short =
+      std::ranges::none_of(own, is_there) && std::ranges::all_of(shorter, is_there);
+  return {pattern, by_short ? shorter : own, joints};
 }
 
 /// Which joints both families are of, with a notice where that was taken to be so.
@@ -187,55 +243,7 @@ std::optional<std::string> NameOfTime(const Words& names) {
   return found.size() == 1 ? names[found[0]] : names[found[0]] + "+" + names[found[1]];
 }
 
-/// The text of braces for joint j.
-std::string Expanded(const std::string& inside, const Words& joints, std::size_t j) {
-  if (inside == "j") return std::to_string(j);
-  if (inside == "name") return joints[j];
-  const auto refuse = [&](std::size_t count) {
-    Refuse({"--map"}, "{{{}}} stands for {} joints, and there are {}", Excerpt(inside), count,
-           joints.size());
-  };
-  if (const std::size_t dots = inside.find(".."); dots != std::string::npos) {
-    const auto first = ParseNumber(inside.substr(0, dots)),
-               last = ParseNumber(inside.substr(dots + 2));
-    if (first && last && *last >= *first) {
-      const auto count = static_cast<std::size_t>(*last - *first) + 1;
-      if (count < joints.size()) refuse(count);
-      return fmt::format("{:.0f}", *first + static_cast<double>(j));
-    }
-  }
-  Words parts(1);
-  for (const char c : inside) {
-    if (c == '|')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  if (parts.size() > 1) {
-    if (parts.size() < joints.size()) refuse(parts.size());
-    return parts[j];
-  }
-  Refuse({"--map"}, "{{{}}} is none of {{j}}, {{name}}, {{0..5}} and {{a|b|c}}", Excerpt(inside));
-}
-
 }  // namespace
-
-std::string ColumnOfJoint(const std::string& pattern, const Words& joints, std::size_t j) {
-  std::string column;
-  std::size_t at = 0;
-  for (std::size_t open; (open = pattern.find('{', at)) != std::string::npos;) {
-    const std::size_t close = pattern.find('}', open);
-    if (close == std::string::npos) break;
-    column += pattern.substr(at, open - at);
-    column += Expanded(pattern.substr(open + 1, close - open - 1), joints, j);
-    at = close + 1;
-  }
-  if (at == 0 && joints.size() > 1) {
-    Refuse({"--map"}, "'{}' names one column for {} joints; put {{j}} where their number stands",
-           Excerpt(pattern), joints.size());
-  }
-  return column + pattern.substr(at);
-}
 
 RobotColumns FindRobotColumns(const Words& names, const Words& joints, const ColumnTexts& map,
                               const Place& place) {
@@ -243,7 +251,7 @@ RobotColumns FindRobotColumns(const Words& names, const Words& joints, const Col
   std::ranges::move(NumberedFamilies(names), std::back_inserter(families));
   const auto find = [&](const char* what, const Words& wanted) {
     const auto said = map.find(what);
-    if (said != map.end()) return Mapped(said->second, joints);
+    if (said != map.end()) return Mapped(said->second, joints, names);
     return Choose(families, wanted, what, names, place);
   };
   const Family position = find("position", kPositions), torque = find("torque", kTorques);

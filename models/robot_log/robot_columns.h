@@ -19,15 +19,10 @@ struct RobotColumns {
   std::vector<std::string> notices;  // how the columns were understood, one sentence each
 };
 
-/// `pattern` for joint j of several: {j} is its place from 0, {name} its name, {1..6} or {0..5} a number for each joint in order,
-/// {a|b|c} a text for each. Throws BadInput for other braces, and for lists and numbers that are not one for each joint.
-std::string ColumnOfJoint(const std::string& pattern, const std::vector<std::string>& joints,
-                          std::size_t j);
-
 /// The joints and their columns. names: of all columns of the file; none where they are not known before it is read: then `map` must
 /// name position and torque. joints: of the robot from the base outwards. map: what is said of time, position and torque
-/// (patterns as above). What is not said is found: families of columns that hold the joints' names, or numbers from 0 or 1 on,
-/// whose other words speak of a position (q, pos, angle), or of a torque or current; measured ones go before targets, plain names before
+/// (patterns as of ColumnOfJoint). What is not said is found: families of columns that hold the joints' names, these without a word "joint"
+/// at an end, or numbers from 0 or 1 on, whose other words speak of a position (q, pos, angle), or of a torque or current; measured ones go before targets, plain names before
 /// longer ones. Throws BadInput where nothing or several fit, with the remedy.
 RobotColumns FindRobotColumns(const std::vector<std::string>& names,
                               const std::vector<std::string>& joints, const ColumnTexts& map,

@@ -86,7 +86,7 @@ def test_an_estimate_is_a_container(estimate):
     assert matrix.shape == (len(names),) * 2 and "coulomb" in names
     residuals = estimate.residuals
     np.testing.assert_allclose(np.sqrt(np.mean(residuals.torque**2)), estimate.metrics["rmse"], rtol=1e-6)
-    assert len(residuals.time) == estimate.metrics["n"]
+    assert len(residuals) == len(residuals.time) == estimate.metrics["n"]
     pandas = pytest.importorskip("pandas")
     table = estimate.to_pandas()
     assert isinstance(table, pandas.DataFrame) and table.loc["coulomb", "value"] == estimate["coulomb"].value

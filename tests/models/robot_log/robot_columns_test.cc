@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "models/robot_log/column_pattern.h"
 #include "tests/support/refusal.h"
 
 namespace warmjoint {
@@ -45,6 +46,42 @@ TEST(RobotColumns, GoesByJointNamesInAnyOrder) {
                                   {"shoulder", "elbow", "wrist"});
   EXPECT_EQ(found.joints, (Words{"shoulder", "elbow"}));
   EXPECT_EQ(found.maps[0].at("torque"), "shoulder_effort");
+}
+
+TEST(RobotColumns, GoesByNamesWithoutTheWordJoint) {
+  const Words joints{"shoulder_lift_joint", "wrist_1_joint", "joint-elbow"};
+  const Words names{"time",
+                    "state.wrist_1.pos",
+                    "state.elbow.pos",
+                    "state.shoulder_lift.pos",
+                    "meas.wrist_1.eff",
+                    "meas.elbow.eff",
+                    "meas.shoulder_lift.eff"};
+  const RobotColumns found = Find(names, joints);
+  EXPECT_EQ(found.joints, joints);
+  EXPECT_TRUE(found.notices.empty());
+  EXPECT_EQ(found.maps[0].at("torque"), "meas.shoulder_lift.eff");
+  EXPECT_EQ(found.maps[1].at("position"), "state.wrist_1.pos");
+  // patterns, too
+  const RobotColumns mapped =
+      Find(names, joints, {{"position", "state.{name}.pos"}, {"torque", "meas.{name}.eff"}});
+  EXPECT_EQ(mapped.maps[2].at("position"), "state.elbow.pos");
+}
+
+TEST(RobotColumns, ShortNamesAreWholeWordsOfOneJoint) {
+  // "a" and "b" are in other words, and "lift" of two joints
+  EXPECT_EQ(Find({"time", "actual_pos_a", "actual_pos_b", "tau_b", "tau_a"}, {"a_joint", "b_joint"})
+                .maps[1]
+                .at("position"),
+            "actual_pos_b");
+  EXPECT_NE(test::RefusalOf([] {
+              Find({"time", "forklift_pos", "forklift_torque"}, {"lift_joint"});
+            }).find("told by their names"),
+            std::string::npos);
+  EXPECT_NE(test::RefusalOf([] {
+              Find({"time", "lift_pos", "lift_torque"}, {"lift_joint", "joint_lift"});
+            }).find("told by their names"),
+            std::string::npos);
 }
 
 TEST(RobotColumns, TakesTheFirstJointsOfARobotThatHasMore) {

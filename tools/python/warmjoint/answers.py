@@ -64,6 +64,9 @@ class Residuals:
     time: Array  # [n] s
     torque: Array  # [n] torque less fit, N.m or N
 
+    def __len__(self) -> int:
+        return len(self.time)
+
 
 def value_text(one: Parameter, digits: int) -> str:
     """The value, or the range of one at its bound."""
