@@ -8,12 +8,14 @@
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "identification/fields/field_kind.h"
 #include "identification/inference/cause.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
@@ -62,6 +64,17 @@ struct FittedLag {
   Eigen::VectorXd adds;      // [N] to F + G at the kept samples, N.m or N; 0 elsewhere
 };
 
+/// What fields of a fit hold beside its law and its maps (fields/fit_fields.h).
+struct FittedFields {
+  std::vector<FieldKind> kinds{};
+  /// [P] derivatives of each friction at speeds by the table's rows
+  std::vector<Eigen::VectorXd> at_speeds_by_rows{};
+  Eigen::VectorXd rest{};  // [N] torque along this log alone, as drifts, N.m or N
+  double time_torque = 0;  // amplitude of the torque over time, a share of the friction
+
+  bool Has(FieldKind kind) const { return std::ranges::find(kinds, kind) != kinds.end(); }
+};
+
 /// Why a fit is refused.
 struct Refusal {
   Status status = Status::not_identifiable;
@@ -91,6 +104,7 @@ struct Fit {
   std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
   /// [N] M a where the fit computed its own a from the velocities, N.m or N; else empty.
   Eigen::VectorXd inertia_torque;
+  std::optional<FittedFields> fields{};
   std::optional<FittedLag> torque_lag;  // where the log showed one and it was fitted
   /// By how much the torque is late relative to the motion, s: the model follows the motion at t less that (Delayed).
   std::optional<double> torque_delay{};

@@ -88,6 +88,10 @@ class OptionLister {
   static std::string Allowed(int, const Bounds& bounds) { return KindWithin("integer", bounds); }
   static std::string Allowed(const std::string&, const Bounds&) { return "text"; }
   static std::string Allowed(const OptionRange&, const Bounds&) { return "range"; }
+  /// Of other types: their own words.
+  template <class T>
+  requires requires { T::kAllowed; }
+  static std::string Allowed(const T&, const Bounds&) { return T::kAllowed; }
   template <HasWords E>
   static std::string Allowed(const E& choice, const Bounds&) {
     std::vector<std::string_view> words;

@@ -16,6 +16,8 @@ constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be
 constexpr double kWorse = 10.8;    // why: chi-squared of one degree of freedom, once in a thousand
 constexpr double kLeastFit = 20;   // %; why: of 45 answers on real logs only wrong ones are below
 constexpr double kMostLeft = 0.5;  // of the friction; why: the same
+// of the friction; why: chosen, between good real logs and those on which another joint moves, .6 to 1.5
+constexpr double kMostTorqueOverTime = 0.5;
 constexpr double kNoFriction = 3e-3;  // of the torque; why: gears lose ten times as much at least
 
 double RootMeanSquare(const Eigen::VectorXd& x) {
@@ -29,6 +31,7 @@ Eigen::VectorXd FrictionIn(const Fit& fit, const LogSamples& m) {
   if (fit.inertia && m.acceleration) force -= *fit.inertia * Kept(*m.acceleration, fit.used);
   if (fit.inertia_torque.size() > 0) force -= Kept(fit.inertia_torque, fit.used);
   if (fit.torque_lag) force -= Kept(fit.torque_lag->adds, fit.used);
+  if (fit.fields) force -= Kept(fit.fields->rest, fit.used);
   return force;
 }
 
@@ -65,6 +68,10 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   const double share = friction / RootMeanSquare(fit.torque);
   if (share < kNoFriction) {
     return Floor(Source::no_friction, Status::inadequate_model, ExplainNoFriction(share));
+  }
+  if (fit.fields && fit.fields->time_torque > kMostTorqueOverTime) {
+    return Floor(Source::impossible, Status::inadequate_model,
+                 ExplainTorqueOverTime(fit.fields->time_torque));
   }
   // an inertia below 0 that was taken out, without which the friction is another
   const auto inertia = std::ranges::find(fit.causes, Source::findings, &Cause::source);

@@ -112,14 +112,16 @@ std::vector<double> LoadsOf(const Fit& fit, const std::vector<SpeedGroup>& group
   return loads;
 }
 
-/// The figures of a fit with maps, whose table has only the law.
-std::vector<SpeedFigure> WithMaps(const Fit& fit, const LogSamples& m) {
+/// The figures of a fit that has them already, since its table has only the law.
+std::vector<SpeedFigure> OfItsOwn(const Fit& fit, const LogSamples& m) {
   std::vector<SpeedFigure> all;
   for (const FrictionAtSpeed& one : fit.friction_at_speeds) {
-    SpeedFigure& figure = all.emplace_back(SpeedFigure{one, ColdDerivatives(fit, one.speed)});
+    VectorXd derivatives =
+        fit.fields ? fit.fields->at_speeds_by_rows[all.size()] : ColdDerivatives(fit, one.speed);
+    SpeedFigure& figure = all.emplace_back(SpeedFigure{one, std::move(derivatives)});
     figure.at.speed_unit = kVelocityUnit.For(m.joint);
     figure.at.unit = m.torque_unit;
-    if (fit.friction.thermal) figure.at.energy = 0;
+    if (fit.friction.thermal && !figure.at.energy) figure.at.energy = 0;
     figure.parts = {{Source::noise, figure.HalfWidth()}};
   }
   return all;
@@ -132,7 +134,7 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
                                         const LogSamples& m, const Selection& selection) {
   if (inferred.status != Status::ok || !inferred.gives_friction) return {};
   if (DropIntervals(inferred.causes)) return {};
-  if (!fit.friction.maps.empty()) return WithMaps(fit, m);
+  if (!fit.friction.maps.empty() || fit.fields) return OfItsOwn(fit, m);
 
   // cold, then warm
   std::optional<WarmMoment> warmest;

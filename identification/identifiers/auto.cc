@@ -68,7 +68,9 @@ void TryLinear(const IdentifierInput& input, ModelComparison& comparison) {
     }
   }
 
-  // gravity that is free over place, only in addition to the best of them
+  // gravity that is free over place, only in addition to the best of them, and where no field is
+  const bool asked = input.options.Get<AutoOptions>().gravity.kind.has_value();
+  if (!asked && !input.options.Get<AutoOptions>().fields.kinds.empty()) return;
   if (kinds.size() > 1 && kinds.back() == FittedGravity::paired) {
     if (const Structure* best = comparison.Best()) {
       comparison.Add({best->With(GravityOption{FittedGravity::paired})});
@@ -116,7 +118,9 @@ void TryCurved(const IdentifierInput& input, ModelComparison& comparison) {
     comparison.Add({TwoLevelStribeckStructure(warming, gravity)});
   }
 
-  // maps, where something is left over place
+  // maps, where something is left over place that no field takes up
+  const FieldSet& fields = input.options.Get<AutoOptions>().fields;
+  if (!fields.kinds.empty()) return;
   if (comparison.MayHaveMap()) {
     for (const Structure& map :
          MapStructures(input, gravity, comparison.KernelsGivenBest(gravity))) {
@@ -181,6 +185,24 @@ Fit FitOnAll(const Structure& chosen, const Lateness& late, const IdentifierInpu
   Fit fit = chosen.Fitted(input.With(settled));
   fit.causes.push_back(Note(ExplainLeftOutByLag(*lag)));
   return fit;
+}
+
+/// A structure with fields where it can have them, or with a lag where trials found one and the lag leaves less than the fields do: a
+/// ripple over the position looks like a lag, and the other way round.
+Structure WithLagOrFields(const Structure& chosen, const Lateness& late,
+                          const IdentifierInput& input) {
+  const FieldSet& fields = input.options.Get<AutoOptions>().fields;
+  const bool may_lag = late.lag && chosen.CanEstimateLag();
+  const bool may_have = chosen.CanHaveFields() && !fields.kinds.empty();
+  const Structure lagged = may_lag ? chosen.With(LagOption{PartFit::estimated}) : chosen;
+  if (!may_have) return lagged;
+  Structure with = chosen.With(FieldOption{fields});
+  if (!may_lag) return with;
+  const auto squares = [&](const Structure& one) {
+    const Fit fit = FitOnAll(one.PointEstimate(), late, input);
+    return fit.refusal ? kInfinity : fit.residual().squaredNorm();
+  };
+  return squares(lagged) < squares(with) ? lagged : with;
 }
 
 /// Why this structure was chosen.
@@ -255,15 +277,15 @@ Fit FitChosen(const IdentifierInput& input) {
   }
 
   // fitted to every sample, with the reason before the summary of the fit
-  if (late.lag && chosen.CanEstimateLag()) {
-    chosen = chosen.With(LagOption{PartFit::estimated});
-  }
   input.Tell("fitting " + chosen.Name() + " to every sample");
+  chosen = WithLagOrFields(chosen, late, input);
+  const std::string name =
+      chosen.CanHaveFields() ? chosen.With(FieldOption{}).Name() : chosen.Name();
   const MakeFit make = [&](const IdentifierInput& other) { return FitOnAll(chosen, late, other); };
   Fit fit = WithoutNegativeInertia(make(input), input, make);
 
   // what is reported, and the same structure for other samples
-  reported.chosen = chosen.Name();
+  reported.chosen = name;
   const auto inertia = fit.RowOf(Role::inertia);
   if (inertia && !fit.parameters[*inertia].estimated) {
     chosen.identifier.options = WithoutInertia(chosen.identifier.options);

@@ -1,6 +1,7 @@
 // Identifier `energy-ml`: law and warming together, by maximum likelihood over the closed loop (warming/fit_law.h).
 // Needs no start. Any law that is linear in its parameters; optionally E(0). Where `position` names maps over the
 // joint's or the motor's angle, these are fitted together with law and warming (maps/energy_ml_maps.h), but without a lag.
+#include "identification/fields/fit_fields.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
@@ -21,7 +22,9 @@ constexpr const char* kEnergyMl = "energy-ml";
 
 Fit FitAsAsked(const IdentifierInput& input) {
   if (input.options.Get<WarmMapOptions>().position == WarmMap::none) {
-    return FitLaw(kEnergyMl, input, PartFit::estimated);
+    return FitWithFields(input, [](const IdentifierInput& given) {
+      return FitLaw(kEnergyMl, given, PartFit::estimated);
+    });
   }
   // options that cannot be combined
   if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);
@@ -40,7 +43,7 @@ Identifier EnergyMl() {
   return {kEnergyMl,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
           OptionGroups<LawOption, InitialEnergyOptions, GravityOption, LoadOption, MotionOption,
-                       LossOption, LagOption, DelayOption, WarmMapOptions>{},
+                       LossOption, LagOption, DelayOption, FieldOption, WarmMapOptions>{},
           &FitAsAsked};
 }
 

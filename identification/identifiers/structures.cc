@@ -83,6 +83,11 @@ Structure Structure::PointEstimate() const {
   return With(made);
 }
 
+bool Structure::CanHaveFields() const {
+  return identifier.options.Find<FieldOption>() &&
+         identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;
+}
+
 bool Structure::CanEstimateDelay() const {
   return identifier.options.Find<DelayOption>() &&
          identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;

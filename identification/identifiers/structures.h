@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "identification/fields/fit_fields.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifier.h"
 #include "identification/linear/rigid_part.h"
@@ -50,6 +51,9 @@ struct Structure {
   /// Whether it estimates a delay of the torque relative to motion of any kind.
   bool CanEstimateDelay() const;
 
+  /// Whether it can have fields.
+  bool CanHaveFields() const;
+
   /// Its options, E(0) as those of the input have it, where it asks.
   Options OptionsWith(const Options& input) const;
   /// Fitted to the samples of the input.
@@ -74,6 +78,7 @@ std::span<const Word<GravityToTry>> WordsOf(GravityToTry);
 struct AutoOptions {
   int blocks = 6;
   GravityToTry gravity;
+  FieldSet fields = FieldSet::All();
 
   template <class A>
   void Serialize(A* a) {
@@ -81,6 +86,7 @@ struct AutoOptions {
              {.bounds = {.at_least = 3, .at_most = 50},
               .meaning = "contiguous parts of the recording to hold out"});
     a->Field("gravity", &gravity, kGravityInfo);
+    a->Field("fields", &fields, kFieldsInfo);
   }
 };
 

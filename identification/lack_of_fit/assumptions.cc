@@ -191,7 +191,7 @@ VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
 }
 
 /// open_start, open_curve, open_memory, open_drift
-void AddOpen(const OverBins& over, Examination& examination) {
+void AddOpen(const OverBins& over, const Fit& fitted, Examination& examination) {
   const auto& [model, m, bins, derivatives, fit, circumstances] = over;
   // all forces: the start, curves, friction that follows the speed late, drifts that are 0 at first, and a sensor's gain
   const HeatingForces& heating = circumstances.heating;
@@ -223,9 +223,12 @@ void AddOpen(const OverBins& over, Examination& examination) {
     examination.Add(source, Action::note,
                     Farthest(moves.middleCols(first, count), FarEnds(open, first, count, most)));
   };
-  note(Source::open_curve, curve, 2, friction / (fastest * fastest));
+  const auto has = [&](FieldKind kind) { return fitted.fields && fitted.fields->Has(kind); };
+  if (!has(FieldKind::speed_friction))
+    note(Source::open_curve, curve, 2, friction / (fastest * fastest));
   note(Source::open_memory, memory, late, friction / fastest);
 
+  if (has(FieldKind::time_friction)) return;
   // friction, or a sensor, that drifts for another reason than its losses: relative to the first moment
   VectorXd factors(kDrifts + 1);
   factors << FarEnds(open, drift, kDrifts, friction), FarEnds(open, gain, 1, 1);
@@ -283,7 +286,7 @@ void AddAssumptions(const OverBins& over, const Fit& fit, const Inference& by_no
                     Examination& examination) {
   AddHeldLosses(over, examination);
   AddGiven(over, fit, examination);
-  AddOpen(over, examination);
+  AddOpen(over, fit, examination);
   AddOtherUnits(fit, by_noise, over.measurements.joint, examination);
 }
 

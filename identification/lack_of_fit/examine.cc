@@ -79,7 +79,7 @@ void Record(std::optional<Finding> made, Finding& row) {
 std::vector<Finding*> RowsOf(Stage stage, std::vector<Finding>& table) {
   std::vector<Finding*> rows;
   for (Finding& finding : table) {
-    if (finding.test->stage == stage) rows.push_back(&finding);
+    if (finding.test->stage == stage && !finding.is_held) rows.push_back(&finding);
   }
   return rows;
 }
@@ -370,6 +370,19 @@ void TakeOffRounding(const OverBins& over, const RoundedTorque& rounded, VectorX
   }
 }
 
+/// Whether a fit has a field of that kind.
+bool HasField(const Fit& fit, FieldKind kind) { return fit.fields && fit.fields->Has(kind); }
+
+/// Marks the tests of what fields hold.
+void LeaveToFields(const Fit& fit, std::vector<Finding>& table) {
+  for (Finding& finding : table) {
+    const std::optional<FieldKind>& field = finding.test->in_field;
+    if (!field || !HasField(fit, *field)) continue;
+    finding.is_held = true;
+    finding.reason = kHeldByField;
+  }
+}
+
 /// Computes the friction that effects are compared with: that of law and heat, without maps, which may hold gravity.
 void Measure(const FittedModel& model, const Bins& bins, Examination& examination) {
   examination.rows = model.rows;
@@ -428,6 +441,7 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
   const std::string obstacle = Obstacle(model, bins);
   examination.findings = NotMade(obstacle);
+  LeaveToFields(fit, examination.findings);
   if (!model || !IsFinite(*model) || bins.size() == 0) return examination;
 
   // what parameters can explain; an exact fit may be one to a few steps of the torque
@@ -453,7 +467,7 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   // how all of that biases the parameters
   SumBiases(over, examination);
   AddUnadjusted(over, examination);
-  AddHiddenMeans(bins, over.fit, examination);
+  if (!HasField(fit, FieldKind::place_torque)) AddHiddenMeans(bins, over.fit, examination);
   return examination;
 }
 

@@ -247,6 +247,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (fit.inertia) model.torque -= *fit.inertia * *m.acceleration;
   if (fit.inertia_torque.size() > 0) model.torque -= fit.inertia_torque;
   if (fit.torque_lag) model.torque -= fit.torque_lag->adds;
+  if (fit.fields) model.torque -= fit.fields->rest;
   const Prediction prediction =
       AlongMotion(fit.friction).Predict(TrajectoryFor(fit, m), fit.Start());
   model.residual = model.torque - prediction.force;

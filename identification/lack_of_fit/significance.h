@@ -16,6 +16,7 @@ struct Finding {
   const LackOfFitTest* test = nullptr;
   bool made = false;
   std::string reason;     // why not made
+  bool is_held = false;   // by a field of the fit, so that nothing is left to test
   double p = 1;           // by chance, the candidates within the test counted
   double p_adjusted = 1;  // the tests of the log counted (ErrorLevel)
   bool rejected = false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/command.h"
+#include "identification/fields/field_kind.h"
 #include "identification/identifier.h"
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/fitted_model.h"
@@ -65,6 +66,8 @@ struct LackOfFitTest {
   HeatRelation warming = HeatRelation::independent;
   Impact harm = Impact::of_moves;
   SeenOver over = SeenOver::time;
+  /// The field of a fit that takes this up, so that nothing is left to test; or none.
+  std::optional<FieldKind> in_field{};
   /// Features over the bins, those of several candidates that explain most in addition to the fit; of a test that looks
   /// at samples: none.
   Features (*features)(const Bins& bins, const Circumstances& circumstances,

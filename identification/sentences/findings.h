@@ -17,6 +17,7 @@ struct TestWords {
 };
 
 /// Why a test is not made whose features the fit contains already.
+inline constexpr const char* kHeldByField = "a field of the fit holds it";
 inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
 inline constexpr std::string_view kNoMapOrOneSpeed =
     "the fit has no map over it, or the log one speed";

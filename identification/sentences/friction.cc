@@ -134,4 +134,12 @@ std::string ExplainOwnLaw(const MovedParameter& moved) {
       moved.parameter.name, moved.change, moved.parameter.unit);
 }
 
+std::string ExplainTorqueOverTime(double share) {
+  return fmt::format(
+      "the torque changes over time by {:.2g} of the friction, which this joint's motion does not "
+      "explain; another joint may move: "
+      "keep the others still, or identify the whole robot with `warmjoint identify-robot`",
+      share);
+}
+
 }  // namespace warmjoint

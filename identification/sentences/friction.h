@@ -54,4 +54,7 @@ inline constexpr const char* kHoldsNoFriction = "the estimate holds no friction"
 /// The sentence about an estimate whose own law fits its log better. moved: the parameter that differs most
 std::string ExplainOwnLaw(const MovedParameter& moved);
 
+/// The sentence about a torque over time that no motion of the joint explains. share: of the friction
+std::string ExplainTorqueOverTime(double share);
+
 }  // namespace warmjoint

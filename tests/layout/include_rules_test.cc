@@ -112,10 +112,11 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
 
 TEST(IncludeRules, FoldersOfIdentificationIncludeThoseBeforeThem) {
   // the order of the table in identification/README.md
-  const std::vector<std::string> order{
-      "preparation", "forward",     "model",  "uncertainty", "linear",    "lagged", "inference",
-      "report",      "warming",     "maps",   "alternating", "nonlinear", "online", "holdout",
-      "identifiers", "lack_of_fit", "answer", "robot",       "score"};
+  const std::vector<std::string> order{"preparation", "forward", "model",     "uncertainty",
+                                       "linear",      "lagged",  "inference", "report",
+                                       "warming",     "fields",  "maps",      "alternating",
+                                       "nonlinear",   "online",  "holdout",   "identifiers",
+                                       "lack_of_fit", "answer",  "robot",     "score"};
   const auto place = [&](const std::string& file) {
     const std::string folder = fs::path(file).parent_path().filename();
     return std::ranges::find(order, folder) - order.begin();

@@ -58,6 +58,9 @@ def friction_at(estimate, speeds):
                            if np.sign(r["speed"]) == sign and (state == "warm") == bool(r.get("energy")))
             for speed in speeds if known else ():
                 v, value, half = np.transpose(known)
+                # an answer tells nothing of speeds beyond its own
+                if not v[0] / 1.22 <= speed <= v[-1] * 1.22:
+                    continue
                 found[sign * speed, state] = (np.interp(speed, v, value), np.interp(speed, v, half))
     return found
 

@@ -58,7 +58,7 @@ TEST(Recipes, AStaubliTx40InAmperes) {
 }
 
 TEST(Recipes, AnXl330IsFittedAsItSwings) {
-  const std::string name = "data/xl330/2026-01-15_10h29m14.json";
+  const std::string name = "data/xl330/2026-01-15_10h30m02.json";
   WARMJOINT_NEED_SHARED(name);
   const ScratchDirectory scratch;
   const std::string log = scratch.path() / "xl330.csv";

@@ -32,6 +32,7 @@ struct IdentifyArguments {
   std::vector<std::string> identifiers{IdentifySettings{}.identifier};
   std::string holdout = "0.3";
   std::vector<std::string> set;
+  std::string fields;  // the option of that name; empty: its default
   std::string output;
   std::string mjcf;
   std::string plot;
@@ -53,6 +54,7 @@ IdentifySettings SettingsOf(const IdentifyArguments& arguments, const std::strin
   IdentifySettings settings = arguments.settings;
   settings.identifier = identifier;
   settings.options = ReadPairs(arguments.set, "--set");
+  if (!arguments.fields.empty()) settings.options.insert_or_assign("fields", arguments.fields);
   settings.follows = arguments.earlier.is_given();
   if (arguments.force) settings.void_numbers = VoidNumbers::show;
   return settings;
@@ -269,6 +271,9 @@ void AddIdentifierOptions(CLI::App& parser, IdentifyArguments& arguments) {
            "{recording} {estimate}'; given several times: a table with a row for each")
       ->take_all()
       ->capture_default_str();
+  AddValue(parser, "--fields", "LIST", arguments.fields,
+           "what the model may lack, with a strength that the log decides: auto, none, or some of "
+           "q,r,v,d,t (trust.md); auto has all, nominal-ls and energy-ml none");
   AddValue(parser, "--set", "KEY=VALUE", arguments.set,
            "option of the identifier, as law=asymmetric")
       ->take_all();

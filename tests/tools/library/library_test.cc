@@ -228,6 +228,13 @@ TEST_F(Library, HasTheLeaderboardOfTheCommandAndItsScores) {
   EXPECT_THAT(test::RefusalOf([&] { warmjoint::Run(arguments); }), HasSubstr("from 1 to 1024"));
 }
 
+/// Settings that name energy-ml alone.
+IdentifySettings EnergyMl() {
+  IdentifySettings settings;
+  settings.identifier = "energy-ml";
+  return settings;
+}
+
 TEST_F(Library, HasTheScoreOfTheLeaderboard) {
   RunArguments arguments;
   arguments.suite = at("little.yaml");
@@ -238,7 +245,7 @@ TEST_F(Library, HasTheScoreOfTheLeaderboard) {
 
   const Simulation simulation = TableOneRun(1800);
   const PreparedLog log = Prepare(simulation.measurements);
-  const Score score = ScoreEstimate(Identify(log), log, simulation.truth);
+  const Score score = ScoreEstimate(Identify(log, EnergyMl()), log, simulation.truth);
   EXPECT_DOUBLE_EQ(score.npe_continuous, row.npe_continuous.median);
   EXPECT_DOUBLE_EQ(score.npe_discrete, row.npe_discrete.median);
 

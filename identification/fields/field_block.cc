@@ -1,0 +1,228 @@
+#include "identification/fields/field_block.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "identification/linear/linear_laws.h"
+#include "models/foundation/robust_noise.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// numbers of knots; why: with half of them intervals of halves of real logs agree less often
+constexpr Index kPlaceKnots = 40, kFewestPlaceKnots = 8, kTimeKnots = 24, kSpeedKnots = 10;
+constexpr double kPlaceSpacing =
+    0.05;  // rad; why: what is finer returns within a row and acts as noise
+constexpr double kTurn = 2 * std::numbers::pi;
+// of the travel, and rad; why: what is longer, a law, gravity or a curve over the speed can imitate
+constexpr double kLongestOfTravel = 1.0 / 20, kLongestAngle = 0.32, kLongestPart = 1.0 / 5;
+constexpr double kShortestOfTravel = 1.0 / 40, kShortestInKnots = 1.5;
+constexpr int kPlaceLengths = 5;
+constexpr double kFewLengths = 1.3;  // why: between lengths this near there is nothing to choose
+constexpr double kNugget = 1e-6;     // of a kernel's variance; why: rounding leaves less
+constexpr double kFastest = 0.99;    // quantile of the speed
+constexpr double kLeastSpeedRange = 0.05;
+
+/// exp(-d/l), and Matern 3/2: (1 + sqrt(3) d/l) exp(-sqrt(3) d/l)
+MatrixXd Exponential(const MatrixXd& distance, double length) {
+  return (-distance.array() / length).exp();
+}
+MatrixXd Matern(const MatrixXd& distance, double length) {
+  const Eigen::ArrayXXd x = std::numbers::sqrt3 / length * distance.array();
+  return (1 + x) * (-x).exp();
+}
+
+Knots Even(double first, double last, Index count) {
+  return {VectorXd::LinSpaced(count, first, last), std::nullopt};
+}
+
+/// Knots over the position of the rows.
+Knots PlaceKnots(const VectorXd& position, JointKind joint) {
+  const double first = position.minCoeff(), last = position.maxCoeff(), travel = last - first;
+  if (joint == JointKind::linear) return Even(first, last, kPlaceKnots);
+  if (travel > 2 * kTurn) {
+    return {VectorXd::LinSpaced(kPlaceKnots + 1, 0, kTurn).head(kPlaceKnots), kTurn};
+  }
+  const auto count = static_cast<Index>(travel / kPlaceSpacing);
+  return Even(first, last, std::clamp(count, kFewestPlaceKnots, kPlaceKnots));
+}
+
+/// Lengths of a field over the position.
+std::vector<double> PlaceLengths(const Knots& knots, JointKind joint) {
+  const double extent = knots.period ? *knots.period : knots.at[knots.size() - 1] - knots.at[0];
+  const double spacing = knots.at[1] - knots.at[0];
+  double longest = kLongestOfTravel * extent;
+  if (joint == JointKind::rotary) {
+    longest = std::max(longest, std::min(kLongestAngle, kLongestPart * extent));
+  }
+  const double shortest = std::max(kShortestInKnots * spacing, kShortestOfTravel * extent);
+  if (longest <= kFewLengths * shortest) return {std::min(shortest, longest), longest};
+  std::vector<double> lengths;
+  for (int i = 0; i < kPlaceLengths; ++i) {
+    lengths.push_back(shortest * std::pow(longest / shortest, i / (kPlaceLengths - 1.0)));
+  }
+  return lengths;
+}
+
+/// K -> P K P^T + 1e-6, P = I - N (N^T W N)^+ N^T W: weights whose columns are orthogonal to those of N. others: N, [m x d]
+void MakeOrthogonal(const MatrixXd& others, FieldBlock& block) {
+  const auto rows = static_cast<double>(block.columns.rows());
+  const MatrixXd gram = MatrixXd(SparseRows(block.columns.transpose()) * block.columns) / rows;
+  const MatrixXd weighed = others.transpose() * gram;
+  const MatrixXd inverse = (weighed * others).completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd project =
+      MatrixXd::Identity(block.size(), block.size()) - others * inverse * weighed;
+  for (MatrixXd& kernel : block.kernels) kernel = project * kernel * project.transpose();
+}
+
+/// The root of the speed among the knots.
+VectorXd RootOfSpeed(const VectorXd& velocity, double fastest) {
+  return (velocity.cwiseAbs() / fastest).cwiseSqrt();
+}
+
+FieldBlock OverPlace(FieldKind kind, double scale, const FieldRows& rows, JointKind joint) {
+  FieldBlock block{.kind = kind, .knots = PlaceKnots(rows.position, joint)};
+  block.lengths = PlaceLengths(block.knots, joint);
+  for (const double length : block.lengths) {
+    block.kernels.push_back(Matern(block.knots.Distances(), length));
+  }
+  block.amplitude_scale = scale;
+  return block;
+}
+
+FieldBlock OverTime(FieldKind kind, double scale, const FieldRows& rows) {
+  const double first = rows.time[0], last = rows.time[rows.size() - 1];
+  FieldBlock block{.kind = kind, .knots = Even(first, last, kTimeKnots)};
+  for (const double share : {0.1, 1.0 / 3, 1.0, 4.0})
+    block.lengths.push_back(share * (last - first));
+  for (const double length : block.lengths) {
+    block.kernels.push_back(Exponential(block.knots.Distances(), length));
+  }
+  block.amplitude_scale = scale;
+  return block;
+}
+
+FieldBlock OverSpeed(double scale, const FieldRows& rows) {
+  VectorXd speeds = rows.velocity.cwiseAbs();
+  FieldBlock block{.kind = FieldKind::speed_friction};
+  block.fastest = QuantileInPlace(speeds, kFastest);
+  const VectorXd root = RootOfSpeed(rows.velocity, block.fastest);
+  const double least = root.minCoeff();
+  block.knots = Even(least, std::max(root.maxCoeff(), least + kLeastSpeedRange), kSpeedKnots);
+  block.lengths = {0.3, 0.6, 1.2};
+  for (const double length : block.lengths) {
+    block.kernels.push_back(Matern(block.knots.Distances(), length));
+  }
+  block.amplitude_scale = scale;
+  return block;
+}
+
+// half-normal priors of the amplitudes, shares of the friction; why: without them a curve over the speed goes to three times
+// the friction, and the law to its negative
+constexpr double kLoadScale = 0.5, kTorqueDriftScale = 0.3, kFrictionScale = 0.15;
+
+FieldBlock Make(FieldKind kind, const FieldRows& rows, JointKind joint) {
+  switch (kind) {
+    case FieldKind::place_torque:
+      return OverPlace(kind, kLoadScale, rows, joint);
+    case FieldKind::place_friction:
+      return OverPlace(kind, kFrictionScale, rows, joint);
+    case FieldKind::speed_friction:
+      return OverSpeed(kFrictionScale, rows);
+    case FieldKind::time_friction:
+      return OverTime(kind, kFrictionScale, rows);
+    case FieldKind::time_torque:
+      break;
+  }
+  return OverTime(kind, kTorqueDriftScale, rows);
+}
+
+}  // namespace
+
+SparseRows Knots::Columns(const VectorXd& x) const {
+  const Index m = size();
+  const double spacing = at[1] - at[0];
+  SparseRows columns(x.size(), m);
+  columns.reserve(Eigen::VectorXi::Constant(x.size(), 2));
+  for (Index n = 0; n < x.size(); ++n) {
+    double u = (x[n] - at[0]) / spacing;
+    if (!period) u = std::clamp(u, 0.0, static_cast<double>(m - 1));
+    const double below =
+        period ? std::floor(u) : std::min(std::floor(u), static_cast<double>(m - 2));
+    const Index i =
+        static_cast<Index>(std::fmod(below, static_cast<double>(m))) + (below < 0 ? m : 0);
+    const double share = u - below;
+    columns.coeffRef(n, i % m) += 1 - share;
+    columns.coeffRef(n, (i + 1) % m) += share;
+  }
+  columns.makeCompressed();
+  return columns;
+}
+
+MatrixXd Knots::Distances() const {
+  MatrixXd distances(size(), size());
+  for (Index i = 0; i < size(); ++i) {
+    for (Index j = 0; j < size(); ++j) {
+      const double d = std::abs(at[i] - at[j]);
+      distances(i, j) =
+          period ? *period / std::numbers::pi * std::sin(std::numbers::pi * d / *period) : d;
+    }
+  }
+  return distances;
+}
+
+SparseRows FieldBlock::UnsignedAt(const VectorXd& time, const VectorXd& position,
+                                  const VectorXd& velocity) const {
+  switch (kind) {
+    case FieldKind::place_torque:
+    case FieldKind::place_friction:
+      return knots.Columns(position);
+    case FieldKind::speed_friction:
+      return knots.Columns(RootOfSpeed(velocity, fastest));
+    case FieldKind::time_friction:
+    case FieldKind::time_torque:
+      break;
+  }
+  return knots.Columns(time);
+}
+
+SparseRows FieldBlock::ColumnsAt(const VectorXd& time, const VectorXd& position,
+                                 const VectorXd& velocity) const {
+  SparseRows at = UnsignedAt(time, position, velocity);
+  if (!IsFriction(kind)) return at;
+  for (Index n = 0; n < at.rows(); ++n) at.row(n) *= Sign(velocity[n]);
+  return at;
+}
+
+bool IsSymmetric(const Law& law) {
+  const VectorXd speed = VectorXd::LinSpaced(3, 0.5, 2);
+  return LawColumns(law, speed).isApprox(-LawColumns(law, -speed));
+}
+
+std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const FieldRows& rows,
+                                   JointKind joint, const Law& law) {
+  std::vector<FieldBlock> blocks;
+  for (const FieldKind kind : kinds) {
+    FieldBlock& block = blocks.emplace_back(Make(kind, rows, joint));
+    block.columns = block.ColumnsAt(rows.time, rows.position, rows.velocity);
+    const bool levels_differ = kind == FieldKind::place_torque && !IsSymmetric(law);
+    if (kind == FieldKind::place_friction || levels_differ) {
+      MakeOrthogonal(MatrixXd::Ones(block.size(), 1), block);
+    } else if (kind == FieldKind::speed_friction) {
+      const VectorXd speeds = block.fastest * block.knots.at.cwiseAbs2();
+      MakeOrthogonal(LawColumns(law, speeds), block);
+    }
+    for (MatrixXd& kernel : block.kernels) kernel.diagonal().array() += kNugget;
+  }
+  return blocks;
+}
+
+}  // namespace warmjoint

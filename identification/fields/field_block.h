@@ -1,0 +1,77 @@
+// Random fields beside a law: what the model of a torque may lack, as columns with a Gaussian prior.
+#pragma once
+
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <optional>
+#include <vector>
+
+#include "identification/fields/field_kind.h"
+#include "models/friction/laws.h"
+
+namespace warmjoint {
+
+/// Rows with few numbers that are not 0.
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// The rows of a fit: means over neighbouring samples that move in one direction.
+struct FieldRows {
+  Eigen::VectorXd time, position, velocity;  // [n] s, rad or m, rad/s or m/s
+  Eigen::MatrixXd flat;                      // [n x p] columns without a field's prior
+  Eigen::VectorXd torque;                    // [n] N.m or N
+  /// [p] of what is known of the unknowns of flat columns beforehand, and its precision, 0 where nothing is; or empty
+  Eigen::VectorXd prior_mean{}, prior_precision{};
+  double step = 0.04;  // s, from a row to the next, median
+  Eigen::Array<bool, Eigen::Dynamic, 1>
+      follows;  // [n] whether a row is the next after the one before it
+
+  Eigen::Index size() const { return time.size(); }
+};
+
+/// Even knots, between which a field is a straight line.
+struct Knots {
+  Eigen::VectorXd at;            // [m], at least 2
+  std::optional<double> period;  // of a circle
+
+  Eigen::Index size() const { return at.size(); }
+  /// The weights of the two knots next to each place; beyond the knots those of the last one. x: [n]; returns [n x m]
+  SparseRows Columns(const Eigen::VectorXd& x) const;
+  /// Distances of the knots from each other, chords on a circle. [m x m]
+  Eigen::MatrixXd Distances() const;
+};
+
+/// A field whose values at m knots are normal about 0.
+struct FieldBlock {
+  FieldKind kind;
+  Knots knots{};
+  SparseRows columns{};                    // [n x m]
+  std::vector<double> lengths{};           // [l] of the kernels, in the unit of the knots
+  std::vector<Eigen::MatrixXd> kernels{};  // [l] of [m x m], covariance at amplitude 1
+  double amplitude_scale = 0;  // of the half-normal prior of its amplitude, a share of the friction
+  double fastest = 1;          // rad/s or m/s, at which a knot over the root of the speed is 1
+
+  /// The columns at other places, times and speeds. [n] each; returns [n x m]
+  SparseRows ColumnsAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
+                       const Eigen::VectorXd& velocity) const;
+  /// The same without the sign of the velocity.
+  SparseRows UnsignedAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
+                        const Eigen::VectorXd& velocity) const;
+  Eigen::Index size() const { return knots.size(); }
+};
+
+/// Whether a linear law is the same in both directions.
+bool IsSymmetric(const Law& law);
+
+/// The fields over a log's rows. Knots: 40 over the position (.05 rad apart at least; over one turn where the joint travels more than
+/// two), 24 over time, 10 over the root of the speed. Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths
+/// over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
+/// ones are what a law, gravity or a curve over the speed does.
+/// Friction over position and over speed is orthogonal, over the rows, to a level and to the law, so that the law's parameters are those of
+/// its best line; torque over position to a constant where the law has a level for each direction, which would be the same. law: linear
+std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const FieldRows& rows,
+                                   JointKind joint, const Law& law);
+
+}  // namespace warmjoint

@@ -1,0 +1,352 @@
+#include "identification/fields/field_figures.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "identification/fields/field_rows.h"
+#include "identification/fit_data.h"
+#include "identification/forward/log_trajectory.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/typical_speeds.h"
+#include "identification/uncertainty/tails.h"
+#include "models/foundation/robust_noise.h"
+#include "models/friction/evaluate_map.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// of -2 log p; why: of an amplitude that is 0, half a chi-squared of one degree of freedom, once in a hundred
+constexpr double kBeyondChance = 5.41;
+constexpr double kOneWay = 0.03;            // share of the rows
+constexpr double kSlow = 0.1, kFast = 0.9;  // quantiles of the speed between which a line is laid
+constexpr double kOneSpeed = 1.3;  // ratio of both; why: a line between nearer ones is noise
+constexpr int kSpeedCentres = 24;  // of each direction
+constexpr double kNarrow =
+    0.5;  // of the centres' distance; why: narrower kernels make steps between centres
+constexpr double kClear = 2;  // deviations
+
+std::string_view NameOfField(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::place_torque:
+      return "torque over the place";
+    case FieldKind::place_friction:
+      return "friction over the place";
+    case FieldKind::speed_friction:
+      return "a curve over the speed";
+    case FieldKind::time_friction:
+      return "friction over time";
+    case FieldKind::time_torque:
+      break;
+  }
+  return "torque over time";
+}
+
+/// Which way the rows move: 1 or -1, or 0 for both.
+int OnlyWay(const VectorXd& velocity) {
+  const double forwards = (velocity.array() > 0).cast<double>().mean();
+  if (forwards > 1 - kOneWay) return 1;
+  return forwards < kOneWay ? -1 : 0;
+}
+
+/// Derivatives by the values of the table's rows. function: [p + m] by the coordinates of the estimated ones; returns [P]
+VectorXd ByRows(const VectorXd& function, const Fit& fit) {
+  VectorXd by_rows = VectorXd::Zero(std::ssize(fit.parameters));
+  Index column = 0;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (!row.estimated) continue;
+    by_rows[static_cast<Index>(i)] = function[column++] / row.ValueByCoordinate(row.value);
+  }
+  return by_rows;
+}
+
+/// Weights of normalised kernels with which a map has these values at its centres. values: [m]
+std::vector<double> WeightsFor(const GaussianAxis& axis, const VectorXd& values) {
+  const auto m = static_cast<Index>(axis.size());
+  MatrixXd kernels(m, m);
+  VectorXd row(m);
+  for (Index i = 0; i < m; ++i) {
+    AxisKernels(axis, KernelKind::normalised, axis.centres[static_cast<size_t>(i)], row.data());
+    kernels.row(i) = row;
+  }
+  const VectorXd weights = kernels.partialPivLu().solve(values);
+  return {weights.begin(), weights.end()};
+}
+
+GaussianAxis AxisOver(const Knots& knots) {
+  const auto count = static_cast<int>(knots.size());
+  GaussianAxis axis = knots.period ? CircleAxis(*knots.period, count)
+                                   : EvenAxis(knots.at[0], knots.at[knots.size() - 1], count);
+  axis.width *= kNarrow;
+  return axis;
+}
+
+}  // namespace
+
+FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m)
+    : solved_(solved), fit_(fit), m_(m) {
+  const double cost = solved.evidence.Cost(solved.best);
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    FieldHyperparameters without = solved.best;
+    without.amplitudes[k] = 0;
+    if (solved.evidence.Cost(without) - cost > kBeyondChance)
+      held_.push_back(solved.blocks[k].kind);
+  }
+
+  // the mean of what depends on place and time belongs to the level, and a line through the curve over the speed to both
+  const Index p = UnknownsOf(fit).size();
+  report_ = MatrixXd::Identity(p, solved.evidence.size());
+  VectorXd speeds = solved.rows.velocity.cwiseAbs();
+  const double slow = QuantileInPlace(speeds, kSlow), fast = QuantileInPlace(speeds, kFast);
+  const VectorXd at_slow = OfFields(slow), at_fast = OfFields(fast);
+  const auto has = [&](LawPart part) {
+    return std::ranges::any_of(fit.parameters,
+                               [=](const FitParameter& row) { return row.part == part; });
+  };
+  VectorXd slope = VectorXd::Zero(at_slow.size()), level = at_slow;
+  const bool warms = fit.friction.thermal.has_value();  // by the loss of its best line
+  if (!warms && has(LawPart::slope) && has(LawPart::level) && fast > kOneSpeed * slow) {
+    slope = (at_fast - at_slow) / (fast - slow);
+    level -= slow * slope;
+  } else {
+    for (size_t k = 0; k < solved.blocks.size(); ++k) {
+      const FieldBlock& block = solved.blocks[k];
+      if (block.kind != FieldKind::speed_friction) continue;
+      level.segment(solved.evidence.Begin(k), block.size()).setZero();
+    }
+  }
+  Index column = 0;
+  for (const FitParameter& row : fit.parameters) {
+    if (!row.estimated) continue;
+    if (row.role == Role::law && row.part == LawPart::slope)
+      report_.row(column) += slope.transpose();
+    if (row.role == Role::law && row.part == LawPart::level)
+      report_.row(column) += level.transpose();
+    ++column;
+  }
+}
+
+VectorXd FieldFigures::OfFields(double speed) const {
+  VectorXd function = VectorXd::Zero(solved_.evidence.size());
+  const FieldRows& rows = solved_.rows;
+  const int way = OnlyWay(rows.velocity);
+  for (size_t k = 0; k < solved_.blocks.size(); ++k) {
+    const FieldBlock& block = solved_.blocks[k];
+    // a torque counts where the log has one direction alone, in which it cannot be told from friction
+    const double sign = IsFriction(block.kind) ? 1 : way;
+    VectorXd own;
+    if (block.kind == FieldKind::speed_friction) {
+      const VectorXd at = VectorXd::Constant(1, speed);
+      own = block.UnsignedAt(at, at, at).transpose() * VectorXd::Ones(1);
+    } else {
+      const SparseRows all = block.UnsignedAt(rows.time, rows.position, rows.velocity);
+      own =
+          all.transpose() * VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
+    }
+    function.segment(solved_.evidence.Begin(k), block.size()) = sign * own;
+  }
+  return function;
+}
+
+VectorXd FieldFigures::AtVelocity(double velocity, double load) const {
+  VectorXd function = OfFields(std::abs(velocity));
+  const Law& law = *FindLaw(fit_.friction.law);
+  const MatrixXd of_law = Sign(velocity) * LawColumns(law, VectorXd::Constant(1, velocity));
+  Index column = 0, of = 0;
+  for (const FitParameter& row : fit_.parameters) {
+    if (!row.estimated) continue;
+    if (row.role == Role::law) function[column] = of_law(0, of++);
+    if (row.role == Role::load) function[column] = load;
+    ++column;
+  }
+  return function;
+}
+
+double FieldFigures::Deviation(const VectorXd& function) const {
+  return std::sqrt(std::max(function.dot(solved_.posterior.covariance * function), 0.0));
+}
+
+bool FieldFigures::Holds(FieldKind kind) const {
+  return std::ranges::find(held_, kind) != held_.end();
+}
+
+VectorXd FieldFigures::AlongLog() const {
+  const Index p = report_.rows(), others = solved_.evidence.flat() - p;
+  VectorXd along = VectorXd::Constant(m_.size(), solved_.posterior.mean.segment(p, others).sum());
+  for (size_t k = 0; k < solved_.blocks.size(); ++k) {
+    const FieldBlock& block = solved_.blocks[k];
+    along += block.ColumnsAt(m_.time, m_.position, m_.velocity) *
+             solved_.posterior.mean.segment(solved_.evidence.Begin(k), block.size());
+  }
+  return along;
+}
+
+VectorXd FieldFigures::Reported() const { return report_ * solved_.posterior.mean; }
+
+Uncertainty FieldFigures::UncertaintyOf(const VectorXd& residual) const {
+  Uncertainty uncertainty;
+  uncertainty.covariance = report_ * solved_.posterior.covariance * report_.transpose();
+  uncertainty.noise = FitNoise(residual, fit_.used);
+  const double correlation = solved_.evidence.LeftCorrelation(solved_.best, solved_.posterior.mean);
+  uncertainty.degrees_of_freedom =
+      std::max(1.0, static_cast<double>(solved_.rows.size()) / correlation -
+                        solved_.evidence.EffectiveParameters(solved_.best));
+  return uncertainty;
+}
+
+void FieldFigures::AddMap(FrictionMap map, const MatrixXd& functions, double reach,
+                          Fit& fit) const {
+  const auto law = static_cast<Index>(FindLaw(fit.friction.law)->parameters.size());
+  MapBand& band = fit.bands.emplace_back();
+  band.quantities.emplace_back(NameOf(map.axes[0].quantity));
+  for (Index g = 0; g < functions.rows(); ++g) {
+    const VectorXd function = functions.row(g);
+    const double value = function.dot(solved_.posterior.mean), deviation = Deviation(function);
+    band.points.push_back({map.axes[0].kernels.centres[static_cast<size_t>(g)]});
+    band.value.push_back(value);
+    band.std.push_back(deviation);
+    band.interval95.push_back({value - reach * deviation, value + reach * deviation});
+  }
+  fit.bands_by_law.push_back(functions.leftCols(law));
+  fit.friction.maps.push_back(std::move(map));
+}
+
+void FieldFigures::AddTo(double degrees_of_freedom, Fit& fit) const {
+  const double reach = StudentQuantile(degrees_of_freedom, kIntervalLevel);
+  AddFriction(reach, fit);
+  AddPlaces(reach, fit);
+  if (Holds(FieldKind::speed_friction)) AddCurve(reach, fit);
+}
+
+std::optional<FieldFigures::WarmMoment> FieldFigures::Warmest(const Fit& fit) const {
+  if (!fit.friction.thermal) return std::nullopt;
+  const VectorXd energy = PredictFriction(fit.friction, m_, fit.Start()).energy;
+  Index warmest = -1;
+  for (Index i = 0; i < m_.size(); ++i) {
+    if (!fit.used.keep[i]) continue;
+    if (warmest < 0 || std::abs(energy[i]) > std::abs(energy[warmest])) warmest = i;
+  }
+
+  // F = Fn + sign(v) E: what the heat adds to the derivatives of Fn
+  const VectorXd along = fit_.jacobian().row(warmest);
+  MatrixXd cold = LawColumns(*FindLaw(fit.friction.law), m_.velocity.segment(warmest, 1));
+  const PartFit grows = fit.RowOf(Role::load) ? PartFit::estimated : PartFit::none;
+  cold = WithLoad(std::move(cold), grows, m_.velocity.segment(warmest, 1),
+                  m_.load ? std::optional<VectorXd>(m_.load->segment(warmest, 1)) : std::nullopt);
+  WarmMoment moment{energy[warmest], VectorXd::Zero(solved_.evidence.size())};
+  Index column = 0, of = 0;
+  for (const FitParameter& row : fit_.parameters) {
+    if (!row.estimated) continue;
+    const bool of_heat =
+        row.role == Role::heat || row.role == Role::start || row.role == Role::jump;
+    const double by_law = IsNominal(row.role) ? cold(0, of++) : 0;
+    if (of_heat || IsNominal(row.role)) {
+      moment.function[column] = Sign(m_.velocity[warmest]) * (along[column] - by_law);
+    }
+    ++column;
+  }
+  return moment;
+}
+
+void FieldFigures::AddFriction(double reach, Fit& fit) const {
+  const VectorXd kept = Kept(m_.velocity, fit.used);
+  const std::vector<SpeedGroup> groups = TypicalSpeeds(kept);
+  const bool loads = fit.RowOf(Role::load).has_value();
+  const VectorXd carried = loads ? VectorXd(Kept(*m_.load, fit.used).cwiseAbs()) : VectorXd();
+  const auto add = [&](double velocity, const VectorXd& function, std::optional<double> energy,
+                       const VectorXd& by_heat) {
+    // the heat is no linear function of the unknowns: its value is its own
+    const double value = function.dot(solved_.posterior.mean) + energy.value_or(0);
+    const double deviation = Deviation(function + by_heat);
+    fit.friction_at_speeds.push_back(
+        {.speed = velocity,
+         .value = value,
+         .std = deviation,
+         .interval95 = {value - reach * deviation, value + reach * deviation},
+         .energy = energy});
+    fit.fields->at_speeds_by_rows.push_back(ByRows(function + by_heat, fit));
+  };
+  const auto warmest = Warmest(fit);
+  const std::optional<double> cold = warmest ? std::optional(0.0) : std::nullopt;
+  std::vector<VectorXd> functions;
+  for (const SpeedGroup& group : groups) {
+    functions.push_back(AtVelocity(group.velocity, loads ? carried(group.samples).mean() : 0));
+    add(group.velocity, functions.back(), cold, VectorXd::Zero(solved_.evidence.size()));
+  }
+  for (size_t i = 0; warmest && i < groups.size(); ++i) {
+    add(groups[i].velocity, functions[i], warmest->energy, warmest->function);
+  }
+}
+
+void FieldFigures::AddPlaces(double reach, Fit& fit) const {
+  const VectorXd& mean = solved_.posterior.mean;
+  // as bands, friction at the median speed, or the torque alone
+  const double median = MedianOf(Kept(m_.velocity, fit.used).cwiseAbs());
+  for (size_t k = 0; k < solved_.blocks.size(); ++k) {
+    const FieldBlock& block = solved_.blocks[k];
+    const Index begin = solved_.evidence.Begin(k), p = report_.rows();
+    const bool is_load = block.kind == FieldKind::place_torque;
+    if ((!is_load && block.kind != FieldKind::place_friction) || !Holds(block.kind)) continue;
+    MatrixXd functions = MatrixXd::Zero(block.size(), solved_.evidence.size());
+    functions.middleCols(begin, block.size()).setIdentity();
+    if (is_load) functions.middleCols(p, solved_.evidence.flat() - p).setOnes();
+    VectorXd values = functions * mean;
+    FrictionMap map{.axes = {{MapQuantity::position, AxisOver(block.knots)}},
+                    .weights = {},
+                    .factor = is_load ? MapFactor::one : MapFactor::direction};
+    if (!is_load) {
+      // the mean over the places is in the level
+      VectorXd level = AtVelocity(median, 0);
+      values.array() -= level.segment(begin, block.size()).dot(mean.segment(begin, block.size()));
+      level.segment(begin, block.size()).setZero();
+      functions.rowwise() += level.transpose();
+    }
+    map.weights = WeightsFor(map.axes[0].kernels, values);
+    AddMap(std::move(map), functions, reach, fit);
+  }
+}
+
+void FieldFigures::AddCurve(double reach, Fit& fit) const {
+  const VectorXd speeds = Kept(m_.velocity, fit.used).cwiseAbs();
+  FrictionMap map{.axes = {{MapQuantity::velocity,
+                            SpeedAxis(speeds.minCoeff(), speeds.maxCoeff(), kSpeedCentres)}},
+                  .weights = {}};
+  GaussianAxis& axis = map.axes[0].kernels;
+  axis.width *= kNarrow;
+  MatrixXd functions(std::ssize(axis.centres), solved_.evidence.size());
+  VectorXd values(functions.rows());
+  const std::vector<double> law = LawValues(fit.friction);
+  for (Index g = 0; g < functions.rows(); ++g) {
+    const double v = axis.centres[static_cast<size_t>(g)];
+    functions.row(g) = Sign(v) * AtVelocity(v, 0);
+    // beyond the law as it is reported
+    values[g] = functions.row(g).dot(solved_.posterior.mean) -
+                FindLaw(fit.friction.law)->force(v, law.data());
+  }
+  map.weights = WeightsFor(axis, values);
+  AddMap(std::move(map), functions, reach, fit);
+}
+
+std::vector<FieldShare> FieldFigures::Shares(double friction) const {
+  std::vector<FieldShare> shares;
+  for (size_t k = 0; k < solved_.blocks.size(); ++k) {
+    const FieldBlock& block = solved_.blocks[k];
+    if (!Holds(block.kind)) continue;
+    const VectorXd along =
+        block.columns * solved_.posterior.mean.segment(solved_.evidence.Begin(k), block.size());
+    const double rms = std::sqrt(along.squaredNorm() / static_cast<double>(along.size()));
+    shares.push_back({std::string(NameOfField(block.kind)), rms / friction});
+  }
+  return shares;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,69 @@
+// What fits with fields report: law, friction at speeds, maps and bands.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "identification/fields/field_block.h"
+#include "identification/fields/field_evidence.h"
+#include "identification/fit.h"
+#include "identification/sentences/fields.h"
+#include "identification/uncertainty/uncertainty.h"
+
+namespace warmjoint {
+
+/// A solved fit with fields.
+struct SolvedFields {
+  const FieldRows& rows;
+  const std::vector<FieldBlock>& blocks;
+  const FieldEvidence& evidence;
+  FieldHyperparameters best;
+  FieldPosterior posterior;
+};
+
+/// Linear functions of the unknowns of a fit with fields.
+class FieldFigures {
+ public:
+  /// fit: the one without fields; m: the motion that it follows. Both and `solved` must outlive this.
+  FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m);
+
+  /// What the fields hold along a log, with the constant torque beside them. [N] N.m or N
+  Eigen::VectorXd AlongLog() const;
+  /// The unknowns of the table as they are reported (WithFields). [p]
+  Eigen::VectorXd Reported() const;
+  /// These as functions of all unknowns. [p x p + m]
+  const Eigen::MatrixXd& report() const { return report_; }
+  /// Of these. residual: [n] that the fit with fields leaves
+  Uncertainty UncertaintyOf(const Eigen::VectorXd& residual) const;
+  /// Adds maps, their bands, and friction at speeds to a fit whose table and model have the reported law.
+  void AddTo(double degrees_of_freedom, Fit& fit) const;
+  /// rms of each field that holds something, in the order of the blocks, shares of the friction.
+  std::vector<FieldShare> Shares(double friction) const;
+
+ private:
+  /// The friction at a velocity as a function of all unknowns: law, curve over the speed, and the means of what depends on place and
+  /// time. load: |load|, of a friction that grows with it. [p + m]
+  Eigen::VectorXd AtVelocity(double velocity, double load) const;
+  Eigen::VectorXd OfFields(double speed) const;
+  /// dE/dx at the kept sample with the largest |E|, and E. [p + m]
+  struct WarmMoment {
+    double energy = 0;  // N.m or N
+    Eigen::VectorXd function;
+  };
+  std::optional<WarmMoment> Warmest(const Fit& fit) const;
+  void AddFriction(double reach, Fit& fit) const;
+  void AddPlaces(double reach, Fit& fit) const;
+  void AddCurve(double reach, Fit& fit) const;
+  void AddMap(FrictionMap map, const Eigen::MatrixXd& functions, double reach, Fit& fit) const;
+  double Deviation(const Eigen::VectorXd& function) const;
+  bool Holds(FieldKind kind) const;
+
+  const SolvedFields& solved_;
+  const Fit& fit_;
+  const LogSamples& m_;
+  std::vector<FieldKind> held_;  // of the fields that are there beyond chance, and that maps give
+  Eigen::MatrixXd report_;       // [p x p + m]
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,30 @@
+// Of fields: what they hold, and why a fit has none.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace warmjoint {
+
+/// How much a field holds.
+struct FieldShare {
+  std::string name;  // "friction over the place"
+  double share = 0;  // rms, of the friction
+};
+/// The clause about what fields hold.
+std::string SummaryOfFields(const std::vector<FieldShare>& shares);
+
+// why a fit that was asked for fields has none
+inline constexpr const char* kNoFieldsBesideMaps =
+    "no fields are fitted, since its maps take their place; leave fields out, or choose an "
+    "identifier without maps";
+inline constexpr const char* kNoFieldsBesideLag =
+    "no fields are fitted with a lag of the torque or another loss than squares; leave one of them "
+    "out";
+inline constexpr const char* kNoFieldsBesideCovariance =
+    "no fields are fitted, since this fit has errors of its own; use nominal-ls";
+/// The log is too short. rows: means over 40 ms that there are
+std::string ExplainFewFieldRows(Eigen::Index rows, Eigen::Index fewest);
+
+}  // namespace warmjoint
