@@ -29,6 +29,7 @@ constexpr int kPlaceLengths = 5;
 constexpr double kFewLengths = 1.3;  // why: between lengths this near there is nothing to choose
 constexpr double kNugget = 1e-6;     // of a kernel's variance; why: rounding leaves less
 constexpr double kFastest = 0.99;    // quantile of the speed
+constexpr double kOneWay = 0.03;     // share of the rows
 constexpr double kLeastSpeedRange = 0.05;
 
 /// exp(-d/l), and Matern 3/2: (1 + sqrt(3) d/l) exp(-sqrt(3) d/l)
@@ -146,6 +147,12 @@ FieldBlock Make(FieldKind kind, const FieldRows& rows, JointKind joint) {
 }
 
 }  // namespace
+
+int OnlyWay(const VectorXd& velocity) {
+  const double forwards = (velocity.array() > 0).cast<double>().mean();
+  if (forwards >= 1 - kOneWay) return 1;
+  return forwards <= kOneWay ? -1 : 0;
+}
 
 SparseRows Knots::Columns(const VectorXd& x) const {
   const Index m = size();

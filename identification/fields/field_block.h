@@ -17,6 +17,9 @@ namespace warmjoint {
 /// Rows with few numbers that are not 0.
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// The only way in which a joint moves, 1 or -1; 0 where it moves both ways: at 3 % of the samples at least, of which less are a return.
+int OnlyWay(const Eigen::VectorXd& velocity);
+
 /// The rows of a fit: means over neighbouring samples that move in one direction.
 struct FieldRows {
   Eigen::VectorXd time, position, velocity;  // [n] s, rad or m, rad/s or m/s

@@ -26,7 +26,6 @@ using Eigen::VectorXd;
 
 // of -2 log p; why: of an amplitude that is 0, half a chi-squared of one degree of freedom, once in a hundred
 constexpr double kBeyondChance = 5.41;
-constexpr double kOneWay = 0.03;            // share of the rows
 constexpr double kSlow = 0.1, kFast = 0.9;  // quantiles of the speed between which a line is laid
 constexpr double kOneSpeed = 1.3;  // ratio of both; why: a line between nearer ones is noise
 constexpr int kSpeedCentres = 24;  // of each direction
@@ -48,13 +47,6 @@ std::string_view NameOfField(FieldKind kind) {
       break;
   }
   return "torque over time";
-}
-
-/// Which way the rows move: 1 or -1, or 0 for both.
-int OnlyWay(const VectorXd& velocity) {
-  const double forwards = (velocity.array() > 0).cast<double>().mean();
-  if (forwards > 1 - kOneWay) return 1;
-  return forwards < kOneWay ? -1 : 0;
 }
 
 /// Derivatives by the values of the table's rows. function: [p + m] by the coordinates of the estimated ones; returns [P]

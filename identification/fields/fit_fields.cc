@@ -29,8 +29,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kFewestRows = 60;  // why: fewer do not show how noise is correlated
-constexpr double kOneWay =
-    0.03;  // share of the rows; why: less in one direction is no more than a return
 
 /// Why a fit has no fields, where it could not have any; empty where nothing is left for them.
 std::optional<std::string> WhyNone(const Fit& fit) {
@@ -41,15 +39,10 @@ std::optional<std::string> WhyNone(const Fit& fit) {
   return std::nullopt;
 }
 
-bool MovesBothWays(const VectorXd& velocity) {
-  const double forwards = (velocity.array() > 0).cast<double>().mean();
-  return forwards > kOneWay && forwards < 1 - kOneWay;
-}
-
 /// Columns that stand in a fit with fields alone: a constant torque, which a field over the place has as its mean.
 MatrixXd ConstantOf(const Fit& fit, const Law& law, const LogSamples& m) {
   const bool constant = fit.gravity && fit.gravity->kind != GravityKind::sincos;
-  const bool has = !constant && IsSymmetric(law) && MovesBothWays(Kept(m.velocity, fit.used));
+  const bool has = !constant && IsSymmetric(law) && OnlyWay(Kept(m.velocity, fit.used)) == 0;
   return MatrixXd::Ones(m.size(), has ? 1 : 0);
 }
 
