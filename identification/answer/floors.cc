@@ -18,6 +18,8 @@ constexpr double kLeastFit = 20;   // %; why: of 45 answers on real logs only wr
 constexpr double kMostLeft = 0.5;  // of the friction; why: the same
 // of the friction; why: chosen, between good real logs and those on which another joint moves, .6 to 1.5
 constexpr double kMostTorqueOverTime = 0.5;
+// of the friction, rms; why: as of all findings together (find_lack_of_fit.cc), a friction that changes by more has no one law
+constexpr double kMostDrift = 0.25;
 constexpr double kNoFriction = 3e-3;  // of the torque; why: gears lose ten times as much at least
 
 double RootMeanSquare(const Eigen::VectorXd& x) {
@@ -72,6 +74,10 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   if (fit.fields && fit.fields->time_torque > kMostTorqueOverTime) {
     return Floor(Source::impossible, Status::inadequate_model,
                  ExplainTorqueOverTime(fit.fields->time_torque));
+  }
+  if (fit.fields && fit.fields->time_friction > kMostDrift) {
+    return Floor(Source::impossible, Status::inadequate_model,
+                 ExplainDriftOfFriction(fit.fields->time_friction, kMostDrift));
   }
   // an inertia below 0 that was taken out, without which the friction is another
   const auto inertia = std::ranges::find(fit.causes, Source::findings, &Cause::source);

@@ -91,6 +91,19 @@ double AmplitudeOf(FieldKind kind, const SolvedFields& solved) {
   return 0;
 }
 
+/// How much the friction changes over time: rms about its mean, a share of the friction.
+double DriftOf(const SolvedFields& solved, double friction) {
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    const FieldBlock& block = solved.blocks[k];
+    if (block.kind != FieldKind::time_friction) continue;
+    const FieldRows& rows = solved.rows;
+    const VectorXd drift = block.UnsignedAt(rows.time, rows.position, rows.velocity) *
+                           solved.posterior.mean.segment(solved.evidence.Begin(k), block.size());
+    return std::sqrt((drift.array() - drift.mean()).square().mean()) / friction;
+  }
+  return 0;
+}
+
 /// Changes the table and the model to x, [p]. held: columns of rows that are at a bound
 void Take(const VectorXd& x, const std::vector<Index>& held, Fit& fit) {
   Index column = 0, gravity = 0;
@@ -216,7 +229,8 @@ Fit Conclude(const Round& round, const LogSamples& m, const IdentifierInput& inp
   fit.end_energy = nullptr;
   fit.errors = {};
   fit.errors.covariance = [uncertainty] { return uncertainty; };
-  fit.fields = FittedFields{.time_torque = AmplitudeOf(FieldKind::time_torque, solved)};
+  fit.fields = FittedFields{.time_torque = AmplitudeOf(FieldKind::time_torque, solved),
+                            .time_friction = DriftOf(solved, round.friction)};
   for (const FieldBlock& block : round.blocks) fit.fields->kinds.push_back(block.kind);
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
   fit.fields->rest = torque - TorqueAlong(fit, m);

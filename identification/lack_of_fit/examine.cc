@@ -467,7 +467,7 @@ Examination ExamineResidual(const std::optional<FittedModel>& model, const Fit& 
   // how all of that biases the parameters
   SumBiases(over, examination);
   AddUnadjusted(over, examination);
-  if (!HasField(fit, FieldKind::place_torque)) AddHiddenMeans(bins, over.fit, examination);
+  AddHiddenMeans(bins, over.fit, examination);
   return examination;
 }
 

@@ -142,4 +142,12 @@ std::string ExplainTorqueOverTime(double share) {
       share);
 }
 
+std::string ExplainDriftOfFriction(double share, double most) {
+  return fmt::format(
+      "the friction changes over the log by {:.2g} % (rms), more than {:.0f} %, which no law "
+      "without a warming has; try "
+      "--identifier energy-ml on a log from a cold start, or record once the joint has settled",
+      100 * share, 100 * most);
+}
+
 }  // namespace warmjoint

@@ -56,5 +56,7 @@ std::string ExplainOwnLaw(const MovedParameter& moved);
 
 /// The sentence about a torque over time that no motion of the joint explains. share: of the friction
 std::string ExplainTorqueOverTime(double share);
+/// The sentence about a friction that drifts too much over a log. share, most: rms, of the friction
+std::string ExplainDriftOfFriction(double share, double most);
 
 }  // namespace warmjoint
