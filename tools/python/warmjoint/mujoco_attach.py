@@ -94,11 +94,13 @@ def _spec_of(model: mujoco.MjSpec | str | os.PathLike[str]) -> tuple[mujoco.MjSp
     """The spec of a model, and what messages call it."""
     if isinstance(model, mujoco.MjSpec):
         return model, model.modelname
-    with mujoco_library.refusing("model: MuJoCo cannot read it"):
-        if isinstance(model, str) and model.lstrip().startswith("<"):
+    reading = "model: MuJoCo cannot read it"
+    if isinstance(model, str) and model.lstrip().startswith("<"):
+        with mujoco_library.refusing(reading):
             spec = mujoco.MjSpec.from_string(model)
-            return spec, spec.modelname
-        path = pathlib.Path(path_of(model, "model")).resolve()
+        return spec, spec.modelname
+    path = pathlib.Path(path_of(model, "model")).resolve()
+    with mujoco_library.refusing(reading):
         spec = mujoco.MjSpec.from_file(str(path))
     # its text finds its meshes from anywhere
     spec.meshdir = str(path.parent / spec.meshdir)

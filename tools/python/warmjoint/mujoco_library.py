@@ -21,9 +21,7 @@ def refusing(what: str) -> Iterator[None]:
 
     try:
         yield
-    except BadInput:
-        raise
-    except (ValueError, mujoco.FatalError) as refusal:
+    except (ValueError, mujoco.FatalError) as refusal:  # a BadInput, too, which older versions of MuJoCo take for theirs
         raise BadInput(f"{what}: {one_line(refusal)}") from None
 
 
