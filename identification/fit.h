@@ -71,7 +71,8 @@ struct FittedFields {
   std::vector<Eigen::VectorXd> at_speeds_by_rows{};
   Eigen::VectorXd rest{};  // [N] torque along this log alone, as drifts, N.m or N
   double time_torque = 0;  // amplitude of the torque over time, a share of the friction
-  double time_friction = 0;  // rms of the friction over time about its mean, a share of the friction
+  double time_friction =
+      0;  // rms of the friction over time about its mean, a share of the friction
 
   bool Has(FieldKind kind) const { return std::ranges::find(kinds, kind) != kinds.end(); }
 };
