@@ -201,6 +201,16 @@ void SetFriction(const FitParameter& row, double value, Friction& friction) {
   (gain ? friction.thermal->gain : friction.thermal->time_constant) = value;
 }
 
+void PutIntoModel(const FitParameter& row, Eigen::Index& gravity, Fit& fit) {
+  SetFriction(row, row.value, fit.friction);
+  if (row.role == Role::start) fit.initial_energy = row.value;
+  if (row.role == Role::gravity && fit.gravity->kind != GravityKind::paired) {
+    fit.gravity->values[gravity++] = row.value;
+  }
+  if (row.role == Role::inertia) fit.inertia = row.value;
+  if (row.role == Role::delay) fit.torque_delay = row.value;
+}
+
 std::vector<double> NominalValues(const Fit& fit) {
   std::vector<double> values = LawValues(fit.friction);
   if (fit.RowOf(Role::load)) values.push_back(fit.friction.load_gain);

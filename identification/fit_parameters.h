@@ -66,6 +66,10 @@ Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
 /// coordinate is the logarithm. Other rows change nothing.
 void SetFriction(const FitParameter& row, double value, Friction& friction);
 
+/// Puts the value of a row into the fit's model. gravity: the place of the next of its values; those of `paired`, which follow from
+/// all rows together, stay
+void PutIntoModel(const FitParameter& row, Eigen::Index& gravity, Fit& fit);
+
 /// Fn's parameters of a fit's friction, as LawParameters takes them: load_gain after the law's where the fit has it.
 std::vector<double> NominalValues(const Fit& fit);
 

@@ -55,4 +55,12 @@ std::vector<SpeedGroup> TypicalSpeeds(const Eigen::VectorXd& velocity) {
   return all;
 }
 
+std::vector<double> MeanLoads(const std::vector<SpeedGroup>& groups, const Eigen::VectorXd& load) {
+  std::vector<double> means(groups.size(), 0.0);
+  if (load.size() == 0) return means;
+  const Eigen::VectorXd carried = load.cwiseAbs();
+  for (size_t i = 0; i < groups.size(); ++i) means[i] = carried(groups[i].samples).mean();
+  return means;
+}
+
 }  // namespace warmjoint

@@ -17,4 +17,7 @@ struct SpeedGroup {
 /// velocity: [n] rad/s or m/s of the samples that count
 std::vector<SpeedGroup> TypicalSpeeds(const Eigen::VectorXd& velocity);
 
+/// Mean |load| of each group's samples, 0 of a friction that does not grow with it. load: [n] N.m or N; or empty
+std::vector<double> MeanLoads(const std::vector<SpeedGroup>& groups, const Eigen::VectorXd& load);
+
 }  // namespace warmjoint

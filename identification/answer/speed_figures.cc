@@ -102,16 +102,6 @@ VectorXd ColdDerivatives(const Fit& fit, double speed, double load = 0) {
   return derivatives;
 }
 
-/// Mean |load| of the kept samples of each group; 0 of a friction that does not grow with it.
-std::vector<double> LoadsOf(const Fit& fit, const std::vector<SpeedGroup>& groups,
-                            const LogSamples& m, const Selection& selection) {
-  std::vector<double> loads(groups.size(), 0.0);
-  if (!fit.RowOf(Role::load)) return loads;
-  const VectorXd kept = Kept(*m.load, selection).cwiseAbs();
-  for (size_t i = 0; i < groups.size(); ++i) loads[i] = kept(groups[i].samples).mean();
-  return loads;
-}
-
 /// The figures of a fit that has them already, since its table has only the law.
 std::vector<SpeedFigure> OfItsOwn(const Fit& fit, const LogSamples& m) {
   std::vector<SpeedFigure> all;
@@ -150,7 +140,8 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
   const auto resistance = [&](double v, double load) {
     return Sign(v) * law.force(v, values.data()) + fit.friction.load_gain * load;
   };
-  const std::vector<double> loads = LoadsOf(fit, groups, m, selection);
+  const std::vector<double> loads =
+      MeanLoads(groups, fit.RowOf(Role::load) ? Kept(*m.load, selection) : VectorXd());
   for (size_t i = 0; i < groups.size(); ++i) {
     const double v = groups[i].velocity, load = loads[i];
     add(FigureOf(fit, inferred, m, v, resistance(v, load), ColdDerivatives(fit, v, load), cold));

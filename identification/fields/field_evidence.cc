@@ -310,7 +310,7 @@ FieldHyperparameters FieldEvidence::Maximise() const {
   const double rough = squares > 0 ? products / squares : 0;
   FieldHyperparameters start{std::vector<double>(blocks_.size(), kStart), {}};
   for (const FieldBlock& block : blocks_) start.lengths.push_back(block.lengths.size() / 2);
-  start.correlation = *std::ranges::min_element(kCorrelations, {},
+  start.correlation = *std::ranges::min_element(correlations_, {},
                                                 [&](double rho) { return std::abs(rho - rough); });
   start.innovation = std::max(left.squaredNorm() / static_cast<double>(left.size()),
                               RoundingVariance(rows_.torque)) *

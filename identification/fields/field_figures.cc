@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -31,7 +30,6 @@ constexpr double kOneSpeed = 1.3;  // ratio of both; why: a line between nearer 
 constexpr int kSpeedCentres = 24;  // of each direction
 constexpr double kNarrow =
     0.5;  // of the centres' distance; why: narrower kernels make steps between centres
-constexpr double kClear = 2;  // deviations
 
 std::string_view NameOfField(FieldKind kind) {
   switch (kind) {
@@ -84,6 +82,15 @@ GaussianAxis AxisOver(const Knots& knots) {
 
 }  // namespace
 
+VectorXd FieldsAlong(const SolvedFields& solved, Index p, const LogSamples& m) {
+  const Index others = solved.evidence.flat() - p;
+  VectorXd along = VectorXd::Constant(m.size(), solved.posterior.mean.segment(p, others).sum());
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    along += solved.blocks[k].ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
+  }
+  return along;
+}
+
 FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m)
     : solved_(solved), fit_(fit), m_(m) {
   const double cost = solved.evidence.Cost(solved.best);
@@ -94,27 +101,23 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
       held_.push_back(solved.blocks[k].kind);
   }
 
+  means_ = MeansOfFields();
+
   // the mean of what depends on place and time belongs to the level, and a line through the curve over the speed to both
   const Index p = UnknownsOf(fit).size();
   report_ = MatrixXd::Identity(p, solved.evidence.size());
   VectorXd speeds = solved.rows.velocity.cwiseAbs();
   const double slow = QuantileInPlace(speeds, kSlow), fast = QuantileInPlace(speeds, kFast);
-  const VectorXd at_slow = OfFields(slow), at_fast = OfFields(fast);
   const auto has = [&](LawPart part) {
     return std::ranges::any_of(fit.parameters,
                                [=](const FitParameter& row) { return row.part == part; });
   };
-  VectorXd slope = VectorXd::Zero(at_slow.size()), level = at_slow;
+  VectorXd slope = VectorXd::Zero(means_.size()), level = means_;
   const bool warms = fit.friction.thermal.has_value();  // by the loss of its best line
   if (!warms && has(LawPart::slope) && has(LawPart::level) && fast > kOneSpeed * slow) {
-    slope = (at_fast - at_slow) / (fast - slow);
-    level -= slow * slope;
-  } else {
-    for (size_t k = 0; k < solved.blocks.size(); ++k) {
-      const FieldBlock& block = solved.blocks[k];
-      if (block.kind != FieldKind::speed_friction) continue;
-      level.segment(solved.evidence.Begin(k), block.size()).setZero();
-    }
+    const VectorXd at_slow = OfFields(slow);
+    slope = (OfFields(fast) - at_slow) / (fast - slow);
+    level = at_slow - slow * slope;
   }
   Index column = 0;
   for (const FitParameter& row : fit.parameters) {
@@ -127,24 +130,30 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
   }
 }
 
-VectorXd FieldFigures::OfFields(double speed) const {
+VectorXd FieldFigures::MeansOfFields() const {
   VectorXd function = VectorXd::Zero(solved_.evidence.size());
   const FieldRows& rows = solved_.rows;
   const int way = OnlyWay(rows.velocity);
+  const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
     const FieldBlock& block = solved_.blocks[k];
+    if (block.kind == FieldKind::speed_friction) continue;
     // a torque counts where the log has one direction alone, in which it cannot be told from friction
     const double sign = IsFriction(block.kind) ? 1 : way;
-    VectorXd own;
-    if (block.kind == FieldKind::speed_friction) {
-      const VectorXd at = VectorXd::Constant(1, speed);
-      own = block.UnsignedAt(at, at, at).transpose() * VectorXd::Ones(1);
-    } else {
-      const SparseRows all = block.UnsignedAt(rows.time, rows.position, rows.velocity);
-      own =
-          all.transpose() * VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
-    }
-    function.segment(solved_.evidence.Begin(k), block.size()) = sign * own;
+    const SparseRows all = block.UnsignedAt(rows.time, rows.position, rows.velocity);
+    function.segment(solved_.evidence.Begin(k), block.size()) = sign * (all.transpose() * each);
+  }
+  return function;
+}
+
+VectorXd FieldFigures::OfFields(double speed) const {
+  VectorXd function = means_;
+  const VectorXd at = VectorXd::Constant(1, speed);
+  for (size_t k = 0; k < solved_.blocks.size(); ++k) {
+    const FieldBlock& block = solved_.blocks[k];
+    if (block.kind != FieldKind::speed_friction) continue;
+    function.segment(solved_.evidence.Begin(k), block.size()) =
+        block.UnsignedAt(at, at, at).transpose() * VectorXd::Ones(1);
   }
   return function;
 }
@@ -171,27 +180,15 @@ bool FieldFigures::Holds(FieldKind kind) const {
   return std::ranges::find(held_, kind) != held_.end();
 }
 
-VectorXd FieldFigures::AlongLog() const {
-  const Index p = report_.rows(), others = solved_.evidence.flat() - p;
-  VectorXd along = VectorXd::Constant(m_.size(), solved_.posterior.mean.segment(p, others).sum());
-  for (size_t k = 0; k < solved_.blocks.size(); ++k) {
-    const FieldBlock& block = solved_.blocks[k];
-    along += block.ColumnsAt(m_.time, m_.position, m_.velocity) *
-             solved_.posterior.mean.segment(solved_.evidence.Begin(k), block.size());
-  }
-  return along;
-}
-
 VectorXd FieldFigures::Reported() const { return report_ * solved_.posterior.mean; }
 
-Uncertainty FieldFigures::UncertaintyOf(const VectorXd& residual) const {
+Uncertainty FieldFigures::UncertaintyOf(const VectorXd& residual, double effective) const {
   Uncertainty uncertainty;
   uncertainty.covariance = report_ * solved_.posterior.covariance * report_.transpose();
   uncertainty.noise = FitNoise(residual, fit_.used);
   const double correlation = solved_.evidence.LeftCorrelation(solved_.best, solved_.posterior.mean);
   uncertainty.degrees_of_freedom =
-      std::max(1.0, static_cast<double>(solved_.rows.size()) / correlation -
-                        solved_.evidence.EffectiveParameters(solved_.best));
+      std::max(1.0, static_cast<double>(solved_.rows.size()) / correlation - effective);
   return uncertainty;
 }
 
@@ -253,7 +250,8 @@ void FieldFigures::AddFriction(double reach, Fit& fit) const {
   const VectorXd kept = Kept(m_.velocity, fit.used);
   const std::vector<SpeedGroup> groups = TypicalSpeeds(kept);
   const bool loads = fit.RowOf(Role::load).has_value();
-  const VectorXd carried = loads ? VectorXd(Kept(*m_.load, fit.used).cwiseAbs()) : VectorXd();
+  const std::vector<double> carried =
+      MeanLoads(groups, loads ? Kept(*m_.load, fit.used) : VectorXd());
   const auto add = [&](double velocity, const VectorXd& function, std::optional<double> energy,
                        const VectorXd& by_heat) {
     // the heat is no linear function of the unknowns: its value is its own
@@ -270,9 +268,9 @@ void FieldFigures::AddFriction(double reach, Fit& fit) const {
   const auto warmest = Warmest(fit);
   const std::optional<double> cold = warmest ? std::optional(0.0) : std::nullopt;
   std::vector<VectorXd> functions;
-  for (const SpeedGroup& group : groups) {
-    functions.push_back(AtVelocity(group.velocity, loads ? carried(group.samples).mean() : 0));
-    add(group.velocity, functions.back(), cold, VectorXd::Zero(solved_.evidence.size()));
+  for (size_t i = 0; i < groups.size(); ++i) {
+    functions.push_back(AtVelocity(groups[i].velocity, carried[i]));
+    add(groups[i].velocity, functions.back(), cold, VectorXd::Zero(solved_.evidence.size()));
   }
   for (size_t i = 0; warmest && i < groups.size(); ++i) {
     add(groups[i].velocity, functions[i], warmest->energy, warmest->function);
@@ -280,7 +278,6 @@ void FieldFigures::AddFriction(double reach, Fit& fit) const {
 }
 
 void FieldFigures::AddPlaces(double reach, Fit& fit) const {
-  const VectorXd& mean = solved_.posterior.mean;
   // as bands, friction at the median speed, or the torque alone
   const double median = MedianOf(Kept(m_.velocity, fit.used).cwiseAbs());
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
@@ -291,14 +288,14 @@ void FieldFigures::AddPlaces(double reach, Fit& fit) const {
     MatrixXd functions = MatrixXd::Zero(block.size(), solved_.evidence.size());
     functions.middleCols(begin, block.size()).setIdentity();
     if (is_load) functions.middleCols(p, solved_.evidence.flat() - p).setOnes();
-    VectorXd values = functions * mean;
+    VectorXd values = functions * solved_.posterior.mean;
     FrictionMap map{.axes = {{MapQuantity::position, AxisOver(block.knots)}},
                     .weights = {},
                     .factor = is_load ? MapFactor::one : MapFactor::direction};
     if (!is_load) {
       // the mean over the places is in the level
       VectorXd level = AtVelocity(median, 0);
-      values.array() -= level.segment(begin, block.size()).dot(mean.segment(begin, block.size()));
+      values.array() -= level.segment(begin, block.size()).dot(solved_.ValuesOf(k));
       level.segment(begin, block.size()).setZero();
       functions.rowwise() += level.transpose();
     }
@@ -333,8 +330,7 @@ std::vector<FieldShare> FieldFigures::Shares(double friction) const {
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
     const FieldBlock& block = solved_.blocks[k];
     if (!Holds(block.kind)) continue;
-    const VectorXd along =
-        block.columns * solved_.posterior.mean.segment(solved_.evidence.Begin(k), block.size());
+    const VectorXd along = block.columns * solved_.ValuesOf(k);
     const double rms = std::sqrt(along.squaredNorm() / static_cast<double>(along.size()));
     shares.push_back({std::string(NameOfField(block.kind)), rms / friction});
   }

@@ -20,7 +20,15 @@ struct SolvedFields {
   const FieldEvidence& evidence;
   FieldHyperparameters best;
   FieldPosterior posterior;
+
+  /// The values at a block's knots. [m]
+  Eigen::VectorXd ValuesOf(size_t block) const {
+    return posterior.mean.segment(evidence.Begin(block), blocks[block].size());
+  }
 };
+
+/// What the fields hold along a log, with the constant torque beside them. p: unknowns of the fit's table; returns [N] N.m or N
+Eigen::VectorXd FieldsAlong(const SolvedFields& solved, Eigen::Index p, const LogSamples& m);
 
 /// Linear functions of the unknowns of a fit with fields.
 class FieldFigures {
@@ -28,14 +36,12 @@ class FieldFigures {
   /// fit: the one without fields; m: the motion that it follows. Both and `solved` must outlive this.
   FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m);
 
-  /// What the fields hold along a log, with the constant torque beside them. [N] N.m or N
-  Eigen::VectorXd AlongLog() const;
   /// The unknowns of the table as they are reported (WithFields). [p]
   Eigen::VectorXd Reported() const;
   /// These as functions of all unknowns. [p x p + m]
   const Eigen::MatrixXd& report() const { return report_; }
-  /// Of these. residual: [n] that the fit with fields leaves
-  Uncertainty UncertaintyOf(const Eigen::VectorXd& residual) const;
+  /// Of these. residual: [n] that the fit with fields leaves; effective: parameters (EffectiveParameters)
+  Uncertainty UncertaintyOf(const Eigen::VectorXd& residual, double effective) const;
   /// Adds maps, their bands, and friction at speeds to a fit whose table and model have the reported law.
   void AddTo(double degrees_of_freedom, Fit& fit) const;
   /// rms of each field that holds something, in the order of the blocks, shares of the friction.
@@ -46,6 +52,8 @@ class FieldFigures {
   /// time. load: |load|, of a friction that grows with it. [p + m]
   Eigen::VectorXd AtVelocity(double velocity, double load) const;
   Eigen::VectorXd OfFields(double speed) const;
+  /// Of what depends on place and time, the means over the rows. [p + m]
+  Eigen::VectorXd MeansOfFields() const;
   /// dE/dx at the kept sample with the largest |E|, and E. [p + m]
   struct WarmMoment {
     double energy = 0;  // N.m or N
@@ -63,6 +71,7 @@ class FieldFigures {
   const Fit& fit_;
   const LogSamples& m_;
   std::vector<FieldKind> held_;  // of the fields that are there beyond chance, and that maps give
+  Eigen::VectorXd means_;        // MeansOfFields
   Eigen::MatrixXd report_;       // [p x p + m]
 };
 

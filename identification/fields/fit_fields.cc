@@ -19,7 +19,6 @@
 #include "identification/sentences/fields.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/warming/initial_energy.h"
-#include "models/friction/sign.h"
 
 namespace warmjoint {
 namespace {
@@ -97,8 +96,8 @@ double DriftOf(const SolvedFields& solved, double friction) {
     const FieldBlock& block = solved.blocks[k];
     if (block.kind != FieldKind::time_friction) continue;
     const FieldRows& rows = solved.rows;
-    const VectorXd drift = block.UnsignedAt(rows.time, rows.position, rows.velocity) *
-                           solved.posterior.mean.segment(solved.evidence.Begin(k), block.size());
+    const VectorXd drift =
+        block.UnsignedAt(rows.time, rows.position, rows.velocity) * solved.ValuesOf(k);
     return std::sqrt((drift.array() - drift.mean()).square().mean()) / friction;
   }
   return 0;
@@ -116,13 +115,7 @@ void Take(const VectorXd& x, const std::vector<Index>& held, Fit& fit) {
       const bool below = std::abs(row.value - row.lower) <= std::abs(row.upper - row.value);
       row.value = below ? row.lower : row.upper;
     }
-    SetFriction(row, row.value, fit.friction);
-    if (row.role == Role::start) fit.initial_energy = row.value;
-    if (row.role == Role::gravity && fit.gravity->kind != GravityKind::paired) {
-      fit.gravity->values[gravity++] = row.value;
-    }
-    if (row.role == Role::inertia) fit.inertia = row.value;
-    if (row.role == Role::delay) fit.torque_delay = row.value;
+    PutIntoModel(row, gravity, fit);
   }
 }
 
@@ -215,16 +208,16 @@ std::unique_ptr<Round> Solve(Fit fit, const IdentifierInput& input, const LogSam
 Fit Conclude(const Round& round, const LogSamples& m, const IdentifierInput& input) {
   Fit fit = round.fit;
   SolvedFields solved = round.solved();
-  const std::vector<Index> held =
-      HoldBounds(FieldFigures(solved, round.fit, m).report(), round.fit, solved.posterior);
   const FieldFigures figures(solved, round.fit, m);
+  const std::vector<Index> held = HoldBounds(figures.report(), round.fit, solved.posterior);
   const VectorXd x = UnknownsOf(fit);
   const VectorXd torque = TorqueAlong(fit, m) +
                           fit.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
-                          figures.AlongLog();
+                          FieldsAlong(solved, x.size(), m);
   fit.torque = Kept(input.measurements.torque, fit.used);
   fit.fitted = Kept(torque, fit.used);
-  const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual());
+  fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
+  const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
   Take(figures.Reported(), held, fit);
   fit.end_energy = nullptr;
   fit.errors = {};
@@ -234,7 +227,6 @@ Fit Conclude(const Round& round, const LogSamples& m, const IdentifierInput& inp
   for (const FieldBlock& block : round.blocks) fit.fields->kinds.push_back(block.kind);
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
   fit.fields->rest = torque - TorqueAlong(fit, m);
-  fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
   fit.count += static_cast<int>(round.evidence->size() - x.size());
   fit.summary += SummaryOfFields(figures.Shares(round.friction));
   return fit;
@@ -300,8 +292,8 @@ Fit FitWithFields(const IdentifierInput& input, const MakeFit& make) {
 
   // the fit once more to what the fields leave, and the fields about that
   for (int i = 1; i < kMostRounds && !IsLinear(round->fit) && !round->Rests(); ++i) {
-    const SolvedFields solved = round->solved();
-    const VectorXd held = FieldFigures(solved, round->fit, followed.measurements).AlongLog();
+    const VectorXd held =
+        FieldsAlong(round->solved(), UnknownsOf(round->fit).size(), followed.measurements);
     LogView less{input.measurements, input.selection};
     less.measurements.torque -= held;
     Fit next = make(input.On(less));

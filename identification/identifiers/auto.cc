@@ -1,8 +1,8 @@
 // Identifier `auto`: chooses the structure, then identifies it.
 //
 // Tries the laws, cold and warm, with the Stribeck effect (with a level for each direction where the
-// residual has a mean force in one direction), and with maps over position, and over the motor's angle where a gear is
-// given. Drops those that the recording cannot identify, and
+// residual has a mean force in one direction). What these lack fields take up in the fit of the chosen one; without fields
+// there are also maps over position, and over the motor's angle where a gear is given. Drops those that the recording cannot identify, and
 // those to which BIC prefers a simpler one; compares the others by the error on contiguous blocks
 // that were left out of the fit (hold_out.h) and takes the simplest that is not worse than the
 // best beyond what that gains by chance (model_comparison.h). The fit is that structure's on all the data; the

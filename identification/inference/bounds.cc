@@ -77,11 +77,7 @@ void Move(const Eigen::VectorXd& moves, Fit& fit) {
     // exactly at the bound
     if (IsNominal(row.role)) row.value = std::clamp(row.value, row.lower, row.upper);
     row.moved = row.value - before;
-    SetFriction(row, row.value, fit.friction);
-    if (row.role == Role::start) fit.initial_energy = row.value;
-    if (row.role == Role::gravity) fit.gravity->values[gravity++] = row.value;
-    if (row.role == Role::inertia) fit.inertia = row.value;
-    if (row.role == Role::delay) fit.torque_delay = row.value;
+    PutIntoModel(row, gravity, fit);
   }
 }
 

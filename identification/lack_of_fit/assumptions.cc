@@ -223,12 +223,11 @@ void AddOpen(const OverBins& over, const Fit& fitted, Examination& examination) 
     examination.Add(source, Action::note,
                     Farthest(moves.middleCols(first, count), FarEnds(open, first, count, most)));
   };
-  const auto has = [&](FieldKind kind) { return fitted.fields && fitted.fields->Has(kind); };
-  if (!has(FieldKind::speed_friction))
+  if (!HasField(fitted, FieldKind::speed_friction))
     note(Source::open_curve, curve, 2, friction / (fastest * fastest));
   note(Source::open_memory, memory, late, friction / fastest);
 
-  if (has(FieldKind::time_friction)) return;
+  if (HasField(fitted, FieldKind::time_friction)) return;
   // friction, or a sensor, that drifts for another reason than its losses: relative to the first moment
   VectorXd factors(kDrifts + 1);
   factors << FarEnds(open, drift, kDrifts, friction), FarEnds(open, gain, 1, 1);

@@ -370,9 +370,6 @@ void TakeOffRounding(const OverBins& over, const RoundedTorque& rounded, VectorX
   }
 }
 
-/// Whether a fit has a field of that kind.
-bool HasField(const Fit& fit, FieldKind kind) { return fit.fields && fit.fields->Has(kind); }
-
 /// Marks the tests of what fields hold.
 void LeaveToFields(const Fit& fit, std::vector<Finding>& table) {
   for (Finding& finding : table) {

@@ -42,6 +42,9 @@ struct FittedModel {
   bool has_bristle = false;  // whether the law has a state of its own, by which the joint sticks
 };
 
+/// Whether a fit has a field of that kind.
+inline bool HasField(const Fit& fit, FieldKind kind) { return fit.fields && fit.fields->Has(kind); }
+
 /// dFn/dp of a law at speeds, by central differences where it is not linear in p. values: [d] p; velocity: [N] rad/s or m/s;
 /// returns [N x d]
 Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,

@@ -39,6 +39,11 @@ double ValueIn(const Estimate& estimate, const char* name) {
   return one && std::isfinite(one->value) ? one->value : 0;
 }
 
+/// N.m or N of a joint's friction for one of its log's unit: the gain of a current, 1 of a torque.
+double ConstantOf(const RobotJointEstimate& known) {
+  return known.summary.torque_unit == "A" ? std::abs(known.summary.gain.value_or(1)) : 1;
+}
+
 Rigid RigidOf(const RobotData& data, const RobotRows& rows, Index j,
               const RobotJointEstimate& known, std::vector<std::string>& notices) {
   const std::vector<double>& mended = known.summary.inertials;
@@ -56,34 +61,29 @@ Rigid RigidOf(const RobotData& data, const RobotRows& rows, Index j,
   // of a torque in amperes that friction in N.m was made of, the description's own
   const bool in_amperes = known.summary.torque_unit == "A";
   const double gain = in_amperes ? 1 : known.summary.gain.value_or(1);
-  const double constant = in_amperes ? std::abs(known.summary.gain.value_or(1)) : 1;
   Rigid rigid;
   rigid.carried = gain * (motion.Regressor(weights, Accelerations::left_out) * parameters);
   rigid.torque = gain * (motion.Regressor(weights, Accelerations::counted) * parameters) +
-                 ValueIn(known.estimate, "rotor_inertia") / constant *
+                 ValueIn(known.estimate, "rotor_inertia") / ConstantOf(known) *
                      rows.samples.front().acceleration.col(j);
   return rigid;
 }
 
 /// The deviation of a sample about the model, N.m or N: on unseen data where there is one.
 double StdOfSample(const RobotJointEstimate& known) {
-  const bool in_amperes = known.summary.torque_unit == "A";
-  const double constant = in_amperes ? std::abs(known.summary.gain.value_or(1)) : 1;
   const double fitted = known.estimate.metrics ? known.estimate.metrics->rmse : 0;
-  return known.summary.rms_held_out.value_or(fitted) / constant;
+  return known.summary.rms_held_out.value_or(fitted) / ConstantOf(known);
 }
 
 JointExternal Along(const RobotData& data, const RobotRows& rows, Index j,
                     const RobotJointEstimate& known, const CompensatorSettings& compensation,
                     std::vector<std::string>& notices) {
   const RobotSamples& s = rows.samples.front();
-  const bool in_amperes = known.summary.torque_unit == "A";
-  const double constant = in_amperes ? std::abs(known.summary.gain.value_or(1)) : 1;
   const Rigid rigid = RigidOf(data, rows, j, known, notices);
   JointExternal found{known.summary.joint,
                       data.robot.joints[static_cast<std::size_t>(j)].kind,
                       s.velocity.col(j),
-                      s.torque.col(j) / constant,
+                      s.torque.col(j) / ConstantOf(known),
                       rigid.torque,
                       {},
                       {},
