@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// why each number has its value: tests/studies/identification.md
+// why each number has its value: tests/studies/preparation.md
 constexpr Index kHalfWidths[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  // samples to each side
 constexpr Index kWide = 6;           // from which half width on the degree is five
 constexpr double kByChance = 1e-3;   // of windows whose polynomial fits, rejected by chance

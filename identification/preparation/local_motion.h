@@ -14,7 +14,7 @@ namespace warmjoint {
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;
 
-/// Speed from which on a joint clearly moves; why: tests/studies/identification.md.
+/// Speed from which on a joint clearly moves; why: tests/studies/preparation.md.
 inline constexpr double kClear = 0.05;  // of the velocity's root mean square
 
 struct LocalMotion {

@@ -4,7 +4,7 @@
 
 - Valid are: estimates of the identifiers, answered or refused, the friction files, scenarios and suites of the project, and every
   block of a page in JSON or YAML that is one. An answer of an identifier of others may leave out all but its status.
-- Each change of a good file that its schema refuses is refused by the program, too. Each example of scenarios/keys.md runs.
+- Each change of a good file that its schema refuses is refused by the program, too. Each example of scenarios/keys/ runs.
 - CITATION.cff has what its format asks for.
 
 Exits 77, with the reason, where jsonschema is absent: tools/docs/setup fetches it.
@@ -137,7 +137,7 @@ def main():
                     continue
                 check(kind, value, f"{page}:{block.line}")
                 run = "run {file} --jobs 1 --allow-commands -o {out}" if kind == "suite" else "simulate {file} -o {out}"
-                status, words, _ = call(run, block.text) if page.name == "keys.md" else (0, "", "")
+                status, words, _ = call(run, block.text) if page.parent.name == "keys" else (0, "", "")
                 if status not in (0, 5):
                     problems.append(f"{page}:{block.line}: {words}")
 

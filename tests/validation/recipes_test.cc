@@ -1,4 +1,4 @@
-// The recipes of tools/docs/logs.md for logs of others, from their files to a verdict.
+// The recipes of tools/docs/real-logs.md for logs of others, from their files to a verdict.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

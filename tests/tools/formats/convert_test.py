@@ -231,7 +231,7 @@ class Convert(unittest.TestCase):
     def test_endings_are_one_list(self):
         """The reader of each ending is there, and help and page name it."""
         formats = pathlib.Path(__file__).resolve().parents[3] / "tools/python/warmjoint/formats"
-        page = (formats.parents[2] / "docs/logs.md").read_text()
+        page = (formats.parents[2] / "docs/formats.md").read_text()
         shown = subprocess.run([PROGRAM, "convert", "--help"], capture_output=True, text=True, check=True).stdout
         endings = set(re.findall(r"\.[a-z0-9]+", " ".join(shown.split("LOG REQUIRED")[1].split("-o,--output")[0].split())))
         self.assertGreater(len(endings), 15)
