@@ -101,8 +101,27 @@ def while_warming(ax: Any, view: View, title: str = "") -> None:
     draw.finish(ax, view.time_name, view.torque_name(speed), title)
 
 
+MEANS = 80  # of a log: dots about as far apart as they are wide in a picture
+
+
+def about_the_fit(ax: Any, view: View) -> None:
+    """The same less the fit, as means over parts of the log, on an axis on which the interval of the fit can be seen."""
+    at = view.facts.get("at_speed")
+    half = Z95 * (at["std"] if at else view.energy_std)
+    clock, left = view.kept(view.clock), view.kept((view.torque - view.fitted) * np.sign(view.velocity))
+    known = np.isfinite(left)
+    parts = [own for own in np.array_split(np.flatnonzero(known), min(MEANS, np.count_nonzero(known))) if own.size]
+    means = np.array([left[own].mean() for own in parts])
+    draw.dots(ax, [clock[own].mean() for own in parts], means, f"means of {len(parts[0])} samples" if parts else "", size=2.0)
+    draw.band(ax, view.clock, -half, half, "95 % interval of the fit", "vermilion", 0.35)
+    draw.level(ax, 0.0, "", "vermilion", 1.0, "solid")
+    reach = 1.1 * max(np.quantile(np.abs(means), 0.98) if parts else 0.0, half.max())
+    ax.set_ylim(-reach, reach)
+    draw.finish(ax, view.time_name, view.torque_name("less the fit"))
+
+
 def warm_up(view: View) -> Sheet | None:
-    """Friction at one speed while the joint warms. Nothing without a fit that warms."""
+    """Friction at one speed while the joint warms, and below it what the fit leaves, beside the fit's interval. Nothing without a fit that warms."""
     if not view.warms or not view.count:
         return None
     at, warmest = view.facts.get("at_speed"), view.warmest
@@ -115,7 +134,13 @@ def warm_up(view: View) -> Sheet | None:
         title = "Change of friction by its own heat"
         found = f"Friction changes by E = {significant(view.energy[warmest])} {view.torque_unit} at most, {when}."
     fig = Sheet("warm_up", title, view.origin, found)
-    while_warming(fig.panels((390, [1]))[0], view)
+    deviation = at["std"] if at else view.energy_std
+    if deviation is None or not deviation.size:
+        while_warming(fig.panels((390, [1]))[0], view)
+        return fig
+    above, below = fig.panels((300, [1]), (170, [1]))
+    while_warming(above, view)
+    about_the_fit(below, view)
     return fig
 
 

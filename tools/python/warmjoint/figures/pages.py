@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import io
 import json
 import pathlib
 import re
@@ -15,7 +14,7 @@ import jinja2
 from markupsafe import Markup
 
 from . import log_page, robot_page, run_page
-from .sheet import Sheet, TooLarge, encode
+from .sheet import Sheet, TooLarge, in_few_colours
 from .style import use
 
 HERE = pathlib.Path(__file__).resolve().parent / "templates"
@@ -61,12 +60,8 @@ def prepare(table: dict[str, Any]) -> dict[str, Any]:
 
 
 def embedded(sheet: Sheet) -> str:
-    """A figure as the address of an image, by a palette of 256 colours: few lines have more, and a page is to fit into a mail."""
-    from PIL import Image
-
-    file = io.BytesIO()
-    Image.open(io.BytesIO(encode(sheet))).quantize(256, dither=Image.Dither.NONE).save(file, "png", compress_level=9)
-    return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode()
+    """A figure as the address of an image."""
+    return "data:image/png;base64," + base64.b64encode(in_few_colours(sheet)).decode()
 
 
 class Picture:

@@ -75,6 +75,10 @@ class Sheet(Figure):
         with matplotlib.rc_context(self._rc):
             super().savefig(*given, **named)
 
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows of a cell that ends with a figure."""
+        return in_few_colours(self)
+
     def panels(self, *rows: tuple[float, Sequence[float]]) -> list[Any]:
         """Axes of rows, each a height (points) and the shares of its panels: in the order of reading. Panels that would be too narrow stand
         one below the other."""
@@ -442,6 +446,15 @@ def encode(sheet: Sheet, format: str = "png", dpi: float = 0) -> bytes:
     sheet.set_layout_engine("none")  # it is laid out, once
     dpi = dpi or look()["dpi"]
     return _png(sheet, dpi) if format == "png" else _vectors(sheet, format, dpi)
+
+
+def in_few_colours(sheet: Sheet) -> bytes:
+    """The figure as PNG with a palette of 256 colours: few lines have more, and pages and notebooks are to fit into a mail."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.open(io.BytesIO(encode(sheet))).quantize(256, dither=Image.Dither.NONE).save(file, "png", compress_level=9)
+    return file.getvalue()
 
 
 def _png(sheet: Sheet, dpi: float) -> bytes:
