@@ -4,6 +4,7 @@
 #include <warmjoint/field.h>
 #include <warmjoint/friction.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -284,6 +285,25 @@ struct HiddenForces {
   }
 };
 
+/// Something that leans on the joint for a while: the motor gives `torque` besides, whichever way it moves.
+struct Contact {
+  double torque = 0;
+  double begin = 0;
+  double end = 0;
+
+  /// At each of some times, s. [N] N.m or N
+  Eigen::VectorXd TorqueAlong(const Eigen::VectorXd& time) const {
+    return time.unaryExpr([this](double t) { return t >= begin && t < end ? torque : 0.0; });
+  }
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("torque", &torque, Needed("N.m", "of the motor against it"));
+    a->Field("begin", &begin, Needed("s", "of the contact", kNotNegative));
+    a->Field("end", &end, Needed("s", "of the contact", kNotNegative));
+  }
+};
+
 struct Disturbances {
   Outliers outliers;
   ColouredNoise coloured_noise;
@@ -299,6 +319,7 @@ struct Disturbances {
   HoldParity hold_parity;
   StepInTime step_in_time;
   RunIn run_in;
+  Contact contact;
   HiddenForces hidden;
   SensorFaults faults;
   bool without_velocity = false;
@@ -338,6 +359,7 @@ struct Disturbances {
     a->Field("step_in_time", &step_in_time,
              LeftOut("the level changes at once, as lubrication or a knock changes it"));
     a->Field("run_in", &run_in, LeftOut("a level that dies away, no matter how warm"));
+    a->Field("contact", &contact, LeftOut("something leans on the joint for a while"));
     a->Flag("without_velocity", &without_velocity, "the log has no velocity column");
     a->Field("second_heat", &second_heat,
              {.meaning = "a second stage of warming in addition to the friction's own (`ideal`)"});

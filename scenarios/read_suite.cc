@@ -43,12 +43,12 @@ std::vector<Variant> ReadVariants(const Node& node) {
 /// Labels tell identifiers apart.
 void CheckLabels(const Suite& suite, const Node& document) {
   std::vector<std::string> labels;
-  const std::vector<Node> entries =
-      document.Require("identifiers", "").List("a list of identifiers");
+  const char* const key = suite.contest == Contest::identifiers ? "identifiers" : "compensators";
+  const std::vector<Node> entries = document.Require(key, "").List("a list of who answers");
   for (const SuiteIdentifier& one : suite.identifiers) {
     if (std::ranges::find(labels, one.label) != labels.end()) {
       Refuse(entries[labels.size()].place(),
-             "two identifiers have the label '{}'; give each its own `label`", Excerpt(one.label));
+             "two of them have the label '{}'; give each its own `label`", Excerpt(one.label));
     }
     labels.push_back(one.label);
   }

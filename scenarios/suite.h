@@ -1,4 +1,4 @@
-// A suite: one scenario, many realizations, several identifiers, one question.
+// A suite: one scenario, many realizations, several identifiers or compensators, one question.
 #pragma once
 
 #include <warmjoint/claim.h>
@@ -16,7 +16,13 @@ namespace warmjoint {
 /// option of that name. An entry {name: mine, command: ...} is the same with the label mine.
 inline constexpr const char* kExternal = "external";
 
-/// An identifier as a suite runs it.
+/// Who answers: identifiers with an estimate, or compensators with a torque along the log.
+enum class Contest { identifiers, compensators };
+
+/// The compensator that knows the true friction: a measure for the others, as the bound is for identifiers.
+inline constexpr const char* kTruthCompensator = "truth";
+
+/// An identifier or a compensator as a suite runs it.
 struct SuiteIdentifier {
   std::string name;
   std::string label;
@@ -26,7 +32,7 @@ struct SuiteIdentifier {
   template <class A>
   void Serialize(A* a) {
     a->Field("name", &name,
-             {.meaning = "one of `warmjoint list identifiers`",
+             {.meaning = "one of `warmjoint list identifiers`, or of `list compensators`",
               .needed = "name an identifier (`list identifiers`)"});
     if (label.empty()) label = name;
     a->Field("label", &label, {.meaning = "its row of the leaderboard; the name where not given"});
@@ -78,8 +84,9 @@ struct Suite {
   std::string name;
   std::string question;
   int realizations = 1;
-  Scenario scenario;  // its seed is the suite's
-  std::vector<SuiteIdentifier> identifiers;
+  Scenario scenario;                         // its seed is the suite's
+  std::vector<SuiteIdentifier> identifiers;  // who answers, of either kind
+  Contest contest = Contest::identifiers;
   std::optional<Ladder> ladder;
 
   /// Number of groups: that of the ladder's variants, 1 without a ladder.
@@ -106,8 +113,16 @@ struct Suite {
     scenario.seed = seed;
     // what varies, and who answers
     a->Field("ladder", &ladder, {.meaning = "what varies from group to group of the leaderboard"});
-    a->Field("identifiers", &identifiers,
-             {.meaning = "who answers", .needed = "list at least one identifier"});
+    // who answers: one kind alone, since errors of parameters and residuals do not compare
+    std::vector<SuiteIdentifier> identify, compensate;
+    (contest == Contest::identifiers ? identify : compensate) = identifiers;
+    a->Field("identifiers", &identify, LeftOut("who answers, or `compensators`"));
+    a->Field("compensators", &compensate,
+             LeftOut("who answers with a torque along the log, against the true friction"));
+    a->Check(identify.empty() != compensate.empty(), "identifiers",
+             "a list of one at least, or absent beside compensators");
+    contest = compensate.empty() ? Contest::identifiers : Contest::compensators;
+    identifiers = compensate.empty() ? identify : compensate;
   }
 };
 

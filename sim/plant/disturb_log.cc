@@ -196,7 +196,7 @@ void AddOutliers(const Outliers& outliers, RandomStream random, Measurements& lo
   }
 }
 
-/// What hold_parity, step_in_time, run_in and HiddenForces add to the torque along the true motion, [N] N.m or N. They do
+/// What hold_parity, step_in_time, run_in, contact and HiddenForces add to the torque along the true motion, [N] N.m or N. They do
 /// not warm the joint.
 VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
                       const VectorXd& velocity, const VectorXd& position,
@@ -218,6 +218,9 @@ VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
   // what acts whatever the direction
   VectorXd torque = velocity.unaryExpr(&Sign<double>).cast<double>().cwiseProduct(levels);
   torque += hidden.spring.stiffness * position;
+  if (const Contact& contact = disturbances.contact; contact.torque != 0) {
+    torque += contact.TorqueAlong(time);
+  }
   if (hidden.inertia.inertia != 0) {
     const bool known = acceleration.size() > 0;
     torque += hidden.inertia.inertia * (known ? acceleration : Acceleration(time, velocity));

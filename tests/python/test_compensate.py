@@ -204,3 +204,23 @@ def test_the_program_does_so_with_a_state(estimate, recording, program):
 def test_bad_settings_are_refused(how, words):
     with pytest.raises(wj.BadInput, match=words):
         wj.Compensator(RICH, **how)
+
+
+def test_a_suite_compares_compensators(program):
+    suite = {
+        "name": "little", "question": "Which compensation stays true?", "realizations": 1, "seed": 3,
+        "scenario": {
+            "friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, "coulomb": 15},
+                         "thermal": {"thermal_gain": -0.75, "thermal_time_constant": 600}},
+            "motion": {"speeds": {"uniform": [0.1, 1]}, "hold": 5}, "noise": {"torque": 0.5}, "sampling": {"rate": 20}, "duration": 1200},
+        "compensators": [{"name": "none"}, {"name": "fixed"}, {"name": "heat"}, {"name": "truth"}]}
+    pytest.importorskip("mujoco")
+    done = wj.run(suite, program.folder / "run")
+    rows = {row["identifier"]: row for row in wj.compare(done)}
+    assert list(rows) == ["heat", "fixed", "none", "truth"]
+    text = program("compare", "run")
+    assert "heat is best: its median residual is" in text and "10 min after starts" in text
+    pytest.importorskip("matplotlib")
+    program("plot", "run", "--figure", "residual_by_minute", "-o", "pictures", "--data")
+    assert (program.folder / "pictures/residual_by_minute.png").exists()
+    program("report", "run", "-o", "page.html")

@@ -89,6 +89,17 @@ TEST(SuiteFile, WritesWhatItReads) {
   }
 }
 
+TEST(SuiteFile, HasCompensatorsInPlaceOfIdentifiers) {
+  const Suite suite =
+      Read(std::string(kScenario) + "compensators:\n  - {name: heat, options: {gain: \"2\"}}\n");
+  EXPECT_EQ(suite.contest, Contest::compensators);
+  ASSERT_EQ(suite.identifiers.size(), 1);
+  EXPECT_EQ(suite.identifiers[0].options.at("gain"), "2");
+  const std::string yaml = SuiteToYaml(suite);
+  EXPECT_EQ(yaml.find("\nidentifiers:"), std::string::npos) << yaml;
+  EXPECT_EQ(SuiteToYaml(Read(yaml)), yaml);
+}
+
 TEST(SuiteFile, ClimbsTheValuesOfItsVariable) {
   const Suite suite = Read(std::string(kScenario) + kNoiseLadder + kIdentifiers);
   ASSERT_EQ(suite.variants(), 2);
@@ -112,7 +123,10 @@ TEST(SuiteFile, ChangesTheEntriesOfANamedVariant) {
 TEST(SuiteFile, RefusesWhatCannotBe) {
   const std::string scenario = kScenario, identifiers = kIdentifiers;
   test::ExpectRefused(
-      {{scenario, "mine.yaml", "'identifiers'"},
+      {{scenario, "mine.yaml", "identifiers"},
+       {scenario + identifiers + "compensators:\n  - {name: none}\n", "mine.yaml", "identifiers"},
+       {scenario + "compensators:\n  - {name: none}\n  - {name: fixed, label: none}\n",
+        "mine.yaml:10", "'none'"},
        {identifiers, "mine.yaml", "'question'"},
        {scenario + "identifiers: []\n", "mine.yaml", "identifiers"},
        {scenario + "  seed: 5\n" + identifiers, "mine.yaml:8", "seed"},

@@ -115,8 +115,8 @@ RunTask PrepareRun(RunArguments arguments) {
   RequireWithin(arguments.realizations, kMostRealizations, "--realizations");
   RunTask task;
   task.suite = ResolveSuite(arguments);
-  task.identifiers = PrepareIdentifiers(task.suite.identifiers, {arguments.suite},
-                                        arguments.confinement, arguments.functions);
+  task.contestants =
+      PrepareContestants(task.suite, {arguments.suite}, arguments.confinement, arguments.functions);
   task.shard = ReadShard(arguments.shard);
   // a thread for each core where nothing else is said
   const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
@@ -142,7 +142,7 @@ RunEnding Run(const RunArguments& arguments, const std::function<void(int, int)>
   // without a listener nothing is said
   RunOptions options{task.jobs, task.shard, arguments.keep, [](int, int) {}};
   if (watch) options.watch = watch;
-  const RunOutcome outcome = RunSuite(task.suite, task.identifiers, options, store);
+  const RunOutcome outcome = RunSuite(task.suite, task.contestants, options, store);
   RunEnding ending = EndRun(store);
   ending.realizations = outcome.finished;
   ending.not_following = outcome.following.Words(task.suite);
@@ -161,12 +161,15 @@ Suite ResolveSuite(const RunArguments& arguments) {
   const std::vector<SuiteIdentifier> own = suite.identifiers;
   suite.identifiers.clear();
   if (!arguments.identifiers.empty() || arguments.functions.empty()) {
-    suite.identifiers = ChooseIdentifiers(own, arguments.identifiers);
+    suite.identifiers = ChooseIdentifiers(own, arguments.identifiers, suite.contest);
   }
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     // what the command line itself names was agreed to by naming it
     const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();
     if (brought) RefuseCommand(identifier, arguments);
+  }
+  if (suite.contest == Contest::compensators && !arguments.functions.empty()) {
+    Refuse({"identifiers"}, "are functions, and {} compares compensators", suite.name);
   }
   // functions of the caller stand beside them as commands that cannot be called from a shell
   for (const auto& [label, function] : arguments.functions) {

@@ -37,7 +37,7 @@ std::string CountsInWords(const RunEnding& ending);
 /// A run that was asked for and checked.
 struct RunTask {
   Suite suite;
-  std::vector<PreparedIdentifier> identifiers;
+  Contestants contestants;
   Shard shard;
   int jobs = 1;  // threads
   RunDescription description;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "identification/score/compensation_score.h"
+
 namespace warmjoint {
 namespace {
 
@@ -80,6 +82,40 @@ double TimesTheBound(const LeaderboardRow& row, const Standing& part) {
   return row.npe_continuous.rms / part.bound_npe_continuous;
 }
 
+/// Median of the measure that ranks, %.
+double Residual(const LeaderboardRow& row, const Standing&) {
+  return row.measures.empty() ? std::nan("") : row.measures.front().summary.median;
+}
+
+/// Its place, of who takes part.
+std::string PlaceText(const LeaderboardRow& row, std::size_t i) {
+  return row.standard == Standard::truth ? "" : std::to_string(i + 1);
+}
+
+/// How far a compensator is behind the best, in points of per cent.
+std::string PointsBehind(const LeaderboardRow& row) {
+  if (!row.behind) return "";
+  if (row.behind->tie()) return "tie";
+  if (std::isinf(row.behind->median)) return "fails too often";
+  return fmt::format("{} ({} .. {})", NumberText(row.behind->median), NumberText(row.behind->lower),
+                     NumberText(row.behind->upper));
+}
+
+Table RankingOfCompensators(const Leaderboard& board) {
+  Table table{{"#", "compensator", "failed", "residual %", "quartiles", "above best"}, {}};
+  for (size_t i = 0; i < board.rows.size(); ++i) {
+    const LeaderboardRow& row = board.rows[i];
+    const Summary of = row.measures.empty() ? Summary{} : row.measures.front().summary;
+    const bool known = !row.measures.empty();
+    table.rows.push_back(
+        {PlaceText(row, i), row.identifier, FailedCell(row),
+         known ? NumberText(of.median) : kUnknown,
+         known ? fmt::format("{} .. {}", NumberText(of.q25), NumberText(of.q75)) : kUnknown,
+         PointsBehind(row)});
+  }
+  return table;
+}
+
 /// What stands above the names of variants.
 std::string VariantHead(const Leaderboard& board) {
   return board.variable.empty() ? "variant" : board.variable;
@@ -87,9 +123,18 @@ std::string VariantHead(const Leaderboard& board) {
 
 /// Of a ladder: in how many of its variants each identifier is as good as any.
 Table RankingOverVariants(const Leaderboard& board) {
+  const bool compensates = Compensates(board);
   Table table{{"#", "identifier", "best or tied", "failed", "rms / bound"}, {}};
+  if (compensates) table.header = {"#", "compensator", "best or tied", "failed", "residual %"};
   for (size_t i = 0; i < board.rows.size(); ++i) {
     const LeaderboardRow& row = board.rows[i];
+    if (compensates) {
+      table.rows.push_back({PlaceText(row, i), row.identifier,
+                            fmt::format("{} of {}", *row.best_or_tied, board.groups.size()),
+                            FailedCell(row),
+                            OverVariants(board, row.identifier, Residual, NumberText)});
+      continue;
+    }
     table.rows.push_back({std::to_string(i + 1), row.identifier,
                           fmt::format("{} of {}", *row.best_or_tied, board.groups.size()),
                           FailedCell(row),
@@ -115,6 +160,7 @@ std::vector<std::pair<std::string, const Standing*>> PartsOf(const Leaderboard& 
 
 Table RankingTable(const Leaderboard& board) {
   if (!board.groups.empty()) return RankingOverVariants(board);
+  if (Compensates(board)) return RankingOfCompensators(board);
   Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "rms / bound",
                "NPE above best", "discrete NPE", "rms"},
               {}};
@@ -146,6 +192,42 @@ Table GroupTable(const Leaderboard& board) {
       table.rows.back().push_back(VariantCell(group, row.identifier));
     }
   }
+  return table;
+}
+
+bool Compensates(const Leaderboard& board) {
+  return std::ranges::any_of(board.rows,
+                             [](const LeaderboardRow& row) { return !row.measures.empty(); });
+}
+
+Table MeasureTable(const Leaderboard& board) {
+  // columns of what anybody has
+  const std::string_view unit = kTorqueUnit.For(board.joint);
+  const auto of = [](const LeaderboardRow& row, std::size_t i) {
+    return i < row.measures.size() ? row.measures[i].summary.median : std::nan("");
+  };
+  std::vector<std::size_t> shown;
+  Table table{{"compensator"}, {}};
+  for (std::size_t i = 0; i < kCompensationMeasures.size(); ++i) {
+    const CompensationMeasure& measure = kCompensationMeasures[i];
+    const auto has = [&](const LeaderboardRow& row) { return std::isfinite(of(row, i)); };
+    if (std::ranges::none_of(board.rows, has)) continue;
+    shown.push_back(i);
+    table.header.push_back(fmt::format("{} {}", measure.label, measure.is_share ? "%" : unit));
+  }
+  table.header.emplace_back("time");
+  // a row for each, of each variant by itself
+  for (auto [variant, part] : PartsOf(board)) {
+    for (const LeaderboardRow& row : part->rows) {
+      std::vector<std::string> cells{row.identifier};
+      for (const std::size_t i : shown) cells.push_back(NumberText(of(row, i)));
+      cells.push_back(Seconds(row.seconds.median));
+      if (!board.groups.empty()) cells.insert(cells.begin(), variant);
+      variant.clear();
+      table.rows.push_back(std::move(cells));
+    }
+  }
+  if (!board.groups.empty()) table.header.insert(table.header.begin(), VariantHead(board));
   return table;
 }
 
@@ -193,14 +275,18 @@ Table ParameterTable(const Leaderboard& board) {
 }
 
 std::string Verdict(const Leaderboard& board) {
-  if (board.rows.empty() || std::isnan(board.rows.front().npe_continuous.median)) {
+  const bool compensates = Compensates(board);
+  if (board.rows.empty() ||
+      (!compensates && std::isnan(board.rows.front().npe_continuous.median))) {
     return "No identifier gave numbers.";
   }
   // the best one with its error, or in how many variants it is that
   const LeaderboardRow& best = board.rows.front();
   std::string verdict = board.groups.empty()
-                            ? fmt::format("{} is best: its median NPE is {}", best.identifier,
-                                          PercentText(best.npe_continuous.median))
+                            ? fmt::format("{} is best: its median {} is {}", best.identifier,
+                                          compensates ? "residual" : "NPE",
+                                          compensates ? NumberText(Residual(best, board)) + " %"
+                                                      : PercentText(best.npe_continuous.median))
                             : fmt::format("{} is best or tied in {} of {} variants",
                                           best.identifier, *best.best_or_tied, board.groups.size());
   const auto times = [](double number) { return fmt::format("{:.2f}", number); };

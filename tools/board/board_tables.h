@@ -24,6 +24,12 @@ Table GroupTable(const Leaderboard& board);
 /// Agreement with the data and time: RMSE, Fit, FPE, MAE, seconds.
 Table AgreementTable(const Leaderboard& board);
 
+/// Whether compensators are compared.
+bool Compensates(const Leaderboard& board);
+
+/// What each compensator reaches, medians over the runs, and time.
+Table MeasureTable(const Leaderboard& board);
+
 /// Coverage and efficiency for each parameter; no rows where nothing was estimated.
 Table ParameterTable(const Leaderboard& board);
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
@@ -16,6 +18,13 @@ namespace warmjoint {
 namespace {
 
 std::string Head(const Leaderboard& board) {
+  if (Compensates(board)) {
+    return fmt::format(
+        "{} realizations. Residual: true friction less the compensator's, in % of the friction's "
+        "rms, "
+        "while the speed is steady. Push: the smallest that an alarm sees which errs once an hour.",
+        board.finished);
+  }
   return fmt::format(
       "{} realizations. NPE: relative error over all parameters of the truth, Eq. (26) of the "
       "paper.",
@@ -47,6 +56,11 @@ std::string TablesAndNotes(const Leaderboard& board,
                            const char* bullet) {
   std::string text = write(RankingTable(board), 2) + "\n";
   // variants beside each other, where there are some
+  if (Compensates(board)) {
+    text += write(MeasureTable(board), board.groups.empty() ? 1 : 2) + "\n";
+    for (const std::string& note : Notes(board)) text += fmt::format("{} {}\n", bullet, note);
+    return text;
+  }
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
     text += fmt::format("Rms NPE in each variant, and the bound:\n\n{}\n", write(groups, 1));
@@ -77,15 +91,36 @@ std::string Cells(const Summary& summary) {
   return Cell(summary.median) + Cell(summary.q25) + Cell(summary.q75);
 }
 
-std::string Row(const LeaderboardRow& row) {
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Summary kNoSummary{{kNone, kNone, kNone}, kNone};
+
+std::string Row(const LeaderboardRow& row, const std::vector<std::string>& measures) {
   std::string line = fmt::format("{},{},{}", CsvCell(row.identifier), row.runs, row.failed());
   line += Cells(row.npe_continuous) + Cell(row.npe_continuous.rms);
   line += Cells(row.npe_discrete) + Cell(row.npe_discrete.rms);
   line += Cells(row.rmse) + Cells(row.fit) + Cells(row.fpe) + Cells(row.mae);
-  return line + Cell(row.seconds.median) + "\n";
+  line += Cell(row.seconds.median);
+  // what a compensator reaches
+  for (const std::string& name : measures) {
+    const auto named = [&](const MeasureRow& one) { return one.name == name; };
+    const auto found = std::ranges::find_if(row.measures, named);
+    line += Cells(found == row.measures.end() ? kNoSummary : found->summary);
+  }
+  return line + "\n";
 }
 
-std::string Header() {
+/// The measures that boards have, in their order.
+std::vector<std::string> MeasuresOf(const Leaderboard& board) {
+  std::vector<std::string> names;
+  for (const LeaderboardRow& row : board.rows) {
+    if (row.measures.size() <= names.size()) continue;
+    names.clear();
+    for (const MeasureRow& one : row.measures) names.push_back(one.name);
+  }
+  return names;
+}
+
+std::string Header(const std::vector<std::string>& measures) {
   // both errors of parameters have a root mean square too, the figures of a fit have none
   std::string header = "variant,identifier,runs,failed";
   for (const char* name : {"npe_continuous", "npe_discrete"}) {
@@ -94,14 +129,20 @@ std::string Header() {
   for (const char* name : {"rmse", "fit", "fpe", "mae"}) {
     header += fmt::format(",{0}_median,{0}_q25,{0}_q75", name);
   }
-  return header + ",seconds_median\n";
+  header += ",seconds_median";
+  for (const std::string& name : measures) {
+    header += fmt::format(",{0}_median,{0}_q25,{0}_q75", name);
+  }
+  return header + "\n";
 }
 
 /// A row for each identifier, of a ladder for each in every variant. before: the cells that each row begins with.
-std::string Rows(const Leaderboard& board, const std::string& before) {
+std::string Rows(const Leaderboard& board, const std::string& before,
+                 const std::vector<std::string>& measures) {
   std::string csv;
   for (const auto& [variant, part] : PartsOf(board)) {
-    for (const LeaderboardRow& row : part->rows) csv += before + CsvCell(variant) + "," + Row(row);
+    for (const LeaderboardRow& row : part->rows)
+      csv += before + CsvCell(variant) + "," + Row(row, measures);
   }
   return csv;
 }
@@ -160,12 +201,20 @@ std::string BoardsToJson(const std::vector<NamedBoard>& boards, const Page& /*pa
 }
 
 std::string BoardToCsv(const Leaderboard& board, const Page& /*page*/) {
-  return Header() + Rows(board, "");
+  const std::vector<std::string> measures = MeasuresOf(board);
+  return Header(measures) + Rows(board, "", measures);
 }
 
 std::string BoardsToCsv(const std::vector<NamedBoard>& boards, const Page& /*page*/) {
-  std::string csv = "run," + Header();
-  for (const NamedBoard& named : boards) csv += Rows(named.board, CsvCell(named.run) + ",");
+  std::vector<std::string> measures;
+  for (const NamedBoard& named : boards) {
+    std::vector<std::string> own = MeasuresOf(named.board);
+    if (own.size() > measures.size()) measures = std::move(own);
+  }
+  std::string csv = "run," + Header(measures);
+  for (const NamedBoard& named : boards) {
+    csv += Rows(named.board, CsvCell(named.run) + ",", measures);
+  }
   return csv;
 }
 

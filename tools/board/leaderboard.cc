@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "tools/board/statistics.h"
@@ -88,6 +89,27 @@ void AddFigures(const Questions& questions, int identifier, LeaderboardRow& row)
   }
 }
 
+/// What a compensator reached. It ranks by its first measure, a run without one as infinitely wrong.
+void AddMeasures(const Questions& questions, int identifier, LeaderboardRow& row) {
+  SQLite::Statement one = questions.Ask(
+      "SELECT name, value FROM measure WHERE variant BETWEEN ?1 AND ?2 AND identifier = ?3 ORDER "
+      "BY position, variant, realization",
+      identifier);
+  std::vector<std::pair<std::string, std::vector<double>>> all;
+  while (one.executeStep()) {
+    const std::string name = one.getColumn(0).getString();
+    if (all.empty() || all.back().first != name) all.push_back({name, {}});
+    all.back().second.push_back(NumberIn(one.getColumn(1)));
+  }
+  if (all.empty()) return;
+  std::vector<double> ranked = all.front().second;
+  std::replace_if(
+      ranked.begin(), ranked.end(), [](double value) { return std::isnan(value); }, kInfinite);
+  ranked.resize(std::max(ranked.size(), static_cast<std::size_t>(row.runs)), kInfinite);
+  row.rank_npe = Summarise(std::move(ranked)).median;
+  for (auto& [name, values] : all) row.measures.push_back({name, Summarise(std::move(values))});
+}
+
 /// One continuous parameter of the truth in all results.
 struct ParameterErrors {
   std::string name;
@@ -129,10 +151,19 @@ void AddParameters(const Questions& questions, int identifier, LeaderboardRow& r
 
 /// By pairs of the same realization; two that fail alike do not differ.
 Difference Behind(const Questions& questions, int identifier, int best) {
-  SQLite::Statement pair = questions.Ask(
+  constexpr const char* by_parameters =
       "SELECT a.npe_continuous, b.npe_continuous FROM result AS a JOIN result AS b USING (variant, "
-      "realization) WHERE variant BETWEEN ?1 AND ?2 AND a.identifier = ?3 AND b.identifier = ?4",
-      identifier, best);
+      "realization) WHERE variant BETWEEN ?1 AND ?2 AND a.identifier = ?3 AND b.identifier = ?4";
+  constexpr const char* by_measure =
+      "SELECT a.value, b.value FROM realization AS r "
+      "LEFT JOIN measure AS a ON a.variant = r.variant AND a.realization = r.realization AND "
+      "a.identifier = ?3 AND a.position = 0 "
+      "LEFT JOIN measure AS b ON b.variant = r.variant AND b.realization = r.realization AND "
+      "b.identifier = ?4 AND b.position = 0 "
+      "WHERE r.variant BETWEEN ?1 AND ?2";
+  const bool compensates = questions.store.suite().contest == Contest::compensators;
+  SQLite::Statement pair =
+      questions.Ask(compensates ? by_measure : by_parameters, identifier, best);
   const auto ranked = [&](int column) {
     return pair.getColumn(column).isNull() ? kInfinite : pair.getColumn(column).getDouble();
   };
@@ -144,12 +175,13 @@ Difference Behind(const Questions& questions, int identifier, int best) {
   return MedianDifference(std::move(differences));
 }
 
-/// Best first; NaN, which an identifier without any run has, last.
+/// Best first; NaN, which an identifier without any run has, then who knows the truth.
 bool Better(const LeaderboardRow& a, const LeaderboardRow& b) {
   const auto key = [](const LeaderboardRow& row) {
     const double rms = row.npe_continuous.rms;
-    return std::pair(std::isnan(row.rank_npe) ? kInfinite : row.rank_npe,
-                     std::isnan(rms) ? kInfinite : rms);
+    return std::tuple(row.standard == Standard::truth,
+                      std::isnan(row.rank_npe) ? kInfinite : row.rank_npe,
+                      std::isnan(rms) ? kInfinite : rms);
   };
   return key(a) < key(b);
 }
@@ -162,8 +194,11 @@ std::vector<LeaderboardRow> Rank(const Questions& questions) {
     LeaderboardRow& row = rows.emplace_back(LeaderboardRow{}, position).first;
     row.identifier = identifier.label;
     row.claim = identifier.claim;
+    const bool compensates = questions.store.suite().contest == Contest::compensators;
+    if (compensates && identifier.name == kTruthCompensator) row.standard = Standard::truth;
     AddFailures(questions, position, row);
     AddFigures(questions, position, row);
+    AddMeasures(questions, position, row);
     AddParameters(questions, position, row);
   }
   // ranks by error, and suite order where two are equal
@@ -173,7 +208,8 @@ std::vector<LeaderboardRow> Rank(const Questions& questions) {
   // all others are compared with the best one, realization by realization: errors of different variants are not alike
   std::vector<LeaderboardRow> ranked;
   for (auto& [row, position] : rows) {
-    if (!ranked.empty() && questions.first == questions.last) {
+    const bool takes_part = row.standard == Standard::contestant;
+    if (takes_part && !ranked.empty() && questions.first == questions.last) {
       row.behind = Behind(questions, position, rows.front().second);
     }
     ranked.push_back(std::move(row));
@@ -237,7 +273,9 @@ int LeaderboardRow::failed() const {
 }
 
 bool IsBestOrTied(const LeaderboardRow& row) {
-  return !std::isnan(row.npe_continuous.median) && (!row.behind || row.behind->tie());
+  const bool answered =
+      row.measures.empty() ? !std::isnan(row.npe_continuous.median) : std::isfinite(row.rank_npe);
+  return answered && row.standard == Standard::contestant && (!row.behind || row.behind->tie());
 }
 
 Leaderboard ReadBoard(const RunStore& store) {

@@ -1,4 +1,4 @@
-// warmjoint list laws|identifiers|robots|suites [NAME]: what there is to choose from.
+// warmjoint list laws|identifiers|compensators|robots|suites [NAME]: what there is to choose from.
 #include <fmt/ranges.h>
 #include <warmjoint/friction.h>
 
@@ -17,6 +17,7 @@
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
+#include "tools/compensate/arms/arm_list.h"
 #include "tools/identify/catalogue.h"
 #include "tools/terminal/say.h"
 
@@ -103,6 +104,23 @@ std::string IdentifierText(const ordered_json& identifier) {
   return text;
 }
 
+// --- compensators -------------------------------------------------------------------------------
+
+std::vector<std::string> CompensatorNames() {
+  std::vector<std::string> names;
+  for (const CompensatorArm& arm : CompensatorArms()) names.push_back(arm.name);
+  return names;
+}
+
+ordered_json CompensatorsJson() {
+  ordered_json all = ordered_json::array();
+  for (const CompensatorArm& arm : CompensatorArms()) {
+    all.push_back(
+        {{"name", arm.name}, {"summary", arm.summary}, {"options", OptionsJson(arm.options)}});
+  }
+  return all;
+}
+
 // --- robots -------------------------------------------------------------------------------------
 
 ordered_json RobotsJson() {
@@ -183,11 +201,12 @@ std::string SuiteText(const ordered_json& suite) {
                      Words(suite["identifiers"]), fs::proximate(TextOf(suite, "file")).string());
 }
 
-/// laws, identifiers, robots, suites.
+/// laws, identifiers, compensators, robots, suites.
 const std::vector<Family>& Families() {
   static const std::vector<Family> families{
       {"laws", LawsJson, LawNames, LawText, LawText},
       {"identifiers", IdentifiersJson, IdentifierNames, IdentifierLine, IdentifierText},
+      {"compensators", CompensatorsJson, CompensatorNames, IdentifierLine, IdentifierText},
       {"robots", RobotsJson, RobotNames, RobotText, RobotText},
       {"suites", SuitesJson, SuiteNames, SuiteLine, SuiteText},
   };
@@ -249,8 +268,8 @@ ExitStatus List(const ListArguments& arguments) {
 
 Command AddListCommand(CLI::App& program) {
   auto arguments = std::make_shared<ListArguments>();
-  CLI::App* parser =
-      program.add_subcommand("list", "What there is: laws, identifiers, robots, suites");
+  CLI::App* parser = program.add_subcommand(
+      "list", "What there is: laws, identifiers, compensators, robots, suites");
   GiveExample(*parser, "warmjoint list identifiers energy-ml");
 
   std::vector<std::string> names;

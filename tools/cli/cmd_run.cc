@@ -64,7 +64,7 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
 
   // identifiers are checked now, not first by a task
   RefuseOtherContent(run);
-  PrepareIdentifiers(suite.identifiers, {arguments.suite}, arguments.confinement);
+  PrepareContestants(suite, {arguments.suite}, arguments.confinement);
   const auto jobs = static_cast<int>(arguments.jobs.value_or(1));
   const auto at_once = static_cast<int>(arguments.local_shards.value_or(1));
   const int shards = arguments.shards ? static_cast<int>(*arguments.shards)
@@ -170,7 +170,7 @@ RunOutcome RunAndTell(const RunArguments& arguments, const RunTask& task, bool k
                     arguments.confinement);
   CatchInterrupts();
   RunOutcome outcome =
-      RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, keep_recordings}, store);
+      RunSuite(task.suite, task.contestants, {task.jobs, task.shard, keep_recordings}, store);
   const std::string words = outcome.following.Words(task.suite);
   if (!words.empty()) SayNotice("notice: {}\n", words);
   return outcome;

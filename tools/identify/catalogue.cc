@@ -69,21 +69,24 @@ ordered_json LawsJson() {
   return laws;
 }
 
+ordered_json OptionsJson(const Options& options) {
+  ordered_json all = ordered_json::array();
+  for (const OptionInfo& option : options.List()) {
+    all.push_back({{"name", option.name},
+                   {"default", option.value},
+                   {"allowed", option.allowed},
+                   {"meaning", option.meaning}});
+  }
+  return all;
+}
+
 ordered_json IdentifiersJson() {
   ordered_json all = ordered_json::array();
   for (const Identifier& identifier : Identifiers()) {
-    ordered_json options = ordered_json::array();
-    // options in full, of which the short line shows the names
-    for (const OptionInfo& option : identifier.options.List()) {
-      options.push_back({{"name", option.name},
-                         {"default", option.value},
-                         {"allowed", option.allowed},
-                         {"meaning", option.meaning}});
-    }
     ordered_json& one = all.emplace_back(ordered_json{{"name", identifier.name}});
     if (!identifier.earlier_name.empty()) one["earlier_name"] = identifier.earlier_name;
     one["summary"] = identifier.summary;
-    one["options"] = std::move(options);
+    one["options"] = OptionsJson(identifier.options);
   }
   return all;
 }

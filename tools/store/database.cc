@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Layout of the tables; raised whenever they change.
-constexpr int kSchemaVersion = 3;
+constexpr int kSchemaVersion = 4;
 constexpr int kLargestValue = 64 << 20;  // bytes
 constexpr int kLongestWait = 10'000;     // for another process, ms
 constexpr const char* kRemedy = "run the suite anew in another directory";
@@ -35,6 +35,9 @@ constexpr const char* kTables = R"sql(
     variant INTEGER, realization INTEGER, identifier INTEGER, discrete INTEGER, position INTEGER,
     name TEXT NOT NULL, truth REAL, estimate REAL, estimated INTEGER, covered INTEGER, bound REAL,
     PRIMARY KEY(variant, realization, identifier, discrete, position)) STRICT, WITHOUT ROWID;
+  CREATE TABLE measure(
+    variant INTEGER, realization INTEGER, identifier INTEGER, position INTEGER, name TEXT NOT NULL, value REAL,
+    PRIMARY KEY(variant, realization, identifier, position)) STRICT, WITHOUT ROWID;
   CREATE TABLE trace(
     variant INTEGER, realization INTEGER, identifier INTEGER, columns TEXT NOT NULL, float32 BLOB NOT NULL,
     PRIMARY KEY(variant, realization, identifier)) STRICT, WITHOUT ROWID;

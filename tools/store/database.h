@@ -23,7 +23,7 @@ SQLite::Database MakeDatabase(const std::filesystem::path& path, const RunDescri
 RunDescription ReadDescription(const SQLite::Database& database, const std::filesystem::path& path);
 
 /// The tables that hold rows of realizations.
-inline constexpr const char* kRowTables[]{"realization", "result", "parameter", "trace"};
+inline constexpr const char* kRowTables[]{"realization", "result", "parameter", "measure", "trace"};
 
 /// A stored number; NULL stands for NaN.
 double NumberIn(const SQLite::Column& column);

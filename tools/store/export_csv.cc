@@ -69,6 +69,9 @@ std::string CsvCell(const std::string& text) {
 }
 
 void CsvColumns::Add(const Result& result) {
+  for (const auto& [name, value] : result.measures) {
+    if (std::ranges::find(measures_, name) == measures_.end()) measures_.push_back(name);
+  }
   if (!result.score) return;
   AddNames(result.score->continuous, continuous_);
   AddNames(result.score->discrete, discrete_);
@@ -83,22 +86,22 @@ std::vector<std::string> CsvColumns::Names() const {
   return names;
 }
 
-std::string CsvHeader(const std::vector<std::string>& names, const Suite& suite) {
+std::string CsvHeader(const CsvColumns& columns, const Suite& suite) {
   // variants only where there are several, then the figures of every result
   std::string csv = suite.ladder ? "variant," : "";
   csv +=
       "realization,identifier,status,n,parameters,effective_parameters,rmse,mae,fit,fpe,"
       "npe_continuous,npe_discrete,bound_npe_continuous,bound_npe_discrete";
 
-  // four columns for each parameter
-  for (const std::string& name : names) {
+  // what compensators reach, and four columns for each parameter
+  for (const std::string& name : columns.Measures()) csv += "," + name;
+  for (const std::string& name : columns.Names()) {
     csv += fmt::format(",{0},{0}_truth,{0}_bound,{0}_covered", name);
   }
   return csv + ",message\n";
 }
 
-std::string CsvRow(const Result& result, const std::vector<std::string>& names,
-                   const Suite& suite) {
+std::string CsvRow(const Result& result, const CsvColumns& columns, const Suite& suite) {
   const std::string& label = suite.identifiers[static_cast<size_t>(result.identifier)].label;
   std::string csv;
   // which run it was: variant, realization, identifier
@@ -107,7 +110,12 @@ std::string CsvRow(const Result& result, const std::vector<std::string>& names,
   }
   csv += fmt::format("{},{},{}", result.realization, CsvCell(label), result.status);
   csv += MetricCells(result) + ScoreCells(result);
-  for (const std::string& name : names) csv += ParameterCells(Find(result, name));
+  for (const std::string& name : columns.Measures()) {
+    const auto named = [&](const auto& measure) { return measure.first == name; };
+    const auto found = std::ranges::find_if(result.measures, named);
+    csv += "," + (found == result.measures.end() ? "" : Number(found->second));
+  }
+  for (const std::string& name : columns.Names()) csv += ParameterCells(Find(result, name));
   return csv + fmt::format(",{}\n", CsvCell(result.message));
 }
 
@@ -118,11 +126,10 @@ void ExportResults(const RunStore& store) {
 
   // a second one writes them block by block, so that large runs need little memory
   AtomicFile file(store.directory() / "results.csv");
-  const std::vector<std::string> names = columns.Names();
   constexpr std::size_t block = 1 << 20;  // bytes
-  std::string text = CsvHeader(names, store.suite());
+  std::string text = CsvHeader(columns, store.suite());
   store.ForEachResult([&](const Result& result) {
-    text += CsvRow(result, names, store.suite());
+    text += CsvRow(result, columns, store.suite());
     if (text.size() < block) return;
     file.Write(text);
     text.clear();

@@ -28,9 +28,10 @@ struct Inserts {
       : realization(db, "INSERT INTO realization VALUES (?, ?, ?)"),
         result(db, "INSERT INTO result VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
         parameter(db, "INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        measure(db, "INSERT INTO measure VALUES (?, ?, ?, ?, ?, ?)"),
         trace(db, "INSERT INTO trace VALUES (?, ?, ?, ?, ?)") {}
 
-  SQLite::Statement realization, result, parameter, trace;
+  SQLite::Statement realization, result, parameter, measure, trace;
 };
 
 /// What is not bound stays NULL.
@@ -67,6 +68,12 @@ void InsertResult(Inserts& inserts, const Result& result) {
     InsertParameters(inserts.parameter, result, 1, s->discrete);
   }
   inserts.result.exec();
+  int position = 0;
+  for (const auto& [name, value] : result.measures) {
+    BindFrom(Anew(inserts.measure), 1, result.variant, result.realization, result.identifier,
+             position++, name, value);
+    inserts.measure.exec();
+  }
 
   // how the identifier came to its answer, where it iterates
   if (result.trace.values.empty()) return;
@@ -112,6 +119,16 @@ void ReadScore(SQLite::Statement& row, SQLite::Statement& parameters, Result& re
   result.score->npe_discrete = NumberIn(row.getColumn(14));
   result.score->bound_npe_continuous = NumberIn(row.getColumn(15));
   result.score->bound_npe_discrete = NumberIn(row.getColumn(16));
+}
+
+/// What a compensator reached.
+void ReadMeasures(SQLite::Statement& measures, Result& result) {
+  measures.reset();
+  BindFrom(measures, 1, result.variant, result.realization, result.identifier);
+  while (measures.executeStep()) {
+    result.measures.emplace_back(measures.getColumn(0).getString(),
+                                 NumberIn(measures.getColumn(1)));
+  }
 }
 
 }  // namespace
@@ -167,6 +184,10 @@ void RunStore::ForEachResult(const std::function<void(Result)>& work) const {
         database_,
         "SELECT discrete, name, truth, estimate, estimated, covered, bound FROM parameter WHERE "
         "variant = ? AND realization = ? AND identifier = ? ORDER BY discrete, position");
+    SQLite::Statement measures(
+        database_,
+        "SELECT name, value FROM measure WHERE variant = ? AND realization = ? AND identifier = ? "
+        "ORDER BY position");
     while (row.executeStep()) {
       Result result;
       result.variant = row.getColumn(0).getInt();
@@ -177,6 +198,7 @@ void RunStore::ForEachResult(const std::function<void(Result)>& work) const {
       result.seconds = NumberIn(row.getColumn(5));
       result.metrics = ReadMetrics(row);
       ReadScore(row, parameters, result);
+      ReadMeasures(measures, result);
       work(std::move(result));
     }
   });

@@ -49,8 +49,10 @@ struct Result {
   std::string message;  // one sentence
   std::optional<Metrics> metrics;
   std::optional<Score> score;  // where there are numbers to score
-  TraceTable trace;            // empty where the identifier does not iterate
-  double seconds = 0;          // wall time of the identification
+  /// Of a compensator (kCompensationMeasures), in their order; NaN where there is none.
+  std::vector<std::pair<std::string, double>> measures;
+  TraceTable trace;    // of an identifier that iterates; of a compensator its residual by minute
+  double seconds = 0;  // wall time of the identification
 };
 
 /// One realization of one variant of a suite: the unit of work.

@@ -105,7 +105,7 @@ std::map<std::string, int> FailuresIn(const RunStore& store) {
 /// What the workers share.
 struct Work {
   const Suite& suite;
-  const std::vector<PreparedIdentifier>& identifiers;
+  const Contestants& contestants;
   const std::vector<RunUnit>& units;
   const std::filesystem::path recordings;  // where to keep them; empty: nowhere
   std::atomic<size_t> next{0};
@@ -128,7 +128,7 @@ void RunUnits(Work& work) {
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
       // simulated and identified; the results wait for the thread that stores
-      work.queue.Put(RunRealization(bench, work.identifiers, unit, work.recordings));
+      work.queue.Put(RunRealization(bench, work.contestants, unit, work.recordings));
     }
   } catch (...) {
     // an error in one thread ends the work of all
@@ -190,8 +190,8 @@ void CatchInterrupts() {
 
 bool Interrupted() { return interrupted; }
 
-RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
-                    const RunOptions& options, RunStore& store) {
+RunOutcome RunSuite(const Suite& suite, const Contestants& contestants, const RunOptions& options,
+                    RunStore& store) {
   // units of this shard that are not stored yet
   std::vector<RunUnit> units = UnitsOf(suite, options.shard);
   const auto total = static_cast<int>(units.size());
@@ -203,7 +203,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   const int workers = std::clamp(options.jobs, 1, std::max(1, static_cast<int>(units.size())));
   const std::filesystem::path recordings =
       options.keep_recordings ? store.directory() / "recordings" : "";
-  Work work{suite, identifiers, units, recordings, 0, false, FinishedQueue(workers)};
+  Work work{suite, contestants, units, recordings, 0, false, FinishedQueue(workers)};
   Progress progress(total, already, FailuresIn(store));
   // who watches is told numbers, everybody else reads lines
   int told = already;

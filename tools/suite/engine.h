@@ -81,7 +81,7 @@ struct RunOutcome {
 /// Runs the realizations that the store lacks, in batches of whole realizations, on threads
 /// with plants of their own. Results depend on (suite seed, realization) alone. Ctrl-C ends it
 /// after the realizations in hand, which are kept.
-RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
-                    const RunOptions& options, RunStore& store);
+RunOutcome RunSuite(const Suite& suite, const Contestants& contestants, const RunOptions& options,
+                    RunStore& store);
 
 }  // namespace warmjoint

@@ -16,10 +16,18 @@ bool Contains(const std::vector<SuiteIdentifier>& identifiers, const std::string
 }
 
 /// Adds what one name stands for.
-void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite,
+void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite, Contest contest,
          std::vector<SuiteIdentifier>& chosen) {
   // a command from outside brings its own name
+  const bool compensates = contest == Contest::compensators;
   if (name.find('=') != std::string::npos) {
+    if (compensates) {
+      Refuse(
+          {"--identifier"},
+          "'{}' is a command, and this suite compares compensators; name some of `warmjoint list "
+          "compensators`",
+          Excerpt(name));
+    }
     const SuiteIdentifier external = ReadExternal(name);
     if (Contains(chosen, external.label)) {
       Refuse({"--identifier"}, "there is a '{}' already; give yours another name",
@@ -38,18 +46,22 @@ void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite,
   }
   // any other is one of the list, with its usual options
   if (!in_suite && !Contains(chosen, name)) {
-    chosen.push_back({FindIdentifier(name).name, name, {}, {}});
+    const std::string known = compensates ? FindCompensator(name).name : FindIdentifier(name).name;
+    chosen.push_back({known, name, {}, {}});
   }
 }
 
 }  // namespace
 
 std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
-                                               const std::vector<std::string>& names) {
+                                               const std::vector<std::string>& names,
+                                               Contest contest) {
   const auto adds = [](const std::string& name) { return name.starts_with('+'); };
   std::vector<SuiteIdentifier> chosen;
   if (std::all_of(names.begin(), names.end(), adds)) chosen = suite;
-  for (const std::string& name : names) Add(adds(name) ? name.substr(1) : name, suite, chosen);
+  for (const std::string& name : names) {
+    Add(adds(name) ? name.substr(1) : name, suite, contest, chosen);
+  }
   return chosen;
 }
 
@@ -75,6 +87,20 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(
     });
   }
   return prepared;
+}
+
+Contestants PrepareContestants(const Suite& suite, const Place& place, Confinement confinement,
+                               const std::map<std::string, AnswerFunction>& functions) {
+  if (suite.contest == Contest::identifiers) {
+    return PrepareIdentifiers(suite.identifiers, place, confinement, functions);
+  }
+  Contestants contestants;
+  for (const SuiteIdentifier& one : suite.identifiers) {
+    CompensatorArm arm = FindCompensator(one.name);
+    arm.options = arm.options.Read(one.options, place);
+    contestants.compensators.push_back({one.label, std::move(arm)});
+  }
+  return contestants;
 }
 
 }  // namespace warmjoint

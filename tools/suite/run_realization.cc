@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "identification/score/compensation_score.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/foundation/sha256.h"
@@ -52,6 +53,9 @@ double Npe(std::vector<ParameterScore>& scores, const Values& values) {
   }
   return ParameterError(scores);
 }
+
+/// Realizations from here on are the days before. why: no suite has as many.
+constexpr std::uint64_t kDayBefore = std::uint64_t{1} << 40;
 
 class Stopwatch {
  public:
@@ -98,6 +102,65 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Simulation& recor
     throw;  // no fault of the identifier's
   } catch (const std::exception& error) {
     result.seconds = watch.Seconds();
+    result.status = "crashed";
+    result.message = error.what();
+  }
+  return result;
+}
+
+/// What compensators are run on.
+struct Days {
+  const PreparedLog& today;
+  const PreparedLog& before;
+  const Simulation& truth;  // of today
+  Eigen::VectorXd contact;  // [N] today, N.m or N
+};
+
+/// The log of the same joint on the day before, on which nothing leaned on it.
+Simulation DayBefore(Scenario scenario, std::uint64_t realization) {
+  scenario.disturbances.contact = {};
+  return MakePlant(scenario)->Run(kDayBefore + realization);
+}
+
+/// The friction as a file has it: one stage of heat, no surroundings.
+Friction KnownOf(Friction friction) {
+  friction.second_thermal.reset();
+  friction.level_per_temperature = 0;
+  return friction;
+}
+
+/// The residual by minute, for pictures.
+TraceTable ByMinute(const CompensationScore& score) {
+  TraceTable table{{"minute", "residual"}, {}};
+  for (Eigen::Index i = 0; i < score.by_minute.size(); ++i) {
+    table.values.push_back(static_cast<float>(i));
+    table.values.push_back(static_cast<float>(score.by_minute[i]));
+  }
+  return table;
+}
+
+Result RunCompensator(const PreparedCompensator& compensate, const Days& days) {
+  Result result;
+  const Stopwatch watch;
+  const LogSamples& log = days.today.raw().measurements;
+  const Friction known = KnownOf(days.truth.truth.friction);
+  const bool sees = compensate.arm.sees == Sees::truth;
+  try {
+    const Eigen::VectorXd found =
+        compensate.arm.along({log, days.before.raw().measurements, known, compensate.arm.options,
+                              sees ? &days.truth.truth.force : nullptr});
+    result.seconds = watch.Seconds();
+    if (!found.allFinite()) throw NoAnswer("bad_answer", "a torque is not a finite number");
+    const CompensationScore score = ScoreCompensation(found, log, days.truth.truth, days.contact);
+    for (const CompensationMeasure& measure : kCompensationMeasures) {
+      result.measures.emplace_back(measure.name, score.*measure.value);
+    }
+    result.trace = ByMinute(score);
+    result.status = StatusName(Status::ok);
+  } catch (const NoAnswer& failure) {
+    result.status = failure.status;
+    result.message = failure.what();
+  } catch (const std::exception& error) {
     result.status = "crashed";
     result.message = error.what();
   }
@@ -151,23 +214,24 @@ TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& sco
 
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
-RealizationResult RunRealization(const Bench& bench,
-                                 const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
+RealizationResult RunRealization(const Bench& bench, const Contestants& contestants, RunUnit unit,
                                  const std::filesystem::path& recordings) {
   const auto realized = static_cast<std::uint64_t>(unit.realization);
   RealizationResult done;
   Realization& realization = done.realization;
   realization.unit = unit;
   const Stopwatch watch;
-  std::optional<Simulation> recording;
+  std::optional<Simulation> recording, before;
   // a log that cannot be simulated is nobody's to identify: the same failure for every identifier
   try {
     recording = bench.plant->Run(realized);
+    if (!contestants.compensators.empty()) before = DayBefore(bench.scenario, realized);
   } catch (const std::exception& error) {
+    recording.reset();
     Result failed;
     failed.status = "not_simulated";
     failed.message = error.what();
-    realization.results.assign(identifiers.size(), failed);
+    realization.results.assign(contestants.size(), failed);
   }
   realization.simulation_seconds = watch.Seconds();
 
@@ -176,8 +240,17 @@ RealizationResult RunRealization(const Bench& bench,
     // all identifiers see the same log, and draw starts from the same key
     const PreparedLog log = Prepare(recording->measurements);
     const StartKey start = StartKeyOf(bench.scenario.seed, realized);
-    for (const PreparedIdentifier& identify : identifiers) {
+    for (const PreparedIdentifier& identify : contestants.identifiers) {
       realization.results.push_back(RunIdentifier(identify, *recording, log, start));
+    }
+    if (before) {
+      const PreparedLog earlier = Prepare(before->measurements);
+      const Days days{
+          log, earlier, *recording,
+          bench.scenario.disturbances.contact.TorqueAlong(recording->measurements.time)};
+      for (const PreparedCompensator& compensate : contestants.compensators) {
+        realization.results.push_back(RunCompensator(compensate, days));
+      }
     }
     // the truth is on disk only once the answers are in
     if (!recordings.empty()) KeepRecording(*recording, unit, recordings);

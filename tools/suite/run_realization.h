@@ -34,12 +34,11 @@ struct RealizationResult {
   Following following;  // of the simulated joint
 };
 
-/// Simulates a unit on its variant's bench, and scores every identifier on it. Never throws for what
+/// Simulates a unit on its variant's bench, and scores everybody on it; compensators know the log of a day before, too. Never throws for what
 /// happens in a plant or an identifier: it becomes the status and message of the results concerned.
 /// recordings: a folder, made when it is needed, that gets variant-V/realization-R.h5 and beside it
 /// realization-R.truth.json; empty: nothing is kept.
-RealizationResult RunRealization(const Bench& bench,
-                                 const std::vector<PreparedIdentifier>& identifiers, RunUnit unit,
+RealizationResult RunRealization(const Bench& bench, const Contestants& contestants, RunUnit unit,
                                  const std::filesystem::path& recordings);
 
 /// Each iteration's fit, its NPE in both parametrisations, Eq. (26), and its parameters. Where a

@@ -220,8 +220,8 @@ std::string ResultsToCsv(const std::vector<Result>& results,
   for (const std::string& label : labels) suite.identifiers.push_back({label, label, {}, {}});
   CsvColumns columns;
   for (const Result& result : results) columns.Add(result);
-  std::string csv = CsvHeader(columns.Names(), suite);
-  for (const Result& result : results) csv += CsvRow(result, columns.Names(), suite);
+  std::string csv = CsvHeader(columns, suite);
+  for (const Result& result : results) csv += CsvRow(result, columns, suite);
   return csv;
 }
 

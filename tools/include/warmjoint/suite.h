@@ -140,7 +140,16 @@ struct ParameterRow {
   double efficiency = 0;             // rms error / rms Cramer-Rao bound; 1 is best, NaN unknown
 };
 
-/// One identifier over all realizations. Summaries run over the realizations that it answered.
+/// What a compensator reaches over all realizations: %, N.m or N.
+struct MeasureRow {
+  std::string name;
+  Summary summary{};
+};
+
+/// Whether a row takes part, or is a measure for the others: a compensator that knows the truth.
+enum class Standard { contestant, truth };
+
+/// One identifier or compensator over all realizations. Summaries run over the realizations that it answered.
 struct LeaderboardRow {
   std::string identifier;  // label
   int runs = 0;
@@ -149,11 +158,14 @@ struct LeaderboardRow {
   Summary npe_continuous{}, npe_discrete{}, rmse{}, fit{}, fpe{}, mae{};
   Summary seconds{};
   std::vector<ParameterRow> parameters;    // continuous, in the order of the truth
+  std::vector<MeasureRow> measures;        // of a compensator, the one that ranks first
+  Standard standard = Standard::contestant;
   std::vector<std::string> not_estimated;  // continuous parameters that never were; count as 0
   std::optional<Claim> claim;
   std::optional<Difference> behind;  // empty for the best itself, and over several variants
   std::optional<int> best_or_tied;   // of several variants, those in which nobody is better
-  double rank_npe = 0;  // median continuous NPE with runs without an answer as infinite
+  /// Median continuous NPE, of a compensator the median of its first measure, with runs without an answer as infinite.
+  double rank_npe = 0;
 
   int failed() const;
 
@@ -166,6 +178,8 @@ struct LeaderboardRow {
       if (std::isfinite(one.efficiency)) efficiency.emplace_back(one.name, one.efficiency);
     }
     std::map<std::string, double> time{{"median", seconds.median}};
+    std::map<std::string, Quartiles> reached;
+    for (const MeasureRow& one : measures) reached.emplace(one.name, one.summary);
     a->Field("identifier", &identifier);
     a->Field("runs", &runs);
     a->Field("failures", &failures);
@@ -176,6 +190,7 @@ struct LeaderboardRow {
     a->template Field<Quartiles>("mae", &mae);
     a->Field("coverage95", &coverage95);
     a->Field("efficiency", &efficiency);
+    a->Field("measures", &reached, {.at_default = AtDefault::left_out});
     a->Field("seconds", &time);
     a->Field("not_estimated", &not_estimated);
     a->Field("behind_best", &behind);

@@ -18,6 +18,7 @@
 #include "sim/plant/plant.h"
 #include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
+#include "tools/compensate/arms/arm_list.h"
 #include "tools/shown/estimate_data.h"
 
 namespace warmjoint::shown {
@@ -29,6 +30,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// plant cannot be made on this machine, or some parameters cannot be told apart.
 Eigen::MatrixXd BoundCovariance(const Suite& suite) {
   Eigen::MatrixXd covariance;
+  if (suite.contest == Contest::compensators) return covariance;
   try {
     const Simulation recording = MakePlant(suite.scenario)->Run(0);
     const LogSamples m = Prepare(recording.measurements).raw().measurements;
@@ -80,15 +82,16 @@ Tree ParametersOf(const Scenario& scenario) {
 }
 
 /// What an entry of the suite is: of the list of identifiers, with its options, or a command from outside.
-std::string WhatItIs(const SuiteIdentifier& identifier) {
+std::string WhatItIs(const SuiteIdentifier& identifier, Contest contest) {
   // a command from outside is its own description
   if (identifier.name == kExternal) {
     const auto command = identifier.options.find("command");
     return "a command from outside" +
            (command == identifier.options.end() ? "" : ": " + command->second);
   }
-  // an identifier of the list has a summary, and options that the suite gives
-  std::string words = FindIdentifier(identifier.name).summary;
+  // one of the list has a summary, and options that the suite gives
+  std::string words = contest == Contest::compensators ? FindCompensator(identifier.name).summary
+                                                       : FindIdentifier(identifier.name).summary;
   std::vector<std::string> options;
   for (const auto& [key, value] : identifier.options) options.push_back(key + "=" + value);
   if (!options.empty()) words += fmt::format(" (with {})", fmt::join(options, ", "));
@@ -114,7 +117,7 @@ void AddExtremes(const RunStore& store, const Leaderboard& board, ShownData& dat
   facts["extremes"] = Tree::array();
   facts["without_extremes"] = "No identifier of warmjoint's own gave numbers that could be shown.";
   const std::optional<std::size_t> best = BestOfOurs(board, suite);
-  if (!best) return;
+  if (!best || suite.contest == Contest::compensators) return;
   Tree extremes = Tree::array();
   try {
     for (const Extreme& one : ExtremesOf(store, static_cast<int>(*best))) {
@@ -140,6 +143,10 @@ Tree TableTree(const std::string& caption, const Table& table) {
 
 /// The tables of `compare`.
 Tree BoardTrees(const Leaderboard& board) {
+  if (Compensates(board)) {
+    return {TableTree("Who wins: residual", RankingTable(board)),
+            TableTree("What each reaches, medians", MeasureTable(board))};
+  }
   Tree tables = {TableTree("Who wins: normalised parameter error, NPE", RankingTable(board)),
                  TableTree("Agreement with the data, medians", AgreementTable(board))};
   if (!board.groups.empty()) {
@@ -216,7 +223,7 @@ Tree RunPageFacts(const RunStore& store, ShownData& data,
   Tree facts = FactsOf(store, board, data);
   Tree entries = Tree::array(), replay = Tree::array();
   for (const SuiteIdentifier& one : suite.identifiers)
-    entries.push_back({one.label, WhatItIs(one)});
+    entries.push_back({one.label, WhatItIs(one, suite.contest)});
   for (int variant = 0; variant < suite.variants(); ++variant) {
     replay.push_back(ReplayCommand(suite, {variant, 0}, kRun));
   }

@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from . import along_log, fit_page, friction, motor, residuals, robots, runs, steps
+from . import along_log, compensation, fit_page, friction, motor, residuals, robots, runs, steps
 from .run_view import Run
 from .sheet import Sheet
 from .view import Answer, View
@@ -70,6 +70,8 @@ def _of_run(one: Source) -> Family:
     def made(function: Callable[[Run], Sheet | None]) -> Callable[[], Sheet | None]:
         return lambda: function(one.run) if one.run is not None else None
 
+    if one.run is not None and one.run.compensates:
+        return {"residual_by_minute": (made(compensation.residual_by_minute), "compensators")}
     return {
         "npe_boxes": (made(runs.npe_boxes), "answers with parameters"),
         "ladder": (made(runs.ladder), "a suite with a ladder"),

@@ -52,6 +52,7 @@ class Row:
     mae: np.ndarray
     parameters: list[Column]
     trace: Trace
+    by_minute: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros((0, 0)))  # [R, K] of a compensator, per cent
 
     @property
     def failed(self) -> int:
@@ -72,6 +73,7 @@ class Run:
         self.torque_unit = unit_text(facts["torque_unit"])
         self.board = facts["board"]
         self.finished = self.board["realizations"]
+        self.compensates = any(row.get("measures") for row in self.board["rows"])
         self.values = np.array(facts["rungs"]["values"], float)
         self.noise = facts["noise"]
         units = facts["realizations"] * max(1, self.values.size)
@@ -167,18 +169,36 @@ def _row_of(database: sqlite3.Connection, run: Run, identifier: int, named: dict
         column.truth[at], column.bound[at] = (np.nan if value is None else value for value in (truth, bound))
         if estimated and estimate is not None:
             column.estimate[at] = estimate
-    trace = _trace_of(database, identifier, list(places)[:MOST_TRACES])
+    tables = _tables_of(database, identifier, list(places)[:MOST_TRACES])
+    trace, by_minute = (Trace(), _minutes_of(tables)) if run.compensates else (_trace_of(tables), np.zeros((0, 0)))
     npe, rmse, fit, fpe, mae = drawn[:, 2:].T.copy()
-    return Row(named["label"], named["method"], runs, failures, drawn[:, 0].astype(int), npe, rmse, fit, fpe, mae, list(columns.values()), trace)
+    return Row(named["label"], named["method"], runs, failures, drawn[:, 0].astype(int), npe, rmse, fit, fpe, mae, list(columns.values()), trace, by_minute)
 
 
-def _trace_of(database: sqlite3.Connection, identifier: int, units: list[tuple[int, int]]) -> Trace:
+Tables = list[tuple[list[str], np.ndarray]]
+
+
+def _tables_of(database: sqlite3.Connection, identifier: int, units: list[tuple[int, int]]) -> Tables:
+    """The columns of each realization and their numbers, [K, columns]."""
     tables = []
     for variant, realization in units:
         found = database.execute("SELECT columns, float32 FROM trace WHERE variant = ? AND realization = ? AND identifier = ?",
                                  (variant, realization, identifier)).fetchone()
         names = found[0].split(",") if found else []
         tables.append((names, np.frombuffer(found[1], "<f4").reshape(-1, len(names)).astype(float) if found else np.zeros((0, 0))))
+    return tables
+
+
+def _minutes_of(tables: Tables) -> np.ndarray:
+    """[R, K]; NaN of one that has no numbers."""
+    found = np.full((len(tables), max((len(table) for _, table in tables), default=0)), np.nan)
+    for i, (names, table) in enumerate(tables):
+        if len(table):
+            found[i, :len(table)] = table[:, names.index("residual")]
+    return found
+
+
+def _trace_of(tables: Tables) -> Trace:
     longest_names, longest = max(tables, key=lambda table: len(table[1]), default=([], np.zeros((0, 0))))
     if not len(longest):
         return Trace()
