@@ -74,7 +74,7 @@ void Overhead(benchmark::State& state) {
   for (auto _ : state) {
     Scratch scratch(suite);
     const auto start = std::chrono::steady_clock::now();
-    RunSuite(suite, {Nothing}, {}, scratch.store());
+    RunSuite(suite, std::vector<PreparedIdentifier>{Nothing}, {}, scratch.store());
     const double wall = Seconds(std::chrono::steady_clock::now() - start);
     SQLite::Statement sum(scratch.store().database(), "SELECT total(seconds) FROM realization");
     sum.executeStep();
