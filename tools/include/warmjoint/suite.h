@@ -157,8 +157,8 @@ struct LeaderboardRow {
   std::string failure_example;          // message of the first failure
   Summary npe_continuous{}, npe_discrete{}, rmse{}, fit{}, fpe{}, mae{};
   Summary seconds{};
-  std::vector<ParameterRow> parameters;    // continuous, in the order of the truth
-  std::vector<MeasureRow> measures;        // of a compensator, the one that ranks first
+  std::vector<ParameterRow> parameters;  // continuous, in the order of the truth
+  std::vector<MeasureRow> measures;      // of a compensator, the one that ranks first
   Standard standard = Standard::contestant;
   std::vector<std::string> not_estimated;  // continuous parameters that never were; count as 0
   std::optional<Claim> claim;
