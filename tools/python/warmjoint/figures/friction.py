@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 
 from . import sheet as draw
-from .numerals import significant, unit_text
+from .numerals import look_of_several, significant, unit_text
 from .sheet import Sheet
 from .speeds import groups_of
 from .view import View
 
 HEATS = (("cold", "blue"), ("half as warm", "orange"), ("warmest", "vermilion"))
-SEVERAL = ("blue", "vermilion", "green", "purple", "orange", "sky")
 Z95 = 1.959964
 
 
@@ -156,7 +155,7 @@ def estimates(named: list[tuple[str, View]]) -> Sheet | None:
     axes = fig.panels((370, [1, 1] if warm else [1]))
     draw.dots(axes[0], first.kept(first.velocity), first.kept(first.torque), "measured")
     for i, (name, view) in enumerate(fits):
-        hue, dash = SEVERAL[i % 6], ("solid", "dashed", "dotted")[i // 6 % 3]
+        hue, dash = look_of_several(i)
         label = name
         for curve in view.facts["curves"]:
             if curve["energy"] == 0:
@@ -166,7 +165,7 @@ def estimates(named: list[tuple[str, View]]) -> Sheet | None:
             _means_of_maps(axes[0], view, view.facts["at_heats"][0]["force"], name, hue)
     draw.finish(axes[0], first.speed_name, first.torque_name("torque"), "Friction over velocity, cold")
     for i, name, view in warm:
-        draw.line(axes[1], view.time / first.seconds, view.energy, name, SEVERAL[i % 6], 2.0, ("solid", "dashed", "dotted")[i // 6 % 3])
+        draw.line(axes[1], view.time / first.seconds, view.energy, name, look_of_several(i)[0], 2.0, look_of_several(i)[1])
     if warm:
         draw.finish(axes[1], first.time_name, first.torque_name("E"), "Warm-up")
     return fig

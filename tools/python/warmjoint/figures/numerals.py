@@ -10,6 +10,7 @@ IN_PRINT = {"tau": "τ", "kv": "k_{v}", "kc": "k_{c}", "kc+": "k_{c+}", "kc-": "
 HUES = {"nominal-ls": "grey", "energy-als": "vermilion", "energy-ml": "blue", "rls": "green", "motor-ridge": "purple", "kalman": "sky",
         "position-ridge": "orange"}
 OTHERS = ("green", "purple", "orange", "sky")
+SEVERAL = ("blue", "vermilion", "green", "purple", "orange", "sky")
 STROKES, MARKS = ("solid", "dashed", "dotted"), ("circle", "square", "diamond", "up")
 
 
@@ -75,6 +76,11 @@ def look_of(methods: Sequence[str], place: int) -> tuple[str, str, str]:
     """Hue, stroke and marker of a row: rows of one colour differ by stroke and marker."""
     earlier = sum(hue_of(one) == hue_of(methods[place]) for one in methods[:place])
     return hue_of(methods[place]), STROKES[earlier % 3], MARKS[earlier % 4]
+
+
+def look_of_several(place: int) -> tuple[str, str]:
+    """Hue and stroke of one of up to 18 lines that have no hues of their own."""
+    return SEVERAL[place % len(SEVERAL)], STROKES[place // len(SEVERAL) % len(STROKES)]
 
 
 class Symbols:
