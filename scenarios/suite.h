@@ -120,7 +120,7 @@ struct Suite {
     a->Field("compensators", &compensate,
              LeftOut("who answers with a torque along the log, against the true friction"));
     a->Check(identify.empty() != compensate.empty(), "identifiers",
-             "a list of one at least, or absent beside compensators");
+             "one that has `identifiers` or `compensators`, a list of one at least, not both");
     contest = compensate.empty() ? Contest::identifiers : Contest::compensators;
     identifiers = compensate.empty() ? identify : compensate;
   }

@@ -113,6 +113,7 @@ struct Days {
   const PreparedLog& today;
   const PreparedLog& before;
   const Simulation& truth;  // of today
+  Friction known;           // as a friction file has it
   Eigen::VectorXd contact;  // [N] today, N.m or N
 };
 
@@ -122,10 +123,11 @@ Simulation DayBefore(Scenario scenario, std::uint64_t realization) {
   return MakePlant(scenario)->Run(kDayBefore + realization);
 }
 
-/// The friction as a file has it: one stage of heat, no surroundings.
-Friction KnownOf(Friction friction) {
+/// The friction as a file has it: one stage of heat, no surroundings, and how it grows with the load.
+Friction KnownOf(Friction friction, const Disturbances& disturbances) {
   friction.second_thermal.reset();
   friction.level_per_temperature = 0;
+  friction.load_gain += disturbances.load_change.gain;
   return friction;
 }
 
@@ -143,12 +145,11 @@ Result RunCompensator(const PreparedCompensator& compensate, const Days& days) {
   Result result;
   const Stopwatch watch;
   const LogSamples& log = days.today.raw().measurements;
-  const Friction known = KnownOf(days.truth.truth.friction);
   const bool sees = compensate.arm.sees == Sees::truth;
   try {
     const Eigen::VectorXd found =
-        compensate.arm.along({log, days.before.raw().measurements, known, compensate.arm.options,
-                              sees ? &days.truth.truth.force : nullptr});
+        compensate.arm.along({log, days.before.raw().measurements, days.known,
+                              compensate.arm.options, sees ? &days.truth.truth.force : nullptr});
     result.seconds = watch.Seconds();
     if (!found.allFinite()) throw NoAnswer("bad_answer", "a torque is not a finite number");
     const CompensationScore score = ScoreCompensation(found, log, days.truth.truth, days.contact);
@@ -245,9 +246,9 @@ RealizationResult RunRealization(const Bench& bench, const Contestants& contesta
     }
     if (before) {
       const PreparedLog earlier = Prepare(before->measurements);
-      const Days days{
-          log, earlier, *recording,
-          bench.scenario.disturbances.contact.TorqueAlong(recording->measurements.time)};
+      const Disturbances& disturbances = bench.scenario.disturbances;
+      const Days days{log, earlier, *recording, KnownOf(recording->truth.friction, disturbances),
+                      disturbances.contact.TorqueAlong(recording->measurements.time)};
       for (const PreparedCompensator& compensate : contestants.compensators) {
         realization.results.push_back(RunCompensator(compensate, days));
       }
