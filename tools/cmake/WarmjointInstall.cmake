@@ -43,7 +43,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites ${PROJECT_SOURCE_DIR}/s
   COMPONENT program)
 # what draws pictures and fills pages
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/python/warmjoint DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/tools/python
-  COMPONENT program FILES_MATCHING PATTERN "figures/*" PATTERN "templates/*" PATTERN "formats/*.py")
+  COMPONENT program FILES_MATCHING PATTERN "figures/*" PATTERN "templates/*" PATTERN "formats/*.py" PATTERN "fmu.py")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/docs/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,73 +13,10 @@
 #include "models/foundation/excerpt.h"
 #include "models/friction/compensator.h"
 #include "models/friction/friction_json.h"
+#include "tools/export/code_lines.h"
 
 namespace warmjoint {
 namespace {
-
-/// A member of wj_friction with its parameter's unit and interval.
-struct Line {
-  const char* member;
-  double value;
-  std::string_view unit;
-  std::string parameter{};  // in an estimate; empty: the member's name
-};
-
-/// What a joint is called in code.
-std::string Identifier(const std::string& joint) {
-  std::string name;
-  for (const char c : joint) {
-    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  }
-  if (name.empty()) name = "joint";
-  if (std::isdigit(static_cast<unsigned char>(name[0])) != 0) name.insert(0, "joint_");
-  return name + "_friction";
-}
-
-/// All digits, as a number with a point.
-std::string Literal(double value) {
-  const std::string text = fmt::format("{}", value);
-  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-}
-
-/// The numbers that are not 0.
-std::vector<Line> LinesOf(const SeenFriction& seen, const wj_friction& f) {
-  const auto in = [&](const JointUnit& unit) { return unit.For(seen.kind); };
-  const std::string_view torque = in(kTorqueUnit);
-  // one level to both sides is one parameter
-  const bool one_level = seen.friction.parameters.contains("coulomb");
-  const std::string level = one_level ? "coulomb" : "";
-  std::vector<Line> lines{
-      {"viscous", f.viscous, in(kViscousUnit)},
-      {"coulomb_positive", f.coulomb_positive, torque, level},
-      {"coulomb_negative", f.coulomb_negative, torque, level},
-      {"static_rise", f.static_rise, torque},
-      {"stribeck_velocity", f.stribeck_velocity, in(kVelocityUnit)},
-      {"stribeck_exponent", f.stribeck_exponent, ""},
-      {"thermal_gain", f.thermal_gain, in(kThermalGainUnit)},
-      {"thermal_time_constant", f.thermal_time_constant, "s"},
-      {"second_thermal_gain", f.second_thermal_gain, in(kThermalGainUnit)},
-      {"second_thermal_time_constant", f.second_thermal_time_constant, "s"},
-      {"level_per_temperature", f.level_per_temperature, in(kLevelPerTemperatureUnit)},
-      {"viscous_per_energy", f.viscous_per_energy, in(kTimePerPositionUnit)},
-      {"load_gain", f.load_gain, ""},
-      {"gear", f.gear, ""},
-      {"level_std", f.level_std, torque},
-      {"heat_std", f.heat_std, torque},
-      {"noise", f.noise, torque},
-      {"noise_time", f.noise_time, "s"},
-  };
-  std::erase_if(lines, [](const Line& line) { return line.value == 0; });
-  return lines;
-}
-
-/// "4.99 .. 5.01 N.m", or the unit alone.
-std::string Said(const Line& line, const SeenFriction& seen) {
-  const auto found = seen.intervals.find(line.parameter.empty() ? line.member : line.parameter);
-  if (found == seen.intervals.end()) return std::string(line.unit);
-  const auto& [lower, upper] = found->second;
-  return fmt::format("{:.6g} .. {:.6g} {}", lower, upper, line.unit);
-}
 
 /// "4, 5.5" of numbers.
 std::string Numbers(std::span<const double> values) {
@@ -123,14 +61,16 @@ std::string MapsText(const std::string& name, const wj_friction& numbers) {
   return arrays + fmt::format("static const wj_map {}_maps[] = {{\n{}}};\n", name, rows);
 }
 
-std::string CText(const SeenFriction& seen, const std::string& name) {
+}  // namespace
+
+std::string CFriction(const SeenFriction& seen, const std::string& name) {
   const CompensatorNumbers held(seen.friction, seen.doubt);
   const wj_friction& numbers = held.numbers();
   std::string text =
       MapsText(name, numbers) + fmt::format("static const wj_friction {} = {{\n", name);
-  for (const Line& line : LinesOf(seen, numbers)) {
-    text +=
-        fmt::format("    .{} = {},  // {}\n", line.member, Literal(line.value), Said(line, seen));
+  for (const CodeLine& line : CodeLinesOf(seen, numbers)) {
+    text += fmt::format("    .{} = {},{}\n", line.member, Literal(line.value),
+                        CommentOf(line, seen, "//"));
   }
   if (numbers.map_count > 0) {
     text += fmt::format("    .map_count = {},\n    .maps = {}_maps,\n", numbers.map_count, name);
@@ -138,15 +78,17 @@ std::string CText(const SeenFriction& seen, const std::string& name) {
   return text + "};\n";
 }
 
+namespace {
+
 std::string CppText(const SeenFriction& seen, const std::string& name) {
   const CompensatorNumbers held(seen.friction, seen.doubt);
   const wj_friction& numbers = held.numbers();
   std::string text =
       MapsText(name, numbers) +
       fmt::format("static inline wj_friction {}() {{\n  wj_friction friction{{}};\n", name);
-  for (const Line& line : LinesOf(seen, numbers)) {
-    text += fmt::format("  friction.{} = {};  // {}\n", line.member, Literal(line.value),
-                        Said(line, seen));
+  for (const CodeLine& line : CodeLinesOf(seen, numbers)) {
+    text += fmt::format("  friction.{} = {};{}\n", line.member, Literal(line.value),
+                        CommentOf(line, seen, "//"));
   }
   if (numbers.map_count > 0) {
     text += fmt::format("  friction.map_count = {};\n  friction.maps = {}_maps;\n",
@@ -173,8 +115,8 @@ Tree WithoutNull(const Tree& tree) {
 std::string PythonText(const SeenFriction& seen, const std::string& name) {
   const CompensatorNumbers held(seen.friction, seen.doubt);
   std::string text;
-  for (const Line& line : LinesOf(seen, held.numbers())) {
-    text += fmt::format("# {} = {:.6g}, {}\n", line.member, line.value, Said(line, seen));
+  for (const CodeLine& line : CodeLinesOf(seen, held.numbers())) {
+    text += fmt::format("# {} = {:.6g}, {}\n", line.member, line.value, SaidOf(line, seen));
   }
   text += fmt::format("{} = Compensator(\n    {}", name,
                       WithoutNull(FrictionToTree(seen.friction)).dump());
@@ -189,12 +131,6 @@ std::string PythonText(const SeenFriction& seen, const std::string& name) {
   return text + ")\n";
 }
 
-/// What of a friction the code does not do, a comment's words.
-std::string LeftOut(const Friction& friction) {
-  const bool bends = FindLaw(friction.law)->pre_sliding == PreSliding::bristle;
-  return bends ? "; left out: the bristle, which bends before it slides" : "";
-}
-
 }  // namespace
 
 std::string CodeText(const std::vector<SeenFriction>& frictions, EngineFormat format) {
@@ -203,7 +139,7 @@ std::string CodeText(const std::vector<SeenFriction>& frictions, EngineFormat fo
       is_python ? "from warmjoint import Compensator\n" : "#include <warmjoint/compensate.h>\n";
   std::set<std::string> names;
   for (const SeenFriction& seen : frictions) {
-    const std::string name = Identifier(seen.joint);
+    const std::string name = CodeName(seen.joint);
     if (!names.insert(name).second) {
       Refuse({"joint " + Excerpt(seen.joint)},
              "is {} in {}, as another joint is; rename one of them in the file", name,
@@ -212,8 +148,8 @@ std::string CodeText(const std::vector<SeenFriction>& frictions, EngineFormat fo
     text +=
         fmt::format("\n{} {}: friction with its 95 % intervals, law {}{}\n", is_python ? "#" : "//",
                     Printable(seen.joint.empty() ? "joint" : seen.joint), seen.friction.law,
-                    LeftOut(seen.friction));
-    text += format == EngineFormat::c     ? CText(seen, name)
+                    LeftOutOf(seen.friction));
+    text += format == EngineFormat::c     ? CFriction(seen, name)
             : format == EngineFormat::cpp ? CppText(seen, name)
                                           : PythonText(seen, name);
   }

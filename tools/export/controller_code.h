@@ -8,14 +8,12 @@
 
 namespace warmjoint {
 
-/// Whether a format holds the whole friction, with heat and maps, as code that compensates it.
-inline bool IsCode(EngineFormat format) {
-  return format == EngineFormat::c || format == EngineFormat::cpp || format == EngineFormat::python;
-}
-
 /// c: `static const wj_friction NAME_friction` of each joint, C99; cpp: a function NAME_friction(), C++11; python: a
 /// Compensator NAME_friction. Numbers have all their digits, 95 % intervals stand beside them as comments. Throws BadInput for joints
 /// whose names are the same in code.
 std::string CodeText(const std::vector<SeenFriction>& frictions, EngineFormat format);
+
+/// `static const wj_friction NAME = {...};` with the arrays of its maps, C99.
+std::string CFriction(const SeenFriction& seen, const std::string& name);
 
 }  // namespace warmjoint

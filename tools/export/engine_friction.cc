@@ -155,7 +155,7 @@ class Omissions {
 /// What a held joint does in that engine.
 void TellCreep(const SeenFriction& seen, const EngineFriction& found, EngineFormat format,
                Omissions& out) {
-  if (HasStaticLevel(format)) return;
+  if (HasStaticLevel(format) || format == EngineFormat::ur) return;
   if (format == EngineFormat::urdf) {
     out.Tell("creep", std::nullopt,
              "how a joint holds is the reader's choice; MuJoCo reads frictionloss");

@@ -1,5 +1,5 @@
-// Friction as the numbers that engines without heat, maps and directions take, and what these numbers leave out; and as the
-// code of a controller.
+// Friction as the numbers that engines without heat, maps and directions take, and what these numbers leave out; and the formats
+// that hold all of it.
 #pragma once
 
 #include <warmjoint/estimate.h>
@@ -15,17 +15,23 @@
 
 namespace warmjoint {
 
-/// Whose numbers are asked for; c, cpp and python: code of a controller (controller_code.h).
-enum class EngineFormat { mjcf, urdf, physx, isaaclab, mjlab, c, cpp, python };
+/// Whose numbers are asked for; c, cpp and python: code of a controller (controller_code.h); ros2 and ur: its parameters
+/// (controller_text.h); fmu: FMI 3.0 (fmu_text.h).
+enum class EngineFormat { mjcf, urdf, physx, isaaclab, mjlab, ur, c, cpp, python, ros2, fmu };
 
 inline std::span<const Word<EngineFormat>> WordsOf(EngineFormat) {
   static constexpr std::array words{
-      Word{"mjcf", EngineFormat::mjcf},   Word{"urdf", EngineFormat::urdf},
-      Word{"physx", EngineFormat::physx}, Word{"isaaclab", EngineFormat::isaaclab},
-      Word{"mjlab", EngineFormat::mjlab}, Word{"c", EngineFormat::c},
-      Word{"cpp", EngineFormat::cpp},     Word{"python", EngineFormat::python}};
+      Word{"mjcf", EngineFormat::mjcf},     Word{"urdf", EngineFormat::urdf},
+      Word{"physx", EngineFormat::physx},   Word{"isaaclab", EngineFormat::isaaclab},
+      Word{"mjlab", EngineFormat::mjlab},   Word{"ur", EngineFormat::ur},
+      Word{"c", EngineFormat::c},           Word{"cpp", EngineFormat::cpp},
+      Word{"python", EngineFormat::python}, Word{"ros2", EngineFormat::ros2},
+      Word{"fmu", EngineFormat::fmu}};
   return words;
 }
+
+/// Whether heat is a state there; the others take the numbers of one warmth.
+inline bool HasHeat(EngineFormat format) { return format >= EngineFormat::c; }
 
 /// Whether it has a level at rest besides that of sliding.
 inline bool HasStaticLevel(EngineFormat format) {

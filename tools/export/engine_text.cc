@@ -14,6 +14,8 @@
 #include "models/foundation/xml_tags.h"
 #include "models/friction/friction_json.h"
 #include "tools/export/controller_code.h"
+#include "tools/export/controller_text.h"
+#include "tools/export/fmu_text.h"
 #include "tools/export/native_text.h"
 
 namespace warmjoint {
@@ -171,14 +173,14 @@ Exported ExportFrictions(const Node& file, const ExportRequest& request) {
            NameOf(request.to));
   }
   const Warmth& warmth = request.warmth;
-  if (IsCode(request.to) && (warmth.share != 0 || warmth.speed)) {
+  if (HasHeat(request.to) && (warmth.share != 0 || warmth.speed)) {
     Refuse({warmth.speed ? "--speed" : "--warm"},
            "is for engines without heat, and {} has heat as a state of the joint; leave it out",
            NameOf(request.to));
   }
   Exported exported{.request = request, .frictions = {}, .notices = {}, .whole = {}};
   exported.whole = SeenIn(file, request, exported.notices);
-  if (IsCode(request.to)) return exported;
+  if (HasHeat(request.to)) return exported;
   for (const SeenFriction& seen : exported.whole) {
     exported.frictions.push_back(InEngine(seen, request.warmth, request.to));
     // a spring with a yield holds
@@ -200,18 +202,33 @@ std::string EngineText(const std::vector<EngineFriction>& frictions, EngineForma
 
 std::string ExportText(const Exported& exported) {
   const ExportRequest& request = exported.request;
-  if (IsCode(request.to)) return CodeText(exported.whole, request.to);
-  return request.native ? NativeText(exported.frictions, request.timestep)
-                        : EngineText(exported.frictions, request.to);
+  switch (request.to) {
+    case EngineFormat::ros2:
+      return RosText(exported.whole);
+    case EngineFormat::ur:
+      return UrText(exported.whole, request.warmth);
+    case EngineFormat::fmu:
+      return FmuFilesOf(exported.whole).files.at("modelDescription.xml");
+    default:
+      if (HasHeat(request.to)) return CodeText(exported.whole, request.to);
+      return request.native ? NativeText(exported.frictions, request.timestep)
+                            : EngineText(exported.frictions, request.to);
+  }
 }
 
 Tree EngineJson(const Exported& exported) {
   Tree joints = Tree::object();
   for (const EngineFriction& one : exported.frictions) joints[CalledIn(one)] = WriteFields(one);
-  return {{"to", NameOf(exported.request.to)},
-          {"joints", joints},
-          {"notices", exported.notices},
-          {"text", ExportText(exported)}};
+  Tree tree = {{"to", NameOf(exported.request.to)},
+               {"joints", joints},
+               {"notices", exported.notices},
+               {"text", ExportText(exported)}};
+  if (exported.request.to == EngineFormat::fmu) {
+    const FmuFiles fmu = FmuFilesOf(exported.whole);
+    tree["model"] = fmu.model;
+    tree["files"] = fmu.files;
+  }
+  return tree;
 }
 
 }  // namespace warmjoint

@@ -33,31 +33,31 @@ struct Exported {
   ExportRequest request;
   std::vector<EngineFriction> frictions;
   std::vector<std::string> notices;  // which joints were left out, one sentence each
-  std::vector<SeenFriction> whole;   // of code
+  std::vector<SeenFriction> whole;   // as they were seen
 };
 
 /// Whether what is written means a joint by its name; of the others it is pasted into the joint that it is for.
 inline bool NeedsName(EngineFormat format) {
   return format == EngineFormat::physx || format == EngineFormat::isaaclab ||
-         format == EngineFormat::mjlab;
+         format == EngineFormat::mjlab || format == EngineFormat::ros2;
 }
 
 /// The frictions of a file: of estimate.json or a friction file one, of robot.json all that are known in N.m or N, by their own
-/// names. Throws BadInput, also for a joint without a name where the engine needs one, and for a warmth of code, whose heat is a
-/// state.
+/// names. Throws BadInput, also for a joint without a name where the engine needs one, and for a warmth where heat is a state.
 Exported ExportFrictions(const Node& file, const ExportRequest& request);
 
 /// The comments on one joint: its warmth, and what its numbers leave out.
 std::string EngineHead(const EngineFriction& one, EngineFormat format);
 
-/// EngineText, NativeText where springs were asked for, CodeText of a controller.
+/// EngineText, NativeText where springs were asked for; of controllers CodeText, RosText or UrText; of an FMU its model description.
 std::string ExportText(const Exported& exported);
 
 /// What the engine reads, with what it leaves out as comments. Where the friction has an interval, numbers end at the second digit of its half
 /// width; else they have twelve digits.
 std::string EngineText(const std::vector<EngineFriction>& frictions, EngineFormat format);
 
-/// {to, joints{NAME: {kind, warm, speed, energy, slowest, fastest, viscous, level, static_level, left_out[]}}, notices[], text}; of code no joints
+/// {to, joints{NAME: {kind, warm, speed, energy, slowest, fastest, viscous, level, static_level, left_out[]}}, notices[], text}; where heat is a
+/// state no joints; of an FMU {model, files{PATH: text}} besides
 Tree EngineJson(const Exported& exported);
 
 }  // namespace warmjoint

@@ -271,9 +271,9 @@ class Estimate:
 
     def export(self, to: EngineFormat, *, warm: float = 0.0, speed: float | None = None, joint: str = "") -> Export:
         """The friction as the numbers that another engine takes: what `warmjoint export` does. to: mjcf, urdf, physx, isaaclab or mjlab,
-        or the whole friction as code of a controller: c, cpp or python, which take neither warm nor speed.
+        or the whole friction as code of a controller (c, cpp or python), as its parameters (ros2) or as an FMU, which take neither warm nor speed.
         warm: 0 cold, 1 as warm as sliding at `speed` makes it (rad/s or m/s; the log's median where not given). joint: its name in what
-        the engine reads, which physx, isaaclab and mjlab need. The text has as many digits as the interval supports, `joints` has all.
+        the engine reads, which physx, isaaclab, mjlab and ros2 need. The text has as many digits as the interval supports, `joints` has all.
         Raises BadInput for an estimate without friction, or with one in amperes."""
         return export_frictions(self.data, to, warm=warm, speed=speed, joint=joint)
 

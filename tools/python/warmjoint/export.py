@@ -1,16 +1,19 @@
-"""Friction as the numbers that other engines take, and what these leave out."""
+"""Friction as the numbers that other engines take, and what these leave out; as code and parameters of controllers, and as an FMU."""
 
 from __future__ import annotations
 
 import dataclasses
 import os
+import pathlib
+import warnings
 from collections.abc import Mapping
 from typing import Any, Literal
 
 from warmjoint import _core
+from warmjoint.fmu import pack
 from warmjoint.values import path_of
 
-EngineFormat = Literal["mjcf", "urdf", "physx", "isaaclab", "mjlab", "c", "cpp", "python"]
+EngineFormat = Literal["mjcf", "urdf", "physx", "isaaclab", "mjlab", "ur", "c", "cpp", "python", "ros2", "fmu"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,15 +41,26 @@ class EngineFriction:
 
 @dataclasses.dataclass(frozen=True)
 class Export:
-    """What the engine reads, and the numbers in it; of code the text alone."""
+    """What the engine reads, and the numbers in it; where heat is a state the text alone. Of an FMU the text is its model description."""
 
     text: str
     joints: dict[str, EngineFriction]
     notices: list[str]  # which joints were left out, one sentence each
+    model: str = ""  # of an FMU, its modelIdentifier
+    files: dict[str, str] = dataclasses.field(default_factory=dict)  # of an FMU, by their paths in it
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the text."""
-        _core.write_text(path_of(path), self.text)
+        """Writes the text; of an FMU the archive, with the library that a C compiler makes (the variable CC, else cc). Warns where there is
+        none."""
+        if not self.files:
+            _core.write_text(path_of(path), self.text)
+            return
+        archive, notices = pack(self.model, self.files)
+        for notice in notices:
+            warnings.warn(notice, stacklevel=2)
+        written = pathlib.Path(f"{path_of(path)}.part")
+        written.write_bytes(archive)
+        written.replace(path_of(path))
 
     def __str__(self) -> str:
         return self.text
@@ -63,4 +77,4 @@ def export_frictions(given: Mapping[str, Any], to: EngineFormat, *, warm: float,
         left_out = [LeftOut(left["what"], left["percent"], left["meaning"]) for left in one["left_out"]]
         numbers = {key: one[key] for key in ("viscous", "level", "static_level", "energy", "speed", "slowest", "fastest")}
         joints[name] = EngineFriction(**numbers, left_out=left_out)
-    return Export(found["text"], joints, found["notices"])
+    return Export(found["text"], joints, found["notices"], found.get("model", ""), found.get("files", {}))
