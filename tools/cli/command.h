@@ -44,5 +44,6 @@ Command AddRunCommand(CLI::App& program);
 Command AddStatusCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
+Command AddValidateCommand(CLI::App& program);
 
 }  // namespace warmjoint

@@ -16,7 +16,7 @@ _warmjoint() {
   help=$("$program" $command --help 2>/dev/null)
 
   if [[ -z $command && $cur != -* ]]; then
-    words=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' <<<"$help")
+    words=$(sed -n 's/^  \([a-z][a-z-]*\)  .*/\1/p' <<<"$help")
   elif [[ $cur == -* ]]; then
     words=$(grep -oE '^  -[^ ]*' <<<"$help" | tr ',' '\n')
   elif [[ $before == --identifier ]]; then

@@ -81,16 +81,36 @@ class Help : public CLI::Formatter {
   size_t width_;
 };
 
-/// Adds all subcommands to the program's command line.
-std::vector<Command> AddCommands(CLI::App& program) {
-  return {
-      AddListCommand(program),          AddNewCommand(program),        AddSimulateCommand(program),
-      AddConvertCommand(program),       AddCheckCommand(program),      AddIdentifyCommand(program),
-      AddPredictCommand(program),       AddCompensateCommand(program), AddAttachCommand(program),
-      AddRunCommand(program),           AddStatusCommand(program),     AddMergeCommand(program),
-      AddCompareCommand(program),       AddPlotCommand(program),       AddReportCommand(program),
-      AddIdentifyRobotCommand(program), AddExportCommand(program),
+/// Commands that stand under one heading of the help.
+struct CommandGroup {
+  const char* heading;
+  std::vector<Command (*)(CLI::App&)> commands;
+};
+
+const std::vector<CommandGroup>& CommandGroups() {
+  static const std::vector<CommandGroup> groups{
+      {"From a log",
+       {AddCheckCommand, AddIdentifyCommand, AddIdentifyRobotCommand, AddPredictCommand,
+        AddCompensateCommand, AddConvertCommand}},
+      {"To a simulator", {AddAttachCommand, AddExportCommand, AddSimulateCommand}},
+      {"Pictures and pages", {AddPlotCommand, AddReportCommand}},
+      {"Identifiers compared",
+       {AddRunCommand, AddCompareCommand, AddStatusCommand, AddMergeCommand, AddValidateCommand}},
+      {"What there is", {AddListCommand, AddNewCommand}},
   };
+  return groups;
+}
+
+/// Adds all subcommands to the program's command line, in the order of its help.
+std::vector<Command> AddCommands(CLI::App& program) {
+  std::vector<Command> commands;
+  for (const CommandGroup& group : CommandGroups()) {
+    for (Command (*const add)(CLI::App&) : group.commands) {
+      commands.push_back(add(program));
+      commands.back().parser->group(group.heading);
+    }
+  }
+  return commands;
 }
 
 void AddQuiet(CLI::App& parser) {

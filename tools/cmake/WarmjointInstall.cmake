@@ -39,6 +39,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots DESTINATION ${CMAKE_INSTAL
   COMPONENT program
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.urdf" PATTERN "*.json" PATTERN "README.md")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites ${PROJECT_SOURCE_DIR}/scenarios/templates
+  ${PROJECT_SOURCE_DIR}/scenarios/certified
   DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios
   COMPONENT program)
 # what draws pictures and fills pages

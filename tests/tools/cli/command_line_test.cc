@@ -66,7 +66,7 @@ TEST(Completion, OffersWhatFits) {
   using testing::UnorderedElementsAreArray;
   using Words = std::vector<std::string>;
   const std::pair<Words, Words> cases[]{
-      {{"id"}, {"identify"}},
+      {{"id"}, {"identify", "identify-robot"}},
       {{"--ver"}, {"--version"}},
       {{"run", "--re"}, {"--realizations"}},
       {{"check", "log.csv", "--seg"}, {"--segments"}},

@@ -101,9 +101,9 @@ TEST(TableToText, BreaksTheWidestCellWhereThePageIsTooNarrow) {
 }
 
 TEST_F(Terminal, HelpFitsAndBeginsWithAnExample) {
-  for (const char* command :
-       {"list", "new", "simulate", "convert", "check", "identify", "identify-robot", "predict",
-        "attach", "run", "status", "merge", "compare", "plot", "report", "export"}) {
+  for (const char* command : {"list", "new", "simulate", "convert", "check", "identify",
+                              "identify-robot", "predict", "attach", "run", "status", "merge",
+                              "compare", "plot", "report", "export", "compensate", "validate"}) {
     const std::string help = Call({command, "--help"}).out;
     EXPECT_LE(WidestLine(help), 80u) << help;
     // the example first, what every command has last
