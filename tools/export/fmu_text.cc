@@ -193,7 +193,7 @@ FmuFiles FmuFilesOf(const std::vector<SeenFriction>& frictions) {
   Described model;
   unsigned reference = 1;
   for (const SeenFriction& seen : frictions) {
-    Describe(seen, is_one ? "" : seen.joint + ".", reference, model);
+    Describe(seen, is_one ? "" : Printable(seen.joint) + ".", reference, model);
   }
   const std::string header = FrictionHeader(frictions, names);
   const std::string token = Sha256(header + kFmuSource + kCompensateHeader);

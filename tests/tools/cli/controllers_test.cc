@@ -97,12 +97,14 @@ TEST(Ur, RefusesByNameWhatItDoesNotTake) {
 }
 
 TEST(Fmu, DescribesEachJointOnce) {
-  const FmuFiles one = FmuFilesOf({Joint("elbow")}), two = FmuFilesOf({Joint("a"), Joint("b\"")});
+  const FmuFiles one = FmuFilesOf({Joint("elbow")}),
+                 two = FmuFilesOf({Joint("a"), Joint("b\"\n\x01")});
   EXPECT_EQ(one.model, "elbow_friction");
   EXPECT_EQ(one.files.size(), 5u);
   const std::string& description = two.files.at("modelDescription.xml");
   EXPECT_THAT(description, testing::HasSubstr("name=\"a.velocity\""));
-  EXPECT_THAT(description, testing::HasSubstr("name=\"b&quot;.velocity\""));
+  EXPECT_THAT(description, testing::HasSubstr("name=\"b&quot;"));
+  EXPECT_THAT(description, testing::Not(testing::HasSubstr("\x01")));
   EXPECT_THAT(description, testing::HasSubstr("95 %: 14.5 .. 15.5 N.m"));
   // another friction is another model, which an importer tells by its token
   EXPECT_NE(FmuFilesOf({Joint("elbow", 14)}).files.at("sources/friction.h"),
