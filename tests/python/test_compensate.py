@@ -212,15 +212,18 @@ def test_a_suite_compares_compensators(program):
         "scenario": {
             "friction": {"law": "viscous_coulomb", "parameters": {"viscous": 5, "coulomb": 15},
                          "thermal": {"thermal_gain": -0.75, "thermal_time_constant": 600}},
-            "motion": {"speeds": {"uniform": [0.1, 1]}, "hold": 5}, "noise": {"torque": 0.5}, "sampling": {"rate": 20}, "duration": 1200},
+            "motion": {"speeds": {"uniform": [0.1, 1]}, "hold": 5}, "noise": {"torque": 0.5}, "sampling": {"rate": 20}, "duration": 1200,
+            "disturbances": {"load_change": {"load": 10, "gain": 0.1, "period": 240}}},
         "compensators": [{"name": "none"}, {"name": "fixed"}, {"name": "heat"}, {"name": "truth"}]}
     pytest.importorskip("mujoco")
-    done = wj.run(suite, program.folder / "run")
+    done = wj.run(suite, program.folder / "contest")
     rows = {row["identifier"]: row for row in wj.compare(done)}
     assert list(rows) == ["heat", "fixed", "none", "truth"]
-    text = program("compare", "run")
+    # a friction file knows how friction grows with the load, of 1 N.m in some 15
+    assert rows["heat"]["measures_residual_median"] < 1
+    text = program("compare", "contest")
     assert "heat is best: its median residual is" in text and "10 min after starts" in text
     pytest.importorskip("matplotlib")
-    program("plot", "run", "--figure", "residual_by_minute", "-o", "pictures", "--data")
+    program("plot", "contest", "--figure", "residual_by_minute", "-o", "pictures", "--data")
     assert (program.folder / "pictures/residual_by_minute.png").exists()
-    program("report", "run", "-o", "page.html")
+    program("report", "contest", "-o", "page.html")

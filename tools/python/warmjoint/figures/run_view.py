@@ -73,7 +73,7 @@ class Run:
         self.torque_unit = unit_text(facts["torque_unit"])
         self.board = facts["board"]
         self.finished = self.board["realizations"]
-        self.compensates = any(row.get("measures") for row in self.board["rows"])
+        self.compensates = any(row.get("measures") for row in self.board.get("rows", ()))
         self.values = np.array(facts["rungs"]["values"], float)
         self.noise = facts["noise"]
         units = facts["realizations"] * max(1, self.values.size)
