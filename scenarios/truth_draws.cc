@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/data_folder.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/random_stream.h"
 #include "models/foundation/serialize.h"
@@ -73,8 +74,9 @@ void CheckEnds(const Node& middles, const TruthDraws& draws) {
   FrictionFrom(middles.With(upper));
 }
 
-/// A path relative to the file that names it.
+/// A path relative to the file that names it; a friction of the library as it is.
 std::string PathIn(const Node& node) {
+  if (IsOfLibrary(node.Text())) return node.Text();
   return std::filesystem::path(node.file()).parent_path() / node.Text();
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/data_folder.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/names.h"
 #include "models/foundation/parse_number.h"
@@ -238,6 +239,24 @@ void RefuseWord(const Node& node, const std::string& word, const std::vector<std
          Suggestion(word, known));
 }
 
+namespace {
+
+/// The robot.json of a machine of the library, or what that holds of one joint.
+Tree ReadOfLibrary(const std::filesystem::path& path) {
+  const LibraryFriction known = FindInLibrary(path);
+  Tree robot = ReadJsonFile(known.file);
+  if (known.joint.empty()) return robot;
+  std::vector<std::string> joints;
+  for (const auto& [name, estimate] : robot["joints"].items()) {
+    if (name == known.joint) return estimate;
+    joints.push_back(name);
+  }
+  Refuse({Excerpt(path.string())}, "this machine has no joint '{}'{}", Excerpt(known.joint),
+         Suggestion(known.joint, joints));
+}
+
+}  // namespace
+
 Node ReadJsonNode(const std::filesystem::path& path) { return {ReadJsonFile(path), path.string()}; }
 
 Node ParseJsonNode(const std::string& text, const std::string& file) {
@@ -245,6 +264,7 @@ Node ParseJsonNode(const std::string& text, const std::string& file) {
 }
 
 Tree ReadJsonFile(const std::filesystem::path& path) {
+  if (IsOfLibrary(path)) return ReadOfLibrary(path);
   const std::string text = ReadWholeFile(path, kLargestJson);
   // of all that is given in place of such a file, a recording is the likeliest
   constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8, which some editors write

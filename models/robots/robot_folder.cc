@@ -1,12 +1,10 @@
 #include "models/robots/robot_folder.h"
 
 #include <console_bridge/console.h>
-#include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <mutex>
 
@@ -119,29 +117,6 @@ class Collector : public console_bridge::OutputHandler {
 };
 
 }  // namespace
-
-fs::path DataFolder() {
-  // the folder that is named, or else beside the program, or the build's default
-  std::vector<fs::path> candidates;
-  if (const char* named = std::getenv("WARMJOINT_DATA")) {
-    candidates.emplace_back(named);
-  } else {
-    std::error_code unreadable;
-    const fs::path program = fs::read_symlink("/proc/self/exe", unreadable);
-    if (!unreadable) {
-      candidates.push_back(program.parent_path().parent_path() / "share" / "warmjoint");
-    }
-    candidates.emplace_back(WARMJOINT_DATA_DEFAULT);
-  }
-  // the first that holds robots
-  for (const fs::path& candidate : candidates) {
-    if (fs::is_directory(candidate / "models" / "robots")) return candidate;
-  }
-
-  std::vector<std::string> places(candidates.begin(), candidates.end());
-  Refuse({}, "models/robots was not found in {}; set WARMJOINT_DATA to its folder",
-         fmt::join(places, " or "));
-}
 
 std::vector<std::string> RobotNames() {
   std::vector<std::string> names;

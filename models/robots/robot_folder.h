@@ -1,5 +1,4 @@
-// Where the robots and other files of the project are found at run time, and what is known of each robot; URDF files, read
-// by urdfdom.
+// The robots of the project and what is known of each; URDF files, read by urdfdom.
 #pragma once
 
 #include <urdf_model/model.h>
@@ -11,12 +10,9 @@
 #include <utility>
 #include <vector>
 
-namespace warmjoint {
+#include "models/foundation/data_folder.h"
 
-/// The folder that holds models/ and scenarios/: the environment variable WARMJOINT_DATA, else
-/// ../share/warmjoint beside the running program, else the source folder. Throws BadInput, naming
-/// the places that were looked at, where none of them holds models/robots.
-std::filesystem::path DataFolder();
+namespace warmjoint {
 
 /// Names of the robots of the project, sorted: each is a folder of models/robots.
 std::vector<std::string> RobotNames();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "models/foundation/data_folder.h"
 #include "models/foundation/excerpt.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/thermal.h"
@@ -63,7 +64,7 @@ PluginAttributes ReadTexts(const AttributeTexts& texts, const Place& place) {
 /// in the working directory.
 fs::path Locate(const fs::path& file, const fs::path& folder) {
   // a folder that is given goes before the model's, and that before the working directory
-  if (file.is_absolute()) return file;
+  if (file.is_absolute() || IsOfLibrary(file)) return file;
   const fs::path inside = folder / file;
   const fs::path near_model = ModelFolder() / inside;
   return !ModelFolder().empty() && fs::exists(near_model) ? near_model : inside;

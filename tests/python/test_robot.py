@@ -210,7 +210,7 @@ def test_a_description_of_another_kind_is_refused(log):
 
 
 def test_files_that_are_no_robot_are_refused(tmp_path):
-    for text, words in (("{", "is no JSON"), ("5", "holds no map of joints"), ('{"identifier": "auto"}', "of one estimate Estimate or load")):
+    for text, words in (("{", "is not JSON"), ("5", "is no JSON file"), ("[5]", "holds no map of joints"), ('{"identifier": "auto"}', "of one estimate Estimate or load")):
         (tmp_path / "robot.json").write_text(text)
         with pytest.raises(wj.BadInput, match=words):
             wj.load_robot(tmp_path / "robot.json")

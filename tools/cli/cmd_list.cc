@@ -1,4 +1,4 @@
-// warmjoint list laws|identifiers|compensators|robots|suites [NAME]: what there is to choose from.
+// warmjoint list laws|identifiers|compensators|robots|library|suites [NAME]: what there is to choose from.
 #include <fmt/ranges.h>
 #include <warmjoint/friction.h>
 
@@ -141,7 +141,10 @@ ordered_json RobotsJson() {
                    {"mjcf", robot.mjcf.string()},
                    {"urdf", robot.urdf.string()},
                    {"joints", joints},
-                   {"friction", {{"joint", robot.friction_joint}, {"gear", robot.friction.gear}}}});
+                   {"friction",
+                    {{"joint", robot.friction_joint},
+                     {"gear", robot.friction.gear},
+                     {"origin", "invented"}}}});
   }
   return all;
 }
@@ -161,10 +164,53 @@ std::string RobotText(const ordered_json& robot) {
          fmt::format("{:.4g} {}/s", joint["speed"].get<double>(), unit),
          fmt::format("{:g} {}", joint["effort"].get<double>(), kTorqueUnit.For(kind)),
          joint["name"] == friction["joint"]
-             ? fmt::format("gear {:g}", friction["gear"].get<double>())
+             ? fmt::format("{}, gear {:g}", TextOf(friction, "origin"),
+                           friction["gear"].get<double>())
              : ""});
   }
   return head + TableToText(table, 2, PageOf(stdout));
+}
+
+// --- library ------------------------------------------------------------------------------------
+
+/// The friction at the middle one of the speeds that the card holds, with its interval.
+std::string FrictionText(const ordered_json& joint) {
+  const ordered_json& known = joint["friction"];
+  if (known.empty()) return "";
+  const ordered_json& one = known[known.size() / 2];
+  const double half = (one["interval95"][1].get<double>() - one["interval95"][0].get<double>()) / 2;
+  return fmt::format("{:.3g} +- {:.2g} {} at {:.3g} {}", one["value"].get<double>(), half,
+                     TextOf(joint, "unit"), one["speed"].get<double>(),
+                     TextOf(joint, "speed_unit"));
+}
+
+std::string MachineText(const ordered_json& machine) {
+  const std::string head =
+      fmt::format("{}  {}\n", TextOf(machine, "name"), TextOf(machine, "machine"));
+  Table table{{"  joint", "verdict", "friction"}, {}};
+  for (const ordered_json& joint : machine["joints"]) {
+    table.rows.push_back(
+        {"  " + TextOf(joint, "name"), TextOf(joint, "status"), FrictionText(joint)});
+  }
+  return head + TableToText(table, table.header.size(), PageOf(stdout));
+}
+
+std::string MachinePage(const ordered_json& machine) {
+  // the table, then where it comes from, what refuses a joint, and what it is not good for
+  std::string text = MachineText(machine);
+  for (const ordered_json& source : machine["source"]) {
+    const std::string commit = TextOf(source, "commit");
+    text += fmt::format("  from {}{}{}, licence: {}\n", TextOf(source, "repository"),
+                        commit.empty() ? "" : " @ ", commit, TextOf(source, "licence"));
+  }
+  for (const ordered_json& joint : machine["joints"]) {
+    const std::string said = joint.value("message", "");
+    if (!said.empty()) text += fmt::format("  {}: {}\n", TextOf(joint, "name"), said);
+  }
+  for (const ordered_json& limit : machine["not_for"])
+    text += fmt::format("  not for {}\n", limit.get<std::string>());
+  return text + fmt::format("\nwarmjoint attach MODEL --friction library:{} -o warm.xml\n",
+                            TextOf(machine, "name"));
 }
 
 // --- suites -------------------------------------------------------------------------------------
@@ -201,13 +247,14 @@ std::string SuiteText(const ordered_json& suite) {
                      Words(suite["identifiers"]), fs::proximate(TextOf(suite, "file")).string());
 }
 
-/// laws, identifiers, compensators, robots, suites.
+/// laws, identifiers, compensators, robots, library, suites.
 const std::vector<Family>& Families() {
   static const std::vector<Family> families{
       {"laws", LawsJson, LawNames, LawText, LawText},
       {"identifiers", IdentifiersJson, IdentifierNames, IdentifierLine, IdentifierText},
       {"compensators", CompensatorsJson, CompensatorNames, IdentifierLine, IdentifierText},
       {"robots", RobotsJson, RobotNames, RobotText, RobotText},
+      {"library", LibraryJson, MachineNames, MachineText, MachinePage},
       {"suites", SuitesJson, SuiteNames, SuiteLine, SuiteText},
   };
   return families;
@@ -269,7 +316,7 @@ ExitStatus List(const ListArguments& arguments) {
 Command AddListCommand(CLI::App& program) {
   auto arguments = std::make_shared<ListArguments>();
   CLI::App* parser = program.add_subcommand(
-      "list", "What there is: laws, identifiers, compensators, robots, suites");
+      "list", "What there is: laws, identifiers, compensators, robots, library, suites");
   GiveExample(*parser, "warmjoint list identifiers energy-ml");
 
   std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// warmjoint new scenario|suite|identifier NAME: a commented file to begin with.
+// warmjoint new scenario|suite|identifier|machine NAME: a commented file to begin with.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +23,7 @@ struct Template {
   const char* kind;
   const char* file;  // in scenarios/templates
   const char* next;  // NAME stands for what the user named
+  const char* advice = "try it as it stands";
 };
 
 constexpr Template kTemplates[]{
@@ -31,6 +32,8 @@ constexpr Template kTemplates[]{
     {"identifier", "identifier.py",
      "warmjoint run table1 -o NAME --realizations 5 --identifier 'NAME=python3 NAME.py {recording} "
      "{estimate}'"},
+    {"machine", "machine.toml", "tools/library/make --sources FOLDER NAME.toml",
+     "fill it in, then"},
 };
 
 struct NewArguments {
@@ -62,7 +65,7 @@ ExitStatus MakeNew(const NewArguments& arguments) {
 
   // the template with the name in it, and the command to try it
   WriteWholeFile(target, Replaced(ReadWholeFile(source), "NAME", arguments.name));
-  fmt::print(stdout, "{}: try it as it stands:\n  {}\n", target.string(),
+  fmt::print(stdout, "{}: {}:\n  {}\n", target.string(), chosen->advice,
              Replaced(chosen->next, "NAME", arguments.name));
   return ExitStatus::done;
 }
@@ -71,8 +74,8 @@ ExitStatus MakeNew(const NewArguments& arguments) {
 
 Command AddNewCommand(CLI::App& program) {
   auto arguments = std::make_shared<NewArguments>();
-  CLI::App* parser =
-      program.add_subcommand("new", "A commented scenario, suite or identifier to begin with");
+  CLI::App* parser = program.add_subcommand(
+      "new", "A commented scenario, suite, identifier or machine to begin with");
   GiveExample(*parser, "warmjoint new scenario mine");
   // kinds are those of the templates
   std::vector<std::string> kinds;

@@ -29,7 +29,7 @@ _warmjoint() {
   elif [[ $command == list && $before != list ]]; then
     words=$("$program" list "$before" --format names 2>/dev/null)
   elif [[ $command == list ]]; then
-    words="laws identifiers robots suites"
+    words="laws identifiers robots library suites"
   elif [[ $command == run ]]; then
     words=$("$program" list suites --format names)
   elif [[ $command == attach ]]; then

@@ -35,7 +35,7 @@ install(FILES ${MuJoCo_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT pr
 install(DIRECTORY ${MuJoCo_INCLUDE_DIR}/mujoco DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # robots and suites, where the program looks for them
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/models
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots ${PROJECT_SOURCE_DIR}/models/library DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/models
   COMPONENT program
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.urdf" PATTERN "*.json" PATTERN "README.md")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites ${PROJECT_SOURCE_DIR}/scenarios/templates

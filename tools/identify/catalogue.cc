@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/data_folder.h"
 #include "models/foundation/node.h"
 
 namespace warmjoint {
@@ -89,6 +90,16 @@ ordered_json IdentifiersJson() {
     one["options"] = OptionsJson(identifier.options);
   }
   return all;
+}
+
+ordered_json LibraryJson() {
+  ordered_json machines = ordered_json::array();
+  for (const std::string& name : MachineNames()) {
+    ordered_json card = ReadJsonFile(DataFolder() / "models" / "library" / name / "card.json");
+    card["name"] = name;
+    machines.push_back(std::move(card));
+  }
+  return machines;
 }
 
 }  // namespace warmjoint

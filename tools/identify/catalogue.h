@@ -17,4 +17,9 @@ nlohmann::ordered_json OptionsJson(const Options& options);
 /// [{name, summary, options[{name, default, allowed, meaning}]}].
 nlohmann::ordered_json IdentifiersJson();
 
+/// The measured machines: [{name, machine, kind, source{repository, commit, files, licence}, attach, joints[{name, status, unit, friction[{speed, value,
+/// interval95}], fall, halves, message}]}]. friction: at three speeds of the log or fewer, N.m over rad/s, or N over m/s; in A where the log tells no torque. fall: share of
+/// the friction that goes when the joint is warm, null where none is known. halves: [{speed, z}] of the fits of both halves of the log.
+nlohmann::ordered_json LibraryJson();
+
 }  // namespace warmjoint

@@ -275,6 +275,12 @@ void AddFriction(nb::module_& module) {
       "read_friction", [](const std::string& file) { return FieldsToPython(ReadFriction(file)); },
       nb::sig("def read_friction(file: str) -> dict[str, typing.Any]"));
   module.def(
+      "read_json", [](const std::string& file) { return ToPython(ReadJsonFile(file)); },
+      nb::sig("def read_json(file: str) -> typing.Any"));
+  module.def(
+      "library", [] { return ToPython(LibraryJson()); },
+      nb::sig("def library() -> list[dict[str, typing.Any]]"));
+  module.def(
       "friction_to_json", [](nb::handle given) { return FrictionToJson(FrictionOf(given)); },
       nb::sig("def friction_to_json(given: dict[str, typing.Any]) -> str"));
   module.def(

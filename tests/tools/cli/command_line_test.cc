@@ -27,7 +27,7 @@ TEST_F(CommandLine, HelpAndVersionEndWell) {
 }
 
 TEST_F(CommandLine, ListsEveryFamilyAsTextAndJson) {
-  for (const char* family : {"laws", "identifiers", "robots", "suites"}) {
+  for (const char* family : {"laws", "identifiers", "robots", "library", "suites"}) {
     const auto members = nlohmann::json::parse(Call({"list", family, "--format", "json"}).out);
     EXPECT_FALSE(members.empty()) << family;
     const std::string text = Call({"list", family}).out;
@@ -76,7 +76,7 @@ TEST(Completion, OffersWhatFits) {
       {{"check", "log.csv", "--joint", "="}, {"rotary", "linear"}},
       {{"-q", "predict", "e.json", "log.csv", "--initial", ""}, {"cold", "end"}},
       {{"plot", "runs", "--figure", ""}, {}},
-      {{"list", ""}, {"laws", "identifiers", "robots", "suites"}},
+      {{"list", ""}, {"laws", "identifiers", "robots", "library", "suites"}},
       {{"list", "laws", "visc"}, {"viscous_coulomb"}},
       {{"run", "tab"}, {"table1", "table1-mujoco", "table1-rests"}},
       {{"attach", "pend"}, {"pendulum"}},
@@ -100,6 +100,20 @@ TEST_F(New, ScenarioCanBeSimulatedAndIdentified) {
   const auto interval = estimate.at("parameters").at("viscous").at("interval95");
   EXPECT_LT(interval.at(0), 5.0);
   EXPECT_GT(interval.at(1), 5.0);
+}
+
+TEST_F(New, MachineIsARecipeWithItsEntries) {
+  Call({"new", "machine", "mine"});
+  const std::string recipe = File("mine.toml");
+  for (const char* entry : {"machine = ", "[[source]]", "licence = ", "[[run]]", "command = "}) {
+    EXPECT_THAT(recipe, HasSubstr(entry));
+  }
+}
+
+TEST_F(CommandLine, RobotsSayThatTheirFrictionIsInvented) {
+  for (const auto& robot : Json({"list", "robots"}))
+    EXPECT_EQ(robot.at("friction").at("origin"), "invented");
+  EXPECT_THAT(Call({"list", "robots"}).out, HasSubstr("invented"));
 }
 
 TEST_F(New, SuiteCanBeRun) {

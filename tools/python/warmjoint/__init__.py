@@ -13,6 +13,8 @@ program's own sentence; a fit that fails is an Estimate whose `status` and `mess
 
 import contextlib
 import importlib
+import os
+import pathlib
 from typing import TYPE_CHECKING, Any
 
 from warmjoint._core import BadInput, OutputFailed
@@ -22,6 +24,7 @@ from warmjoint.compensate import Compensated, Compensator
 from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
 from warmjoint.estimate import Estimate, Rejected, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
+from warmjoint.library import Machine, library
 from warmjoint.log import Check, Log, check, read
 from warmjoint.robot import RobotEstimate, identify_robot, load_robot
 
@@ -49,12 +52,17 @@ def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
 
 
+# The robots, the library and the suites of an installed package
+_data = pathlib.Path(__file__).parent / "data"
+if _data.is_dir():
+    os.environ.setdefault("WARMJOINT_DATA", os.fspath(_data))
+
 # The plugin, so that models with friction load wherever the package is imported, as in a worker that unpickles one. Where there is no MuJoCo, or
 # none that a build fits, attach and bind say so once they are asked for.
 with contextlib.suppress(Exception):
     importlib.import_module("warmjoint.mujoco_plugin")
 
 
-__all__ = ["BadInput", "Board", "Check", "Compensated", "Compensator", "Estimate", "Friction", "FrictionAtSpeed", "Log", "OutputFailed", "Parameter", "Prediction", "Rejected",
+__all__ = ["BadInput", "Board", "Check", "Compensated", "Compensator", "Estimate", "Friction", "FrictionAtSpeed", "Log", "Machine", "OutputFailed", "Parameter", "Prediction", "Rejected",
            "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify",
-           "identify_robot", "laws", "load", "load_robot", "native", "read", "reference", "run", "score", "simulate", "split"]
+           "identify_robot", "laws", "library", "load", "load_robot", "native", "read", "reference", "run", "score", "simulate", "split"]

@@ -215,10 +215,6 @@ def _engine() -> ModuleType:
     require_mujoco()
     from warmjoint import _engine
 
-    # the robots and suites of an installed package
-    data = pathlib.Path(__file__).parent / "data"
-    if data.is_dir():
-        os.environ.setdefault("WARMJOINT_DATA", os.fspath(data))
     return _engine
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import html
-import json
 import math
 import os
 import sys
@@ -428,7 +427,7 @@ def identifiers() -> dict[str, Any]:
 
 
 def load(path: str | os.PathLike[str], log: Log | Any = None, force: bool = False) -> Estimate:
-    """Reads estimate.json. log: the recording that it was identified from, for its figures; without it the files that the estimate
+    """Reads estimate.json, or library:MACHINE/JOINT. log: the recording that it was identified from, for its figures; without it the files that the estimate
     names are read where they are there. force: as of identify. Raises BadInput."""
     try:
         data = _core.read_estimate(path_of(path))
@@ -442,9 +441,8 @@ def load(path: str | os.PathLike[str], log: Log | Any = None, force: bool = Fals
 def _is_of_robot(path: str) -> bool:
     """Whether a file is a robot.json."""
     try:
-        with open(path, encoding="utf-8") as file:
-            tree = json.load(file)
-    except (OSError, ValueError, RecursionError):
+        tree = _core.read_json(path)
+    except _core.BadInput:
         return False
     return isinstance(tree, dict) and isinstance(tree.get("joints"), dict)
 

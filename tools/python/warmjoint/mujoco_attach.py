@@ -57,7 +57,8 @@ def _tree_of(joints: str, given: FrictionLike) -> tuple[str, dict[str, Any]]:
         text = _core.to_json(dict(given), name)
     elif isinstance(given, (str, os.PathLike)):
         name = path_of(given, name)
-        text = pathlib.Path(name).read_text(encoding="utf-8", errors="surrogateescape")
+        tree = _core.read_json(name)
+        return name, _map_of(tree, name)
     elif hasattr(given, "to_json"):
         text = given.to_json()
     else:
@@ -66,9 +67,13 @@ def _tree_of(joints: str, given: FrictionLike) -> tuple[str, dict[str, Any]]:
         tree = json.loads(text)
     except (ValueError, RecursionError) as refusal:
         raise BadInput(f"{name}: is no JSON ({refusal}); give a friction file or an estimate") from None
+    return name, _map_of(tree, name)
+
+
+def _map_of(tree: Any, name: str) -> dict[str, Any]:
     if not isinstance(tree, dict):
         raise BadInput(f"{name}: holds no map; give a friction file or an estimate")
-    return name, tree
+    return tree
 
 
 def _read(joints: str, given: FrictionLike) -> _Given:
@@ -150,7 +155,7 @@ class Attached:
 
 def attach(
     model: mujoco.MjSpec | str | os.PathLike[str],
-    frictions: Mapping[str, FrictionLike],
+    frictions: Mapping[str, FrictionLike] | str | os.PathLike[str],
     form: Form = "passive",
     sensors: bool = True,
     randomisable: bool = True,
@@ -164,7 +169,8 @@ def attach(
 
     model: a spec, which is changed; a path to MJCF or URDF; or MJCF text.
     frictions: by a joint's name or a regular expression of whole names, as "joint[1-4]": a Friction or Estimate, a
-        friction file or estimate.json, or its content.
+        friction file or estimate.json, library:MACHINE/JOINT, or the content of one. Or the path of a robot.json, or library:MACHINE, for all
+        its joints that are known in N.m or N.
     form: passive adds nothing but the friction; actuator adds an actuator to each joint, whose states keyframes and
         derivatives know.
     sensors: a sensor JOINT_friction for each joint, which torque, loss and held need.
@@ -185,9 +191,19 @@ def attach(
     return attached
 
 
+def robot_frictions(path: str | os.PathLike[str]) -> Mapping[str, FrictionLike]:
+    """The frictions of all joints of a robot.json, or of library:MACHINE, that are known in N.m or N. Raises BadInput where there are none."""
+    from warmjoint.robot import load_robot
+
+    frictions = load_robot(path).frictions
+    if not frictions:
+        raise BadInput(f"{path_of(path)}: holds no friction in N.m or N; identify again with torque_constant")
+    return frictions
+
+
 def attach_form(
     model: mujoco.MjSpec | str | os.PathLike[str],
-    frictions: Mapping[str, FrictionLike],
+    frictions: Mapping[str, FrictionLike] | str | os.PathLike[str],
     options: dict[str, Any],
     armatures: Mapping[str, float] | None,
     timestep: float | None,
@@ -195,6 +211,8 @@ def attach_form(
 ) -> tuple[Attached, dict[str, Any]]:
     """What `attach` does, in any form, and the library's answer. options: form, sensors, numbers, approximate, stiffest_drive."""
     armatures = {} if armatures is None else armatures
+    if isinstance(frictions, (str, os.PathLike)):
+        frictions = robot_frictions(frictions)
     for argument, value in (("frictions", frictions), ("armatures", armatures)):
         if not isinstance(value, Mapping):
             raise BadInput(f"{argument}: is {kind_of(value)}; give a dict by joint")

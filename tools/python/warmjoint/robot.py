@@ -230,13 +230,8 @@ def _read(tables: list[Table], map: Mapping[str, str] | None, unit: Mapping[str,
 
 
 def load_robot(path: str | os.PathLike[str]) -> RobotEstimate:
-    """Reads robot.json. Raises BadInput for another file."""
-    name = path_of(path)
-    try:
-        data = json.loads(pathlib.Path(name).read_text(encoding="utf-8"))
-    except (ValueError, RecursionError) as refusal:
-        raise _core.BadInput(f"{shown(name)}: is no JSON ({refusal}); give a robot.json") from None
-    return RobotEstimate(data)
+    """Reads robot.json, or library:MACHINE. Raises BadInput for another file."""
+    return RobotEstimate(_core.read_json(path_of(path)))
 
 
 def _numbers(argument: str, given: Any) -> dict[str, float]:
