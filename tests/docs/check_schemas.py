@@ -59,7 +59,7 @@ WRONG = {
         ("disturbances", {"lost_samples": {"fraction": 1}}), ("disturbances", {"without_load": {"a": 1}})]),
     "suite": ("run {file} --jobs 2 --realizations 1 -o {out}", "scenarios/templates/suite.yaml", [
         ("question", None), ("realizations", 0), ("scenario.seed", 1), ("scenario.duration", 0), ("ladder.values", None),
-        ("ladder.variants", {}), ("ladder.steps", 1), ("identifiers", None), ("identifiers.0.name", None),
+        ("ladder.variants", {}), ("ladder.steps", 1), ("identifiers", None), ("compensators", [{"name": "none"}]), ("identifiers.0.name", None),
         ("identifiers.0.claim", {"rmse": 1}), ("identifiers.0.claim", {"source": "x", "rmse": -1}), ("identifiers.0.rank", 1)]),
 }
 
@@ -87,7 +87,7 @@ def validators():
 
 def kind_of(value):
     """Which schema is for a block of a page, if any is."""
-    keys = {"identifiers": "suite", "motion": "scenario", "identifier": "estimate", "status": "answer",
+    keys = {"identifiers": "suite", "compensators": "suite", "motion": "scenario", "identifier": "estimate", "status": "answer",
             "law": "friction", "friction": "friction"}
     return next((kind for key, kind in keys.items() if key in value), "map" if isinstance(value, list) else None)
 

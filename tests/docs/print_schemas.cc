@@ -262,17 +262,23 @@ Tree ScenarioFile() {
   return scenario;
 }
 
+Tree SuiteFile() {
+  Tree suite = SchemaWriter({.texts = true}).Members(Suite());
+  suite["oneOf"] = {{{"required", {"identifiers"}}}, {{"required", {"compensators"}}}};
+  return suite;
+}
+
 }  // namespace
 }  // namespace warmjoint
 
 int main() {
   using namespace warmjoint;
-  const SchemaWriter texts({.texts = true}), written({.written = true}), plain({});
+  const SchemaWriter written({.written = true}), plain({});
   const Tree all{{"friction", File("friction", "Friction of one joint", FrictionFile())},
                  {"estimate", File("estimate", "estimate.json of `warmjoint identify`",
                                    written.Members(Estimate()))},
                  {"scenario", File("scenario", "A scenario", ScenarioFile())},
-                 {"suite", File("suite", "A suite", texts.Members(Suite()))},
+                 {"suite", File("suite", "A suite", SuiteFile())},
                  {"attributes", plain.Members(PluginAttributes())}};
   fmt::print("{}\n", all.dump());
 }
