@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/data_folder.h"
 #include "models/foundation/node.h"
-#include "models/robots/robot_folder.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
