@@ -5,12 +5,12 @@
 #include <string>
 
 #define WARMJOINT_VERSION_MAJOR 0
-#define WARMJOINT_VERSION_MINOR 3
+#define WARMJOINT_VERSION_MINOR 4
 #define WARMJOINT_VERSION_PATCH 0
 
 namespace warmjoint {
 
-/// Version of the library that is linked, "0.3.0"; the macros above are those of the headers.
+/// Version of the library that is linked, "0.4.0"; the macros above are those of the headers.
 std::string Version();
 
 /// What was given cannot be used. what() is one sentence with the place (file:line, or the option as the command line calls
