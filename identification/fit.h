@@ -2,6 +2,7 @@
 #pragma once
 
 #include <warmjoint/estimate.h>
+#include <warmjoint/fields.h>
 #include <warmjoint/friction.h>
 #include <warmjoint/friction_model.h>
 #include <warmjoint/prepared_log.h>
@@ -15,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "identification/fields/field_kind.h"
 #include "identification/inference/cause.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
@@ -66,15 +66,17 @@ struct FittedLag {
 
 /// What fields of a fit hold beside its law and its maps (fields/fit_fields.h).
 struct FittedFields {
-  std::vector<FieldKind> kinds{};
+  FieldSet present{};
   /// [P] derivatives of each friction at speeds by the table's rows
   std::vector<Eigen::VectorXd> at_speeds_by_rows{};
+  /// Of each friction at speeds, its deviations up to each part of its error, N.m or N
+  std::vector<std::vector<ErrorUpTo<double>>> at_speeds_up_to{};
   Eigen::VectorXd rest{};  // [N] torque along this log alone, as drifts, N.m or N
+  /// -2 log of the marginal likelihood, of the same rows and fields with any table: the least is the likeliest
+  double cost = 0;
   double time_torque = 0;  // amplitude of the torque over time, a share of the friction
   double time_friction =
       0;  // rms of the friction over time about its mean, a share of the friction
-
-  bool Has(FieldKind kind) const { return std::ranges::find(kinds, kind) != kinds.end(); }
 };
 
 /// Why a fit is refused.

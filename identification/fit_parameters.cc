@@ -204,7 +204,7 @@ void SetFriction(const FitParameter& row, double value, Friction& friction) {
 void PutIntoModel(const FitParameter& row, Eigen::Index& gravity, Fit& fit) {
   SetFriction(row, row.value, fit.friction);
   if (row.role == Role::start) fit.initial_energy = row.value;
-  if (row.role == Role::gravity && fit.gravity->kind != GravityKind::paired) {
+  if (row.role == Role::gravity && fit.gravity && fit.gravity->kind != GravityKind::paired) {
     fit.gravity->values[gravity++] = row.value;
   }
   if (row.role == Role::inertia) fit.inertia = row.value;

@@ -112,7 +112,9 @@ std::vector<SpeedFigure> OfItsOwn(const Fit& fit, const LogSamples& m) {
     figure.at.speed_unit = kVelocityUnit.For(m.joint);
     figure.at.unit = m.torque_unit;
     if (fit.friction.thermal && !figure.at.energy) figure.at.energy = 0;
-    figure.parts = {{Source::noise, figure.HalfWidth()}};
+    figure.parts = fit.fields
+                       ? FieldParts(fit.fields->at_speeds_up_to[all.size() - 1], figure.HalfWidth())
+                       : std::vector<WidthPart>{{Source::noise, figure.HalfWidth()}};
   }
   return all;
 }

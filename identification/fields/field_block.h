@@ -1,6 +1,7 @@
 // Random fields beside a law: what the model of a torque may lack, as columns with a Gaussian prior.
 #pragma once
 
+#include <warmjoint/fields.h>
 #include <warmjoint/friction.h>
 #include <warmjoint/recording.h>
 
@@ -9,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "identification/fields/field_kind.h"
 #include "models/friction/laws.h"
 
 namespace warmjoint {

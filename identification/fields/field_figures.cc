@@ -10,6 +10,7 @@
 #include "identification/fit_data.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/model/normal_equations.h"
 #include "identification/typical_speeds.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
@@ -91,6 +92,21 @@ VectorXd FieldsAlong(const SolvedFields& solved, Index p, const LogSamples& m) {
   return along;
 }
 
+VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m) {
+  VectorXd along = VectorXd::Zero(m.size());
+  const FieldRows& rows = solved.rows;
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    const FieldBlock& block = solved.blocks[k];
+    if (block.kind != FieldKind::time_friction && block.kind != FieldKind::time_torque) continue;
+    along += block.ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
+    if (!IsFriction(block.kind)) continue;
+    const SparseRows unsigned_ = block.UnsignedAt(rows.time, rows.position, rows.velocity);
+    along -= (unsigned_ * solved.ValuesOf(k)).mean() *
+             m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
+  }
+  return along;
+}
+
 FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m)
     : solved_(solved), fit_(fit), m_(m) {
   const double cost = solved.evidence.Cost(solved.best);
@@ -102,6 +118,7 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
   }
 
   means_ = MeansOfFields();
+  up_to_ = CovariancesUpTo();
 
   // the mean of what depends on place and time belongs to the level, and a line through the curve over the speed to both
   const Index p = UnknownsOf(fit).size();
@@ -176,6 +193,48 @@ double FieldFigures::Deviation(const VectorXd& function) const {
   return std::sqrt(std::max(function.dot(solved_.posterior.covariance * function), 0.0));
 }
 
+std::vector<ErrorUpTo<MatrixXd>> FieldFigures::CovariancesUpTo() const {
+  const std::pair<ErrorBy, std::vector<FieldKind>> later[] = {
+      {ErrorBy::place, {FieldKind::place_torque, FieldKind::place_friction}},
+      {ErrorBy::speed, {FieldKind::speed_friction}},
+      {ErrorBy::time, {FieldKind::time_friction, FieldKind::time_torque}}};
+  // from the whole on, one after the other becomes known
+  std::vector<ErrorUpTo<MatrixXd>> all{
+      {ErrorBy::strength, solved_.posterior.covariance},
+      {ErrorBy::time, solved_.evidence.At(solved_.best).covariance}};
+  const auto know = [&](ErrorBy by, const std::vector<Index>& known) {
+    if (known.empty()) return;
+    const MatrixXd& given = all.back().value;
+    const MatrixXd of = given(known, Eigen::all);
+    all.push_back({by, given - of.transpose() * InverseScaled(of(Eigen::all, known)) * of});
+  };
+  for (size_t i = std::size(later); i-- > 0;) {
+    std::vector<Index> known;
+    for (size_t k = 0; k < solved_.blocks.size(); ++k) {
+      if (solved_.best.amplitudes[k] == 0 ||
+          std::ranges::find(later[i].second, solved_.blocks[k].kind) == later[i].second.end())
+        continue;
+      for (Index j = 0; j < solved_.blocks[k].size(); ++j) {
+        known.push_back(solved_.evidence.Begin(k) + j);
+      }
+    }
+    know(i > 0 ? later[i - 1].first : ErrorBy::description, known);
+  }
+
+  // a description's errors are rows without a name
+  std::vector<Index> described;
+  Index column = 0;
+  for (const FitParameter& row : fit_.parameters) {
+    if (!row.estimated) continue;
+    if (row.name.empty() && row.prior) described.push_back(column);
+    ++column;
+  }
+  know(ErrorBy::noise, described);
+  if (described.empty()) all.back().by = ErrorBy::noise;
+  std::ranges::reverse(all);
+  return all;
+}
+
 bool FieldFigures::Holds(FieldKind kind) const {
   return std::ranges::find(held_, kind) != held_.end();
 }
@@ -185,6 +244,9 @@ VectorXd FieldFigures::Reported() const { return report_ * solved_.posterior.mea
 Uncertainty FieldFigures::UncertaintyOf(const VectorXd& residual, double effective) const {
   Uncertainty uncertainty;
   uncertainty.covariance = report_ * solved_.posterior.covariance * report_.transpose();
+  for (const auto& [by, covariance] : up_to_) {
+    uncertainty.up_to.push_back({by, report_ * covariance * report_.transpose()});
+  }
   uncertainty.noise = FitNoise(residual, fit_.used);
   const double correlation = solved_.evidence.LeftCorrelation(solved_.best, solved_.posterior.mean);
   uncertainty.degrees_of_freedom =
@@ -264,6 +326,11 @@ void FieldFigures::AddFriction(double reach, Fit& fit) const {
          .interval95 = {value - reach * deviation, value + reach * deviation},
          .energy = energy});
     fit.fields->at_speeds_by_rows.push_back(ByRows(function + by_heat, fit));
+    std::vector<ErrorUpTo<double>>& up_to = fit.fields->at_speeds_up_to.emplace_back();
+    for (const auto& [by, covariance] : up_to_) {
+      const VectorXd all = function + by_heat;
+      up_to.push_back({by, std::sqrt(std::max(all.dot(covariance * all), 0.0))});
+    }
   };
   const auto warmest = Warmest(fit);
   const std::optional<double> cold = warmest ? std::optional(0.0) : std::nullopt;

@@ -29,6 +29,8 @@ struct SolvedFields {
 
 /// What the fields hold along a log, with the constant torque beside them. p: unknowns of the fit's table; returns [N] N.m or N
 Eigen::VectorXd FieldsAlong(const SolvedFields& solved, Eigen::Index p, const LogSamples& m);
+/// The part of it that is of this log alone: the torque over time, and the friction over time about its mean. [N] N.m or N
+Eigen::VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m);
 
 /// Linear functions of the unknowns of a fit with fields.
 class FieldFigures {
@@ -65,6 +67,8 @@ class FieldFigures {
   void AddCurve(double reach, Fit& fit) const;
   void AddMap(FrictionMap map, const Eigen::MatrixXd& functions, double reach, Fit& fit) const;
   double Deviation(const Eigen::VectorXd& function) const;
+  /// The covariance of all unknowns up to each part of an error: that of the best strengths where what comes later is known. [p + m]^2 each
+  std::vector<ErrorUpTo<Eigen::MatrixXd>> CovariancesUpTo() const;
   bool Holds(FieldKind kind) const;
 
   const SolvedFields& solved_;
@@ -73,6 +77,7 @@ class FieldFigures {
   std::vector<FieldKind> held_;  // of the fields that are there beyond chance, and that maps give
   Eigen::VectorXd means_;        // MeansOfFields
   Eigen::MatrixXd report_;       // [p x p + m]
+  std::vector<ErrorUpTo<Eigen::MatrixXd>> up_to_;  // CovariancesUpTo
 };
 
 }  // namespace warmjoint

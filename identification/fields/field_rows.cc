@@ -79,7 +79,8 @@ VectorXd UnknownsOf(const Fit& fit) {
   std::vector<double> x;
   for (const FitParameter& row : fit.parameters) {
     if (!row.estimated) continue;
-    x.push_back(row.coordinate == Coordinate::logarithm ? std::log(row.value) : row.value);
+    x.push_back(row.coordinate == Coordinate::logarithm ? std::log(std::abs(row.value))
+                                                        : row.value);
   }
   return VectorXd::Map(x.data(), std::ssize(x));
 }

@@ -4,30 +4,11 @@
 #include <functional>
 #include <vector>
 
-#include "identification/fields/field_block.h"
+#include "identification/fields/field_set.h"
 #include "identification/fit.h"
 #include "identification/identifier.h"
 
 namespace warmjoint {
-
-/// Which fields a fit has.
-struct FieldSet {
-  static constexpr const char* kAllowed = "auto|none|q,r,v,d,t";
-  std::vector<FieldKind> kinds;
-
-  static FieldSet All();
-  bool operator==(const FieldSet&) const = default;
-};
-/// "auto" or "q,r,v,d,t", "none", or letters with commas between them.
-void ReadValue(const Node& node, FieldSet* value, const FieldInfo& info);
-Tree WriteValue(const FieldSet& value);
-
-inline constexpr FieldInfo kFieldsInfo{
-    .meaning =
-        "what the model may lack, with a strength that the log decides: auto, none, or letters of "
-        "q (torque over the "
-        "place), r (friction over the place), v (curve over the speed), d (drift of the friction), "
-        "t (drift of the torque)"};
 
 /// The option of an identifier that can have them.
 struct FieldOption {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "identification/fit_data.h"
 #include "identification/inference/apply.h"
@@ -61,6 +62,44 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
     all.push_back(one);
   }
   return all;
+}
+
+/// What each step adds to a half width. steps: the half width after each, which takes one more property into account
+std::vector<WidthPart> PartsOf(std::span<const std::pair<Source, double>> steps, double half) {
+  // a step that makes it narrower is subtracted from the parts before it
+  std::vector<WidthPart> parts;
+  double reached = 0;
+  for (const auto& [by, reach] : steps) {
+    for (double over = reached - reach; over > 0 && !parts.empty();) {
+      const double taken = std::min(over, parts.back().half_width);
+      parts.back().half_width -= taken;
+      reached -= taken;
+      over -= taken;
+      if (parts.back().half_width <= 0) parts.pop_back();
+    }
+    if (reach > reached) parts.push_back({by, reach - reached});
+    reached = std::max(reached, reach);
+  }
+  for (WidthPart& part : parts) part.half_width *= half / reached;
+  return parts;
+}
+
+Source SourceOf(ErrorBy by) {
+  switch (by) {
+    case ErrorBy::noise:
+      return Source::noise;
+    case ErrorBy::description:
+      return Source::description;
+    case ErrorBy::place:
+      return Source::field_over_place;
+    case ErrorBy::speed:
+      return Source::field_over_speed;
+    case ErrorBy::time:
+      return Source::field_over_time;
+    case ErrorBy::strength:
+      break;
+  }
+  return Source::field_strength;
 }
 
 std::string MessageOf(const Fit& fit, const Inference& inference) {
@@ -160,12 +199,25 @@ Uncertainty CovarianceOf(const Fit& fit) {
                        .prior = errors.prior});
 }
 
+std::vector<WidthPart> FieldParts(const std::vector<ErrorUpTo<double>>& up_to, double half) {
+  std::vector<std::pair<Source, double>> steps;
+  for (const ErrorUpTo<double>& one : up_to) steps.emplace_back(SourceOf(one.by), one.value);
+  return PartsOf(steps, half);
+}
+
 std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::VectorXd& slopes,
                                   double half) {
   const auto deviation = [&](const Eigen::MatrixXd& covariance) {
     return std::sqrt(std::max(slopes.dot(covariance * slopes), 0.0));
   };
   const double all = deviation(uncertainty.covariance);
+  if (!uncertainty.up_to.empty() && all > 0) {
+    std::vector<ErrorUpTo<double>> up_to;
+    for (const auto& [by, covariance] : uncertainty.up_to) {
+      up_to.push_back({by, deviation(covariance)});
+    }
+    return FieldParts(up_to, half);
+  }
   const bool is_told = uncertainty.white.rows() == slopes.size() && uncertainty.white.allFinite();
   if (!is_told || !(all > 0)) return {{Source::noise, half}};
 
@@ -179,23 +231,7 @@ std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::V
       {Source::autocorrelated_noise,
        few ? before * deviation(uncertainty.by_samples) : quantile * all},
       {Source::few_segments, quantile * all}};
-
-  // a step that makes it narrower is subtracted from the parts before it
-  std::vector<WidthPart> parts;
-  double reached = 0;
-  for (const auto& [by, reach] : steps) {
-    for (double over = reached - reach; over > 0 && !parts.empty();) {
-      const double taken = std::min(over, parts.back().half_width);
-      parts.back().half_width -= taken;
-      reached -= taken;
-      over -= taken;
-      if (parts.back().half_width <= 0) parts.pop_back();
-    }
-    if (reach > reached) parts.push_back({by, reach - reached});
-    reached = std::max(reached, reach);
-  }
-  for (WidthPart& part : parts) part.half_width *= half / reached;
-  return parts;
+  return PartsOf(steps, half);
 }
 
 }  // namespace warmjoint

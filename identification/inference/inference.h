@@ -76,6 +76,9 @@ Fit EnforceBounds(Fit fit, const LogSamples& measurements);
 
 /// The parts of an interval by noise: that of white noise, what colour and unevenness add, and what few segments add.
 /// slopes: [p] of the figure by the coordinates; half: of its interval
+/// The parts of a half width of a fit with fields, from its deviations up to each. half: the whole
+std::vector<WidthPart> FieldParts(const std::vector<ErrorUpTo<double>>& up_to, double half);
+
 std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::VectorXd& slopes,
                                   double half);
 

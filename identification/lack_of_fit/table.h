@@ -1,13 +1,14 @@
 // The tests for lack of fit: what each looks for in a residual, its name, and its remedy.
 #pragma once
 
+#include <warmjoint/fields.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "identification/command.h"
-#include "identification/fields/field_kind.h"
 #include "identification/identifier.h"
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/fitted_model.h"

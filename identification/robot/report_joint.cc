@@ -14,6 +14,8 @@
 #include "identification/model/normal_equations.h"
 #include "identification/report/report_fit.h"
 #include "identification/robot/explain_robot.h"
+#include "identification/robot/joint_as_fit.h"
+#include "identification/robot/joint_fields.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"
 
@@ -26,43 +28,6 @@ using Eigen::VectorXd;
 constexpr int kFewest = 30;  // why 30: fewer do not show colour and structure of the noise
 /// The largest residual as a share of the friction. Why: beyond it the log's torque is not that of the model.
 constexpr double kLargestResidual = .5;
-constexpr double kRounding = 1e-9;  // of a half width
-constexpr double kKnownGain =
-    1.5;  // why: a torque with an error of a half is known no better than from the data sheet
-
-/// The value of a row of the table, in the row's unit.
-double ValueOf(const JointFit& fit, Index row) {
-  const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
-  const double x = fit.solved.x[row];
-  if (unknown.coordinate != Coordinate::logarithm) return x;
-  return (row == fit.at.given.log_gain ? fit.at.given.sign : 1) * std::exp(x);
-}
-
-/// Half width of an interval that noise gives a combination of rows.
-double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
-  const double deviation =
-      std::sqrt(std::max(0.0, weights.dot(fit.uncertainty.covariance * weights)));
-  return StudentQuantile(fit.uncertainty.degrees_of_freedom, kIntervalLevel) * deviation;
-}
-
-/// Whether the log determines the gain. Where it does not, the value is that of the other joints, and the curvature of the fit
-/// says little of how large its error may be.
-bool KnowsGain(const JointFit& fit) {
-  return HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), fit.at.given.log_gain)) <
-         std::log(kKnownGain);
-}
-
-FitParameter ParameterOf(const JointFit& fit, Index row) {
-  const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
-  // at its bound, but for rounding
-  const double value = ValueOf(fit, row),
-               at_bound = kRounding * HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), row));
-  const bool held = IsNominal(unknown.role) && value - unknown.lower <= at_bound;
-  FitParameter parameter = WithValue(unknown, held ? unknown.lower : value);
-  parameter.has_interval =
-      !unknown.name.empty() && (row != fit.at.given.log_gain || KnowsGain(fit));
-  return parameter;
-}
 
 /// Series over the log for pictures.
 JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
@@ -70,56 +35,14 @@ JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
   Model friction = fit.model;
   std::erase_if(friction.blocks, [](const auto& block) { return !block->MakesHeat(); });
   const ModelRows rows = ModelAt(friction, fit.solved.x).All();
+  VectorXd fitted = rows.force;
+  if (fit.fields) fitted += FrictionOfMaps(fit.fields->fit.friction, SamplesOf(fit, c));
   return {.time = c.samples.time,
           .velocity = c.velocity,
-          .measured = rows.force + fit.solved.residual,
-          .fitted = rows.force,
+          .measured = fitted + fit.solved.residual,
+          .fitted = fitted,
           .energy = rows.energy,
           .kept = c.samples.keep};
-}
-
-Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
-  Friction friction;
-  const bool slows = fit.at.law.size == 4;
-  friction.law = slows ? "asymmetric_stribeck" : "asymmetric";
-  for (Index row = fit.at.law.begin; row < fit.at.law.end(); ++row) {
-    friction.parameters[fit.model.table[static_cast<std::size_t>(row)].name] = fit.solved.x[row];
-  }
-  if (slows) {
-    friction.parameters[std::string(kStribeckVelocityRow.name)] = kSlowShare * c.top_speed;
-    friction.parameters[std::string(kStribeckExponentRow.name)] = 2;
-  }
-  friction.load_gain = fit.solved.x[fit.at.load.begin];
-  if (fit.at.heat) {
-    friction.thermal =
-        Thermal{fit.solved.x[fit.at.heat->begin], std::exp(fit.solved.x[fit.at.heat->begin + 1])};
-  }
-  return friction;
-}
-
-/// E at the last sample, and its derivatives.
-EndEnergy EndOf(const JointFit& fit) {
-  const HeatState end = ModelAt(fit.model, fit.solved.x).End();
-  return {end.energy, end.slopes};
-}
-
-/// The fit in the form that judgements and reports read.
-Fit FitOf(const JointFit& fit, const JointColumns& c) {
-  Fit made;
-  made.identifier = "robot";
-  made.summary = SummaryOfJoint(fit, c);
-  made.friction = FrictionValue(fit, c);
-  made.used = {c.samples.keep, {}};
-  made.torque = Kept(c.samples.torque, made.used);
-  made.fitted = made.torque - Kept(fit.solved.residual, made.used);
-  for (Index row = 0; row < fit.model.size(); ++row) {
-    made.parameters.push_back(ParameterOf(fit, row));
-  }
-  made.count = static_cast<int>(fit.model.size());
-  made.effective_parameters = fit.effective_parameters;
-  made.errors.covariance = [uncertainty = fit.uncertainty] { return uncertainty; };
-  if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
-  return made;
 }
 
 VectorXd MeanCoulomb(const JointFit& fit) {
@@ -177,6 +100,9 @@ void ToTorque(double gain, Friction& friction) {
     if (name == kStribeckVelocityRow.name || name == kStribeckExponentRow.name) continue;
     value /= gain;
   }
+  for (FrictionMap& map : friction.maps) {
+    for (double& weight : map.weights) weight /= gain;
+  }
 }
 
 /// The mean of both directions, which a log determines better than their difference.
@@ -203,16 +129,16 @@ std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns
       test.count() < kFewest) {
     return std::nullopt;
   }
-  const SolvedModel again = FitAgain(fit, c, train);
+  const VectorXd residual = c.samples.torque - PredictedBy(fit, c, train);
   JointHoldOut found;
   const VectorXd measured = Kept(c.samples.torque, test);
-  found.metrics = ComputeMetrics(measured, measured - Kept(again.residual, test),
+  found.metrics = ComputeMetrics(measured, measured - Kept(residual, test),
                                  static_cast<int>(fit.model.size()), fit.effective_parameters);
   Selection moving = test;
   constexpr double at_rest = .02;  // of the top speed
   moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;
   moving.keep.head(cut) = false;
-  found.moving = std::sqrt(Kept(again.residual, moving).array().square().mean());
+  found.moving = std::sqrt(Kept(residual, moving).array().square().mean());
 
   // gain and offset alone
   Eigen::MatrixXd columns(n, 2);
@@ -256,18 +182,10 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   }
   summary.gain_is_known = KnowsGain(fit);
 
-  LogSamples m;
-  m.joint = c.kind;
-  m.torque_unit = c.torque_unit;
-  m.time = c.samples.time;
-  m.velocity = c.velocity;
-  m.position = c.position;
-  m.torque = c.samples.torque;
-  const SampleRange all{0, c.samples.time.size()};
-  m.load = fit.at.given.Gain(fit.solved.x) * c.carried.At(all, fit.at.given.z.Of(fit.solved.x));
+  const LogSamples m = SamplesOf(fit, c);
 
   // judged as any other fit
-  const Fit made = FitOf(fit, c);
+  const Fit made = fit.fields ? fit.fields->fit : FitOf(fit, c, c.samples);
   JointSeries series = SeriesOf(fit, c);
   Inference by_noise = ByNoise(made);
   std::vector<Cause> causes = OwnCauses(made, by_noise);

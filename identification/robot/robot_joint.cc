@@ -11,6 +11,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/model/normal_equations.h"
 #include "identification/robot/find_heat.h"
+#include "identification/robot/joint_fields.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"
 
@@ -234,6 +235,13 @@ double DescriptionErrorOf(const JointFit& fit, const JointQuestion& q) {
 
 /// Rows of the law that the data put beyond their bound, beyond chance over all joints.
 void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
+  if (fit.fields) {
+    // what is within chance is at its bound
+    for (const FitParameter& row : fit.fields->fit.parameters) {
+      if (row.role == Role::law && row.value < row.lower) fit.beyond.push_back(row.name);
+    }
+    return;
+  }
   if (fit.solved.at_bound.empty()) return;
   Model unbound = fit.model;
   for (const Index i : fit.solved.at_bound) {
@@ -257,13 +265,29 @@ double HeldOutSquare(const JointFit& fit, const JointColumns& c) {
   train.keep.tail(tail) = false;
   Selection test{c.samples.keep, {}};
   test.keep.head(c.velocity.size() - tail) = false;
-  return Kept(FitAgain(fit, c, train).residual, test).squaredNorm();
+  return Kept(Solve(fit.model, train, fit.solved.x).residual, test).squaredNorm();
 }
 
 /// Whether a further mechanism predicts unseen samples no worse than the fit without it. Why: a mechanism that a log shows by
 /// chance, or in place of something else that the model lacks, does not continue in the rest of the log.
 bool Predicts(const JointFit& further, const JointFit& without, const JointColumns& c) {
   return HeldOutSquare(further, c) <= HeldOutSquare(without, c);
+}
+
+/// Adds what the model may lack. warm: the fit with heat as well, where the log shows one; with fields it stays where it is likelier
+/// than a friction that drifts
+JointFit Concluded(const JointColumns& c, const JointQuestion& q, JointFit cold,
+                   std::optional<JointFit> warm) {
+  if (warm) AddFields(c, q.fields, *warm);
+  const bool rivals = !warm || q.fields.Has(FieldKind::time_friction);
+  if (rivals) AddFields(c, q.fields, cold);
+  const bool compared = warm && warm->fields && cold.fields;
+  const bool warms =
+      warm && (!compared || warm->fields->fit.fields->cost < cold.fields->fit.fields->cost);
+  JointFit fit = warms ? *std::move(warm) : std::move(cold);
+  fit.description_error = DescriptionErrorOf(fit, q);
+  FindBeyond(c, q, fit);
+  return fit;
 }
 
 }  // namespace
@@ -315,16 +339,10 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       const Index gain = warm.at.heat->begin;
       const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&
                            warm.Value(gain + 1) >= std::log(heat.shortest);
-      if (is_told && Predicts(warm, fit, c)) fit = std::move(warm);
+      if (is_told && Predicts(warm, fit, c)) return Concluded(c, q, fit, std::move(warm));
     }
   }
-  fit.description_error = DescriptionErrorOf(fit, q);
-  FindBeyond(c, q, fit);
-  return fit;
-}
-
-SolvedModel FitAgain(const JointFit& fit, const JointColumns&, const ModelSamples& samples) {
-  return Solve(fit.model, samples, fit.solved.x);
+  return Concluded(c, q, std::move(fit), std::nullopt);
 }
 
 }  // namespace warmjoint

@@ -1,13 +1,16 @@
 // The friction of one joint of a robot: its rigid torque as given columns that may be wrong, friction, rotor, ripple and heat.
 #pragma once
 
+#include <warmjoint/fields.h>
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "identification/fit.h"
 #include "identification/model/model.h"
 #include "identification/model/solve.h"
 #include "identification/uncertainty/uncertainty.h"
@@ -50,6 +53,7 @@ struct JointQuestion {
   bool slows = true;         // whether a rise of friction at low speed is looked for
   double error_level = .01;  // of the claim that one of all joints warms
   int joints = 1;            // of the robot that move
+  FieldSet fields{};
 };
 
 /// The gain as the log of a joint by itself determines it, the description taken as true.
@@ -75,6 +79,12 @@ struct JointPlaces {
   std::optional<Slice> heat;
 };
 
+/// The fields about a joint's fit.
+struct FieldsOfJoint {
+  FieldSet asked;
+  Fit fit;  // of the joint's table, with them
+};
+
 /// A joint's friction as it was fitted.
 struct JointFit {
   Model model;
@@ -87,6 +97,7 @@ struct JointFit {
   /// by how many times its prior the description is wrong; 1 where chance explains its errors
   double description_error = 1;
   std::vector<std::string> beyond;  // rows of the law beyond their bound, beyond chance
+  std::shared_ptr<const FieldsOfJoint> fields{};
 
   double Value(Eigen::Index row) const { return solved.x[row]; }
   double Deviation(Eigen::Index row) const { return std::sqrt(uncertainty.covariance(row, row)); }
@@ -95,9 +106,6 @@ struct JointFit {
 /// The fit. guess: of its gain.
 JointFit FitJoint(const JointColumns& columns, const GainGuess& guess,
                   const JointQuestion& question);
-
-/// The same structure fitted to other samples of the log, from the given fit on.
-SolvedModel FitAgain(const JointFit& fit, const JointColumns& columns, const ModelSamples& samples);
 
 /// Share of the top speed at which the rise of friction has fallen to 1/e. Why .08: joints of seven robots rise at .04 to .15
 /// of their top speed, and their logs determine the size of the rise, not the speed at which it falls.

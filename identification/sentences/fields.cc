@@ -5,13 +5,17 @@
 
 namespace warmjoint {
 
-std::string SummaryOfFields(const std::vector<FieldShare>& shares) {
+std::string SummaryOfFields(const std::vector<FieldShare>& shares, double left_out) {
   if (shares.empty()) return "; fields find nothing beyond that";
   std::vector<std::string> parts;
   for (const FieldShare& one : shares) {
     parts.push_back(fmt::format("{} {:.2g} %", one.name, 100 * one.share));
   }
-  return fmt::format("; fields hold {} of the friction (rms)", fmt::join(parts, ", "));
+  return fmt::format(
+      "; fields hold {} of the friction (rms); the friction file differs from that by at most "
+      "{:.2g} "
+      "% of it",
+      fmt::join(parts, ", "), 100 * left_out);
 }
 
 std::string ExplainFewFieldRows(Eigen::Index rows, Eigen::Index fewest) {

@@ -12,8 +12,8 @@ struct FieldShare {
   std::string name;  // "friction over the place"
   double share = 0;  // rms, of the friction
 };
-/// The clause about what fields hold.
-std::string SummaryOfFields(const std::vector<FieldShare>& shares);
+/// The clause about what fields hold. left_out: the most that the friction file leaves out of it along the log, a share of the friction
+std::string SummaryOfFields(const std::vector<FieldShare>& shares, double left_out);
 
 // why a fit that was asked for fields has none
 inline constexpr const char* kNoFieldsBesideMaps =

@@ -13,6 +13,16 @@
 
 namespace warmjoint {
 
+/// Of what the error of a fit with fields is made, each given those after it.
+enum class ErrorBy { noise, description, place, speed, time, strength };
+
+/// The deviation of a figure up to one of these, or a covariance.
+template <class T>
+struct ErrorUpTo {
+  ErrorBy by = ErrorBy::noise;
+  T value{};
+};
+
 struct Uncertainty {
   Eigen::MatrixXd covariance;     // [d x d] of the parameters
   double degrees_of_freedom = 1;  // degrees of freedom of the noise's variance
@@ -26,6 +36,8 @@ struct Uncertainty {
   /// [d x d] covariance by all samples, where segments are few; or empty
   Eigen::MatrixXd by_samples;
   double samples_degrees_of_freedom = 1;  // of `by_samples`
+  /// [d x d] covariances where all is known that comes later, of a fit with fields; or empty
+  std::vector<ErrorUpTo<Eigen::MatrixXd>> up_to{};
 
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }

@@ -123,6 +123,7 @@ Command AddIdentifyRobotCommand(CLI::App& program) {
   BeginGroup(*parser, "What is known of the robot");
   AddFittedRobot(*parser, arguments->settings);
   AddKnownRobot(*parser, arguments->settings);
+  AddFields(*parser, arguments->settings.fields);
   AddNumber(*parser, "--holdout", arguments->settings.holdout, {0, .9, "from 0 to .9"},
             "share of the log's end for figures on unseen data; 0: none");
   return {parser, [arguments] { return IdentifyRobotCommand(*arguments); }};

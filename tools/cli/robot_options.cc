@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "identification/fields/field_set.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
@@ -157,6 +158,21 @@ void AddFittedRobot(CLI::App& parser, RobotSettings& settings) {
           "how wrong masses, their places and inertias may be: given (a tenth), given:SHARE or "
           "exact")
       ->type_name("WORD");
+}
+
+void AddFields(CLI::App& parser, FieldSet& fields) {
+  parser
+      .add_option_function<std::string>(
+          "--fields",
+          [&fields](const std::string& text) {
+            const auto set = FieldsIn(text);
+            if (!set) Refuse({"--fields"}, "is '{}'; it must be {}", Excerpt(text), kWordsOfFields);
+            fields = *set;
+          },
+          "what the model may lack, with a strength that the log decides: auto, none, or some of "
+          "q,r,v,d,t (trust.md)")
+      ->type_name("LIST")
+      ->default_str("auto");
 }
 
 void AddKnownRobot(CLI::App& parser, RobotSettings& settings) {

@@ -15,6 +15,9 @@ void AddRobotReading(CLI::App& parser, ReadSettings& read, RobotSettings& settin
 /// Adds --gear and --inertials, of which a fit is made.
 void AddFittedRobot(CLI::App& parser, RobotSettings& settings);
 
+/// Adds --fields.
+void AddFields(CLI::App& parser, FieldSet& fields);
+
 /// Adds --tool, --coupling and --cutoff.
 void AddKnownRobot(CLI::App& parser, RobotSettings& settings);
 

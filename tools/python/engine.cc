@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/fields/field_set.h"
 #include "identification/robot/robot_estimate.h"
 #include "sim/model/engine_warnings.h"
 #include "tools/compensate/robot/external_torque.h"

@@ -118,6 +118,9 @@ RobotEstimate IdentifyRobot(const std::filesystem::path& robot, const RobotSourc
     question.middle_gain = loaded.middle;
     for (std::size_t j = 0; j < joints.size(); ++j) joints[j].guess = loaded.guesses[j];
   }
+  question.fields = settings.fields;
+  // fields hold a friction that rises at low speed
+  question.slows = settings.fields.kinds.empty();
   question.joints = static_cast<int>(
       std::ranges::count_if(joints, [](const Joint& joint) { return joint.nothing.empty(); }));
 

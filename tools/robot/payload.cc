@@ -161,6 +161,7 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Index>& joints,
                     JointQuestion question, ToolKnown tool) {
   question.warms = question.slows = false;
+  question.fields = {};
   const RobotRows as_given = Thinned(data, rows);
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);

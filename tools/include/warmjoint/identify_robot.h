@@ -5,6 +5,7 @@
 //   for (const RobotJointEstimate& one : robot.joints) std::puts(one.estimate.message.c_str());
 #pragma once
 
+#include <warmjoint/fields.h>
 #include <warmjoint/recording.h>
 #include <warmjoint/robot_estimate.h>
 
@@ -57,7 +58,8 @@ struct RobotSettings {
   NumberOfJoints torque_constant{};     // N.m/A or N/A at the joint
   NumberOfJoints torque_scale{};        // factor on the torque of single joints
   NumberOfJoints position_scale{};      // the same on positions
-  double holdout = .4;  // share of the log's end for figures on unseen data; 0: none
+  double holdout = .4;                // share of the log's end for figures on unseen data; 0: none
+  FieldSet fields = FieldSet::All();  // that each joint has
 
   template <class A>
   void Serialize(A* a) {
@@ -71,6 +73,7 @@ struct RobotSettings {
     a->Field("torque_scale", &torque_scale);
     a->Field("position_scale", &position_scale);
     a->Field("holdout", &holdout, {.bounds = {.at_least = 0, .at_most = .9}});
+    a->Field("fields", &fields, kFieldsInfo);
   }
 };
 

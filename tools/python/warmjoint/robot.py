@@ -181,18 +181,19 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
                    scale: Mapping[str, float] | None = None, columns: Sequence[str] = (), rate: float = 0,
                    joints: Sequence[str] = (), gear: Numbers = 0, inertials: float | Literal["exact"] = 0.1,
                    tool: Mapping[str, Any] | Literal["unknown"] | None = None, coupling: str | Sequence[str] = (), cutoff: float = 10,
-                   torque_constant: Numbers = 0, holdout: float = 0.4, topic: str | None = None) -> RobotEstimate:
+                   torque_constant: Numbers = 0, holdout: float = 0.4, fields: str = "auto", topic: str | None = None) -> RobotEstimate:
     """The friction of all joints: what `warmjoint identify-robot` does.
 
     model: path or text of an MJCF or URDF, or a mujoco.MjModel or MjSpec. log: path of a wide file or bag of any kind that read takes, a
     table that Log.from_frame takes, or {"time": [N], "position": [N, n], "torque": [N, n]} with a column for each joint; a list of these are
     recordings, each from a cold start. Samples that a mask hides, or that hold no number, are left out. topic: of a bag. map, unit, scale,
-    columns, rate, joints, gear, coupling, cutoff, torque_constant and holdout are the options of the program: map={"position": "q_{j}"},
+    columns, rate, joints, gear, coupling, cutoff, torque_constant, holdout and fields are the options of the program: map={"position": "q_{j}"},
     scale={"J4.torque": -1}, gear=101 or {"J4": 101}. inertials: share by which the description may be wrong. tool: {"mass": kg, "com":
     (x, y, z)} at the last link. Needs MuJoCo 4.0. Raises BadInput.
     """
     settings = _settings(scale=scale, joints=joints, gear=gear, inertials=inertials, tool=tool, coupling=coupling, cutoff=cutoff,
                          torque_constant=torque_constant, holdout=holdout)
+    settings["fields"] = text("fields", fields)
     asked = Asked(topic, joints="all")
     tables = tables_of(log, "log", asked)
     read = _read(tables, map, unit, columns, rate)

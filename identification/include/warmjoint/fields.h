@@ -1,10 +1,12 @@
-// What of a torque a random field holds.
+// Fields: what a model of the torque may lack, as random functions whose strength the log decides.
 #pragma once
 
+#include <warmjoint/field.h>
+
+#include <algorithm>
 #include <array>
 #include <span>
-
-#include "models/foundation/serialize.h"
+#include <vector>
 
 namespace warmjoint {
 
@@ -29,5 +31,21 @@ inline std::span<const Word<FieldKind>> WordsOf(FieldKind) {
 inline bool IsFriction(FieldKind kind) {
   return kind != FieldKind::place_torque && kind != FieldKind::time_torque;
 }
+
+/// Which fields a fit has: "auto", "none", or letters of q,r,v,d,t with commas between them.
+struct FieldSet {
+  static constexpr const char* kAllowed = "auto|none|q,r,v,d,t";
+  std::vector<FieldKind> kinds;
+
+  static FieldSet All();
+  bool Has(FieldKind kind) const { return std::ranges::find(kinds, kind) != kinds.end(); }
+  bool operator==(const FieldSet&) const = default;
+};
+inline constexpr FieldInfo kFieldsInfo{
+    .meaning =
+        "what the model may lack, with a strength that the log decides: auto, none, or letters of "
+        "q (torque over the "
+        "place), r (friction over the place), v (curve over the speed), d (drift of the friction), "
+        "t (drift of the torque)"};
 
 }  // namespace warmjoint

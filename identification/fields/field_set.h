@@ -1,0 +1,22 @@
+// Which fields a fit has, as a text.
+#pragma once
+
+#include <warmjoint/fields.h>
+
+#include <optional>
+#include <string>
+
+#include "models/foundation/serialize.h"
+
+namespace warmjoint {
+
+inline constexpr const char* kWordsOfFields =
+    "auto, none, or some of q,r,v,d,t with commas between them, each once";
+/// The fields of such a text; nothing where it is none.
+std::optional<FieldSet> FieldsIn(const std::string& text);
+
+/// "auto", "none", or letters with commas between them.
+void ReadValue(const Node& node, FieldSet* value, const FieldInfo& info);
+Tree WriteValue(const FieldSet& value);
+
+}  // namespace warmjoint

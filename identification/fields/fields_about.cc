@@ -1,0 +1,257 @@
+#include "identification/fields/fields_about.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "identification/fields/field_evidence.h"
+#include "identification/fields/field_figures.h"
+#include "identification/fields/field_rows.h"
+#include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/inference/bounds.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/seen_samples.h"
+#include "identification/sentences/fields.h"
+#include "identification/uncertainty/tails.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kFewestRows = 60;  // why: fewer do not show how noise is correlated
+
+/// Columns that stand in a fit with fields alone: a constant torque, which a field over the place has as its mean.
+MatrixXd ConstantOf(const Fit& fit, const Law& law, const LogSamples& m) {
+  const bool constant = fit.gravity && fit.gravity->kind != GravityKind::sincos;
+  const bool has = !constant && IsSymmetric(law) && OnlyWay(Kept(m.velocity, fit.used)) == 0;
+  return MatrixXd::Ones(m.size(), has ? 1 : 0);
+}
+
+/// The fields that a log can have: over the place where gravity has not every place, over place and speed where these vary.
+std::vector<FieldKind> Possible(const FieldSet& asked, const Fit& fit, const LogSamples& m) {
+  const VectorXd position = Kept(m.position, fit.used);
+  const VectorXd speed = Kept(m.velocity, fit.used).cwiseAbs();
+  const bool travels = position.maxCoeff() > position.minCoeff() && !m.position_integrated;
+  std::vector<FieldKind> kinds;
+  for (const FieldKind kind : asked.kinds) {
+    const bool over_place = kind == FieldKind::place_torque || kind == FieldKind::place_friction;
+    if (over_place && !travels) continue;
+    if (kind == FieldKind::place_torque && fit.gravity &&
+        fit.gravity->kind == GravityKind::paired) {
+      continue;
+    }
+    // of a drift beside a warming no likelihood decides (the tests for lack of fit do)
+    if (kind == FieldKind::time_friction && fit.friction.thermal) continue;
+    if (kind == FieldKind::speed_friction && !(speed.maxCoeff() > speed.minCoeff())) continue;
+    kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+/// rms friction of law and heat over the rows, or of what it leaves, whichever is larger: the unit of amplitudes.
+double FrictionOver(const FieldRows& rows, const Fit& fit) {
+  const VectorXd x = UnknownsOf(fit);
+  VectorXd friction = VectorXd::Zero(rows.size());
+  Index column = 0;
+  for (const FitParameter& row : fit.parameters) {
+    if (!row.estimated) continue;
+    if (row.role == Role::law || row.role == Role::load)
+      friction += rows.flat.col(column) * x[column];
+    ++column;
+  }
+  const VectorXd left = rows.torque - rows.flat.leftCols(x.size()) * x;
+  return std::sqrt(std::max(friction.squaredNorm(), left.squaredNorm()) /
+                   static_cast<double>(rows.size()));
+}
+
+/// Amplitude of a field, a share of the friction; 0 without it.
+double AmplitudeOf(FieldKind kind, const SolvedFields& solved) {
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    if (solved.blocks[k].kind == kind) return solved.best.amplitudes[k];
+  }
+  return 0;
+}
+
+/// -2 log of the marginal likelihood, with a prior of the heat: E as large as the friction, its time constant within a factor of e.
+double CostOf(const Fit& fit, const FieldRows& rows, double friction, double without_heat) {
+  double cost = without_heat;
+  Index column = 0;
+  for (const FitParameter& row : fit.parameters) {
+    if (!row.estimated) continue;
+    const bool is_gain = row.role == Role::heat && row.coordinate != Coordinate::logarithm;
+    if (is_gain) {
+      const double along = rows.flat.col(column).squaredNorm() / static_cast<double>(rows.size());
+      cost -= std::log(along / (friction * friction));
+    }
+    ++column;
+  }
+  return cost;
+}
+
+/// How much the friction changes over time: rms about its mean, a share of the friction.
+double DriftOf(const SolvedFields& solved, double friction) {
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    const FieldBlock& block = solved.blocks[k];
+    if (block.kind != FieldKind::time_friction) continue;
+    const FieldRows& rows = solved.rows;
+    const VectorXd drift =
+        block.UnsignedAt(rows.time, rows.position, rows.velocity) * solved.ValuesOf(k);
+    return std::sqrt((drift.array() - drift.mean()).square().mean()) / friction;
+  }
+  return 0;
+}
+
+/// Changes the table and the model to x, [p]. held: columns of rows that are at a bound
+void Take(const VectorXd& x, const std::vector<Index>& held, Fit& fit) {
+  Index column = 0, gravity = 0;
+  for (FitParameter& row : fit.parameters) {
+    if (!row.estimated) continue;
+    const double at = x[column++];
+    row.value =
+        row.coordinate == Coordinate::logarithm ? std::copysign(std::exp(at), row.value) : at;
+    // exactly at the bound
+    if (std::ranges::find(held, column - 1) != held.end()) {
+      const bool below = std::abs(row.value - row.lower) <= std::abs(row.upper - row.value);
+      row.value = below ? row.lower : row.upper;
+    }
+    PutIntoModel(row, gravity, fit);
+  }
+}
+
+/// Puts rows of the law that leave their bounds by no more than their interval to these: what is beyond is noise. report: [p x p + m]; returns their columns
+std::vector<Index> HoldBounds(const MatrixXd& report, const Fit& fit, FieldPosterior& posterior) {
+  std::vector<Index> held;
+  std::vector<double> gaps;
+  Index column = -1;
+  for (const FitParameter& row : fit.parameters) {
+    if (!row.estimated) continue;
+    ++column;
+    if (!IsNominal(row.role)) continue;
+    const double value = report.row(column).dot(posterior.mean);
+    const double gap = std::clamp(value, row.lower, row.upper) - value;
+    const VectorXd function = report.row(column);
+    const double deviation = std::sqrt(function.dot(posterior.covariance * function));
+    if (gap == 0 || std::abs(gap) > kNormal95 * deviation) continue;
+    held.push_back(column);
+    gaps.push_back(gap);
+  }
+  if (held.empty()) return held;
+  const MatrixXd of = report(held, Eigen::all);
+  const MatrixXd pull = posterior.covariance * of.transpose();
+  posterior.mean += pull * (of * pull).ldlt().solve(VectorXd::Map(gaps.data(), std::ssize(gaps)));
+  return held;
+}
+
+/// Whether a fit is linear in its unknowns.
+bool IsLinear(const Fit& fit) {
+  return !fit.friction.thermal && !fit.RowOf(Role::load) && !fit.RowOf(Role::delay);
+}
+
+constexpr int kMostRounds = 4;
+constexpr double kRests = 0.1;  // deviations; why: such a step changes no interval by a hundredth
+
+/// A fit to what fields leave of the torque, and the fields about it.
+struct Round {
+  FitForFields at;
+  FieldRows rows{};
+  std::vector<FieldBlock> blocks{};
+  double friction = 0;  // N.m or N
+  std::unique_ptr<const FieldEvidence> evidence{};
+  FieldHyperparameters best{};
+  FieldPosterior posterior{};
+
+  SolvedFields solved() const { return {rows, blocks, *evidence, best, posterior}; }
+  /// Whether x of the posterior is that of the fit.
+  bool Rests() const {
+    const VectorXd x = UnknownsOf(at.fit);
+    const Eigen::ArrayXd deviation = posterior.covariance.diagonal().head(x.size()).cwiseSqrt();
+    return ((posterior.mean.head(x.size()) - x).array().abs() <= kRests * deviation).all();
+  }
+};
+
+/// asked: the fields; left_out: [N] of the torque, that the fit did not see
+std::unique_ptr<Round> Solve(FitForFields at, const FieldSet& asked, const VectorXd& left_out) {
+  auto round = std::make_unique<Round>();
+  round->at = std::move(at);
+  const Fit& fit = round->at.fit;
+  const LogSamples& m = round->at.motion;
+  const Law& law = *FindLaw(fit.friction.law);
+  round->rows = MakeFieldRows(fit, m, ConstantOf(fit, law, m), left_out);
+  round->rows.prior_mean = round->at.prior_mean;
+  round->rows.prior_precision = round->at.prior_precision;
+  if (round->rows.size() < kFewestRows) return round;
+  round->friction = FrictionOver(round->rows, fit);
+  round->blocks = MakeFields(Possible(asked, fit, m), round->rows, m.joint, law);
+  round->evidence =
+      std::make_unique<const FieldEvidence>(round->rows, round->blocks, round->friction);
+  round->best = round->evidence->Maximise();
+  round->posterior = round->evidence->At(round->best);
+  return round;
+}
+
+/// The answer: the fit moved to the posterior, with what fields add to it. measured: [N] torque
+Fit Conclude(const Round& round, const VectorXd& measured) {
+  const LogSamples& m = round.at.motion;
+  Fit fit = round.at.fit;
+  SolvedFields solved = round.solved();
+  const FieldFigures figures(solved, round.at.fit, m);
+  const std::vector<Index> held = HoldBounds(figures.report(), round.at.fit, solved.posterior);
+  const VectorXd x = UnknownsOf(fit);
+  const VectorXd torque = round.at.torque_of(fit) +
+                          fit.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
+                          FieldsAlong(solved, x.size(), m);
+  fit.torque = Kept(measured, fit.used);
+  fit.fitted = Kept(torque, fit.used);
+  fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
+  const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
+  Take(figures.Reported(), held, fit);
+  fit.end_energy = nullptr;
+  fit.errors = {};
+  fit.errors.covariance = [uncertainty] { return uncertainty; };
+  const double cost = round.evidence->Cost(round.best);
+  fit.fields = FittedFields{.cost = CostOf(round.at.fit, round.rows, round.friction, cost),
+                            .time_torque = AmplitudeOf(FieldKind::time_torque, solved),
+                            .time_friction = DriftOf(solved, round.friction)};
+  for (const FieldBlock& block : round.blocks) fit.fields->present.kinds.push_back(block.kind);
+  figures.AddTo(uncertainty.degrees_of_freedom, fit);
+  fit.fields->rest = torque - round.at.torque_of(fit);
+  fit.count += static_cast<int>(round.evidence->size() - x.size());
+  // what the friction file leaves out: the parts of fields that may be chance, and what lies between the centres of maps
+  const VectorXd left_out = Kept(VectorXd(fit.fields->rest - DriftAlong(solved, m)), fit.used);
+  fit.summary += SummaryOfFields(figures.Shares(round.friction),
+                                 left_out.cwiseAbs().maxCoeff() / round.friction);
+  return fit;
+}
+
+}  // namespace
+
+Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const VectorXd& measured,
+                    const FitToTheRest& again) {
+  auto round = Solve(std::move(first), asked, VectorXd::Zero(measured.size()));
+  if (!round->evidence) {
+    Fit plain = std::move(round->at.fit);
+    plain.causes.push_back(Note(ExplainFewFieldRows(round->rows.size(), kFewestRows)));
+    return plain;
+  }
+
+  // the fit once more to what the fields leave, and the fields about that
+  for (int i = 1; i < kMostRounds && !IsLinear(round->at.fit) && !round->Rests(); ++i) {
+    const VectorXd held =
+        FieldsAlong(round->solved(), UnknownsOf(round->at.fit).size(), round->at.motion);
+    std::optional<FitForFields> next = again(held);
+    if (!next || next->fit.parameters.size() != round->at.fit.parameters.size()) break;
+    auto other = Solve(*std::move(next), asked, held);
+    if (!other->evidence) break;
+    round = std::move(other);
+  }
+  round->posterior = round->evidence->Averaged(round->best);
+  return Conclude(*round, measured);
+}
+
+}  // namespace warmjoint

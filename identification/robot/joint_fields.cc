@@ -1,0 +1,89 @@
+#include "identification/robot/joint_fields.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "identification/fields/field_rows.h"
+#include "identification/fields/fields_about.h"
+#include "identification/fit_data.h"
+#include "identification/forward/log_trajectory.h"
+#include "identification/robot/joint_as_fit.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The torque of maps alone, of those that `takes` chooses. [N]
+template <class Takes>
+VectorXd OfMaps(Friction friction, const LogSamples& m, const Takes& takes) {
+  std::erase_if(friction.maps, [&](const FrictionMap& map) { return !takes(map); });
+  if (friction.maps.empty()) return VectorXd::Zero(m.size());
+  friction.thermal = std::nullopt;
+  Friction law = friction;
+  law.maps.clear();
+  return PredictFriction(friction, m).force - PredictFriction(law, m).force;
+}
+
+/// A joint's fit as fields are fitted about it.
+FitForFields ForFields(const JointFit& fit, const JointColumns& c, const ModelSamples& samples) {
+  const auto kept = std::make_shared<const JointFit>(fit);
+  FitForFields at{.fit = FitOf(*kept, c, samples), .motion = SamplesOf(*kept, c)};
+  at.fit.jacobian = [kept] { return ModelAt(kept->model, kept->solved.x).All().derivatives; };
+  at.torque_of = [kept, motion = at.motion](const Fit& of) -> VectorXd {
+    return ModelAt(kept->model, UnknownsOf(of)).All().force +
+           OfMaps(of.friction, motion, [](const FrictionMap&) { return true; });
+  };
+  at.prior_mean = kept->model.PriorMean();
+  at.prior_precision = kept->model.PriorPrecision();
+  return at;
+}
+
+/// The fit to some samples, with fields.
+Fit WithFields(const JointFit& fit, const JointColumns& c, const ModelSamples& samples,
+               const FieldSet& fields) {
+  const auto again = [&](const VectorXd& held) -> std::optional<FitForFields> {
+    ModelSamples less = samples;
+    less.torque -= held;
+    JointFit next = fit;
+    next.solved = Solve(next.model, less, fit.solved.x);
+    return ForFields(next, c, less);
+  };
+  Fit made = WithFieldsAbout(ForFields(fit, c, samples), fields, samples.torque, again);
+  made.inertia.reset();  // the rotor's, a row of the table
+  return made;
+}
+
+}  // namespace
+
+void AddFields(const JointColumns& c, const FieldSet& fields, JointFit& fit) {
+  if (fields.kinds.empty()) return;
+  Fit made = WithFields(fit, c, c.samples, fields);
+  if (!made.fields) return;
+  const VectorXd residual = made.residual();
+  fit.uncertainty = made.errors.covariance();
+  fit.effective_parameters = made.effective_parameters;
+  fit.solved.x = UnknownsOf(made);
+  fit.solved.noise = NoiseScaleOf(residual);
+  fit.solved.residual =
+      c.samples.torque - ForFields(fit, c, c.samples).torque_of(made) - made.fields->rest;
+  made.parameters[static_cast<std::size_t>(fit.at.given.log_gain)].has_interval = KnowsGain(fit);
+  fit.fields = std::make_shared<const FieldsOfJoint>(FieldsOfJoint{fields, std::move(made)});
+}
+
+VectorXd PredictedBy(const JointFit& fit, const JointColumns& c, const ModelSamples& samples) {
+  JointFit again = fit;
+  again.solved = Solve(fit.model, samples, fit.solved.x);
+  const VectorXd table = samples.torque - again.solved.residual;
+  if (!fit.fields) return table;
+  const Fit made = WithFields(again, c, samples, fit.fields->asked);
+  return made.fields ? ForFields(again, c, samples).torque_of(made) : table;
+}
+
+VectorXd FrictionOfMaps(const Friction& friction, const LogSamples& m) {
+  return OfMaps(friction, m, [](const FrictionMap& map) { return map.factor != MapFactor::one; });
+}
+
+}  // namespace warmjoint
