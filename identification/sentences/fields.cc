@@ -12,9 +12,8 @@ std::string SummaryOfFields(const std::vector<FieldShare>& shares, double left_o
     parts.push_back(fmt::format("{} {:.2g} %", one.name, 100 * one.share));
   }
   return fmt::format(
-      "; fields hold {} of the friction (rms); the friction file differs from that by at most "
-      "{:.2g} "
-      "% of it",
+      "; fields hold {} of the friction (rms); along this log the friction file leaves out at most "
+      "{:.2g} % of the friction",
       fmt::join(parts, ", "), 100 * left_out);
 }
 

@@ -68,6 +68,20 @@ def test_all_joints_are_told_within_their_intervals(wrong, log):
     assert set(robot.frictions) == set(robot)
 
 
+def test_fields_hold_a_ripple_over_the_angle(wrong, log):
+    # friction of the shoulder that ripples by a tenth; its mean over the angles is part of both levels
+    q, v = log["position"][:, 0], np.gradient(log["position"][:, 0], log["time"])
+    ripple, moves = .5 * np.sin(11 * q), np.abs(v) > .02 * np.abs(v).max()
+    rough = log | {"torque": log["torque"] + np.column_stack([ripple * np.sign(v), 0 * q, 0 * q])}
+    held = wj.identify_robot(wrong, rough)["shoulder"]
+    plain = wj.identify_robot(wrong, rough, fields="none")["shoulder"]
+    assert "fields hold" in held.message and "fields" not in plain.message
+    truth = (UP[0] + DOWN[0]) / 2 + ripple[moves].mean()
+    assert abs(held["coulomb"].value - truth) < 4 * held["coulomb"].std
+    assert held.data["metrics"]["rmse"] < .6 * plain.data["metrics"]["rmse"]
+    assert held.data["friction"]["maps"]
+
+
 def test_a_file_gives_the_same_as_arrays_and_its_friction_is_attached(wrong, log, program):
     mujoco.mj_saveModel(wrong, str(program.folder / "arm.mjb"))
     table = np.column_stack([log["time"], log["position"], log["torque"]])
@@ -191,6 +205,7 @@ def test_what_cannot_be_used_is_refused(wrong, log):
     ({"joints": [5]}, "^joints: is 5"), ({"coupling": 7}, "^coupling: is 7"), ({"columns": {1}}, "^columns: "), ({"scale": {"elbow.torqe": 1}}, "^scale: 'elbow.torqe'"),
     ({"scale": {"elbow.torque": "x"}}, "^scale: "), ({"map": 5}, "^map: "), ({"unit": [1]}, "^unit: "), ({"tool": {"com": (0, 0, 0)}}, "^tool: "),
     ({"tool": {"mass": 1, "com": (0, 0)}}, "^tool: com has the shape"), ({"tool": {"mass": 1, "centre": 0}}, "^tool: "), ({"tool": 5}, "^tool: is 5"),
+    ({"fields": "x"}, "fields is .x.; it must be auto"), ({"fields": 5}, "^fields: "),
 ])
 def test_a_wrong_option_is_refused_by_its_name(wrong, log, given, words):
     with pytest.raises(wj.BadInput, match=words):

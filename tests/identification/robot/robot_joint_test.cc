@@ -120,7 +120,7 @@ TEST(RobotJoint, DoesNotTakeFrictionThatFollowsTheMotionForWarming) {
 }
 
 /// The fit with fields.
-JointFit FitWithFields(const JointColumns& c, bool warms = false) {
+JointFit FitToFields(const JointColumns& c, bool warms = false) {
   JointQuestion question;
   question.warms = warms;
   question.slows = false;
@@ -133,35 +133,36 @@ TEST(RobotJoint, FieldsHoldWhatReturnsAtEachPlace) {
   const JointTruth truth;
   VectorXd squares = VectorXd::Zero(3);
   int of_plain = 0;
-  for (unsigned seed = 1; seed <= 8; ++seed) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
     JointColumns c = Columns(truth, seed);
     const VectorXd ripple = .5 * (9 * c.position.array() + seed).sin();
     c.samples.torque += ripple.cwiseProduct(c.sign);
-    const double mean = c.samples.keep.select(ripple.array(), 0).sum() / c.samples.keep.count();
+    const double mean = c.samples.keep.select(ripple.array(), 0).sum() /
+                        static_cast<double>(c.samples.keep.count());
     const auto off = [&](const JointFit& fit) {
       const Index law = fit.at.law.begin;
       return VectorXd{{Off(fit, law, truth.viscous), Off(fit, law + 1, truth.forwards + mean),
                        Off(fit, law + 2, truth.backwards + mean)}};
     };
-    squares += off(FitWithFields(c)).cwiseAbs2();
+    squares += off(FitToFields(c)).cwiseAbs2();
     if (off(Fit(c)).cwiseAbs().maxCoeff() > 3) ++of_plain;
   }
-  // 8 logs: chi-squared of 8, 26.1 by chance in 1 of 1000
-  EXPECT_LT(squares.maxCoeff(), 26.1) << squares.transpose();
+  // 5 logs: chi-squared of 5, 20.5 by chance in 1 of 1000
+  EXPECT_LT(squares.maxCoeff(), 20.5) << squares.transpose();
   EXPECT_GT(of_plain, 0);
 }
 
 TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
   JointTruth truth;
   truth.thermal_gain = -.5;
-  const JointFit warm = FitWithFields(Columns(truth, 5), true);
+  const JointFit warm = FitToFields(Columns(truth, 5), true);
   ASSERT_TRUE(warm.at.heat);
   EXPECT_LT(std::abs(Off(warm, warm.at.heat->begin, truth.thermal_gain)), 4);
 
-  // a friction that wanders, some logs of which look like a warming without fields
+  // a friction that wanders, which some logs show as a warming where there are no fields
   truth.thermal_gain = 0;
   int claimed = 0, without = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= 40 && without < 3; ++seed) {
     JointColumns c = Columns(truth, seed);
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -170,18 +171,19 @@ TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
       walk += .008 * normal(random);
       c.samples.torque[i] += walk * c.sign[i];
     }
-    claimed += FitWithFields(c, true).at.heat ? 1 : 0;
-    without += Fit(c, true).at.heat ? 1 : 0;
+    if (!Fit(c, true).at.heat) continue;
+    ++without;
+    claimed += FitToFields(c, true).at.heat ? 1 : 0;
   }
+  EXPECT_EQ(without, 3);
   EXPECT_EQ(claimed, 0);
-  EXPECT_GT(without, 0);
 }
 
 TEST(RobotJoint, WithFieldsPredictsWhatItHasNotSeen) {
   JointColumns c = Columns({}, 3);
   c.samples.torque.array() += (9 * c.position.array()).sin() * c.sign.array();
   const auto left = [&](const JointFit& fit) { return HoldOutJoint(fit, c, .4)->metrics.rmse; };
-  EXPECT_LT(left(FitWithFields(c)), .6 * left(Fit(c)));
+  EXPECT_LT(left(FitToFields(c)), .6 * left(Fit(c)));
 }
 
 TEST(RobotJoint, JointsTogetherTellWhatTheDescriptionHasWrong) {

@@ -20,7 +20,7 @@ from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 from warmjoint.tables import Asked, Table, numbers_of, tables_of, with_objects
-from warmjoint.values import Array, named, number, numbers, path_of, shown, texts
+from warmjoint.values import Array, named, number, numbers, path_of, shown, text, texts
 
 Numbers = float | Mapping[str, float]
 
