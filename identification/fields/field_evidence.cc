@@ -67,33 +67,51 @@ struct Factors {
   Eigen::LLT<MatrixXd> llt;
 };
 
-/// Adds a^T b of two sparse rows.
-void AddOuter(const SparseRows& rows, Index a, Index b, MatrixXd& sum) {
-  for (SparseRows::InnerIterator i(rows, a); i; ++i) {
-    for (SparseRows::InnerIterator j(rows, b); j; ++j) {
-      sum(i.col(), j.col()) += i.value() * j.value();
-    }
-  }
-}
+/// Rows [flat, fields, y], of which the fields have few numbers that are not 0.
+struct AllRows {
+  MatrixXd dense;     // [n x p + 1] flat, y
+  SparseRows sparse;  // [n x m] fields
 
-/// [flat, fields, y] as sparse rows.
-SparseRows AllColumns(const FieldRows& rows, const std::vector<FieldBlock>& blocks, Index columns) {
-  SparseRows all(rows.size(), columns);
-  const auto flat = rows.flat.cols();
-  all.reserve(
-      Eigen::VectorXi::Constant(rows.size(), static_cast<int>(flat + 1 + 2 * std::ssize(blocks))));
+  /// A^T diag(weight) B of the rows from `a` and from `b` on. weight: [k], one for each pair of rows; returns [p + m + 1]^2
+  MatrixXd Gram(Index a, Index b, const VectorXd& weight) const {
+    const Index k = weight.size(), p = dense.cols() - 1, m = sparse.cols();
+    const auto dense_a = dense.middleRows(a, k);
+    const MatrixXd dense_b = weight.asDiagonal() * dense.middleRows(b, k);
+    const SparseRows sparse_a = sparse.middleRows(a, k);
+    const SparseRows sparse_b = weight.asDiagonal() * sparse.middleRows(b, k);
+    const MatrixXd both = dense_a.transpose() * dense_b;
+    const MatrixXd fields_first = sparse_a.transpose() * dense_b;
+    const MatrixXd fields_last = sparse_b.transpose() * dense_a;
+
+    MatrixXd gram(p + m + 1, p + m + 1);
+    gram.topLeftCorner(p, p) = both.topLeftCorner(p, p);
+    gram.block(0, p + m, p, 1) = both.col(p).head(p);
+    gram.block(p + m, 0, 1, p) = both.row(p).head(p);
+    gram(p + m, p + m) = both(p, p);
+    gram.block(p, 0, m, p) = fields_first.leftCols(p);
+    gram.block(p, p + m, m, 1) = fields_first.col(p);
+    gram.block(0, p, p, m) = fields_last.leftCols(p).transpose();
+    gram.block(p + m, p, 1, m) = fields_last.col(p).transpose();
+    gram.block(p, p, m, m) = MatrixXd(SparseRows(sparse_a.transpose()) * sparse_b);
+    return gram;
+  }
+};
+
+AllRows AllColumns(const FieldRows& rows, const std::vector<FieldBlock>& blocks, Index fields) {
+  AllRows all{MatrixXd(rows.size(), rows.flat.cols() + 1), SparseRows(rows.size(), fields)};
+  all.dense << rows.flat, rows.torque;
+  all.sparse.reserve(
+      Eigen::VectorXi::Constant(rows.size(), static_cast<int>(2 * std::ssize(blocks))));
   for (Index n = 0; n < rows.size(); ++n) {
-    for (Index j = 0; j < flat; ++j) all.insert(n, j) = rows.flat(n, j);
-    Index begin = flat;
+    Index begin = 0;
     for (const FieldBlock& block : blocks) {
       for (SparseRows::InnerIterator i(block.columns, n); i; ++i) {
-        all.insert(n, begin + i.col()) = i.value();
+        all.sparse.insert(n, begin + i.col()) = i.value();
       }
       begin += block.size();
     }
-    all.insert(n, columns - 1) = rows.torque[n];
   }
-  all.makeCompressed();
+  all.sparse.makeCompressed();
   return all;
 }
 
@@ -120,19 +138,15 @@ FieldEvidence::FieldEvidence(const FieldRows& rows, const std::vector<FieldBlock
     begins_.push_back(size_);
     size_ += block.size();
   }
-  const Index all = size_ + 1;
-  const SparseRows columns = AllColumns(rows, blocks, all);
-  first_ = inner_ = before_ = cross_ = MatrixXd::Zero(all, all);
-  for (Index n = 0; n < rows.size(); ++n) {
-    if (n == 0 || !rows.follows[n]) {
-      ++runs_;
-      AddOuter(columns, n, n, first_);
-      continue;
-    }
-    AddOuter(columns, n, n, inner_);
-    AddOuter(columns, n - 1, n - 1, before_);
-    AddOuter(columns, n, n - 1, cross_);
-  }
+  const AllRows all = AllColumns(rows, blocks, size_ - flat_);
+  VectorXd follows = rows.follows.cast<double>();
+  follows[0] = 0;
+  const Index pairs = rows.size() - 1;
+  runs_ = rows.size() - static_cast<Index>(follows.sum());
+  first_ = all.Gram(0, 0, VectorXd::Ones(rows.size()) - follows);
+  inner_ = all.Gram(0, 0, follows);
+  before_ = all.Gram(0, 0, VectorXd(follows.tail(pairs)));
+  cross_ = all.Gram(1, 0, VectorXd(follows.tail(pairs)));
   cross_ = (cross_ + cross_.transpose()).eval();
 
   // a spread of flat columns by which the data alone decide
