@@ -1,4 +1,5 @@
-// consumer LOG.csv FRICTION.xml: identifies a log, says what it found, and writes a MuJoCo model with that friction.
+// consumer LOG.csv FRICTION.xml: identifies a log, says what it found,
+// and writes a MuJoCo model with that friction.
 #include <warmjoint/attach.h>
 #include <warmjoint/errors.h>
 #include <warmjoint/identify.h>
