@@ -6,11 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "identification/score/compensation_score.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/low_pass.h"
 #include "models/foundation/robust_noise.h"
 #include "models/foundation/sha256.h"
 #include "models/friction/thermal.h"
@@ -110,12 +113,38 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Simulation& recor
 
 /// What compensators are run on.
 struct Days {
-  const PreparedLog& today;
-  const PreparedLog& before;
+  LogSamples today, before;
   const Simulation& truth;  // of today
   Friction known;           // as a friction file has it
   Eigen::VectorXd contact;  // [N] today, N.m or N
 };
+
+/// why: a gear warms by tens of kelvins in a day of work, and a sensor on its housing is late by minutes.
+constexpr double kLargestRise = 30;    // K
+constexpr double kHousingLag = 300;    // s
+constexpr double kReadingNoise = 0.2;  // K
+/// Of its noise, after the streams that models/foundation lists.
+constexpr Stream kTemperatureNoise{12};
+
+/// What falls with the temperature of what rubs: its heat and what the room does. [N] N.m or N
+Eigen::VectorXd WarmLevel(const Simulation& recording, const AmbientDrift& drift) {
+  Eigen::VectorXd level = recording.truth.energy;
+  if (drift.amplitude == 0) return level;
+  return level + recording.measurements.time.unaryExpr([&](double t) {
+    return drift.amplitude * std::sin(2 * std::numbers::pi * t / drift.period);
+  });
+}
+
+/// The log with what a sensor on the housing reads, K over the cold joint. level: as WarmLevel; warm: what of it is kLargestRise.
+LogSamples WithTemperature(const PreparedLog& prepared, const Eigen::VectorXd& level, double warm,
+                           RandomStream random) {
+  LogSamples log = prepared.raw().measurements;
+  if (warm == 0 || level.size() != log.size()) return log;
+  Eigen::VectorXd reading = LowPass(log.time, kLargestRise / warm * level, kHousingLag);
+  for (double& one : reading) one += kReadingNoise * random.Normal();
+  log.temperature = std::move(reading);
+  return log;
+}
 
 /// The log of the same joint on the day before, on which nothing leaned on it.
 Simulation DayBefore(Scenario scenario, std::uint64_t realization) {
@@ -144,12 +173,12 @@ TraceTable ByMinute(const CompensationScore& score) {
 Result RunCompensator(const PreparedCompensator& compensate, const Days& days) {
   Result result;
   const Stopwatch watch;
-  const LogSamples& log = days.today.raw().measurements;
+  const LogSamples& log = days.today;
   const bool sees = compensate.arm.sees == Sees::truth;
   try {
     const Eigen::VectorXd found =
-        compensate.arm.along({log, days.before.raw().measurements, days.known,
-                              compensate.arm.options, sees ? &days.truth.truth.force : nullptr});
+        compensate.arm.along({log, days.before, days.known, compensate.arm.options,
+                              sees ? &days.truth.truth.force : nullptr});
     result.seconds = watch.Seconds();
     if (!found.allFinite()) throw NoAnswer("bad_answer", "a torque is not a finite number");
     const CompensationScore score = ScoreCompensation(found, log, days.truth.truth, days.contact);
@@ -245,9 +274,19 @@ RealizationResult RunRealization(const Bench& bench, const Contestants& contesta
       realization.results.push_back(RunIdentifier(identify, *recording, log, start));
     }
     if (before) {
-      const PreparedLog earlier = Prepare(before->measurements);
       const Disturbances& disturbances = bench.scenario.disturbances;
-      const Days days{log, earlier, *recording, KnownOf(recording->truth.friction, disturbances),
+      // both days by one sensor
+      const Eigen::VectorXd level = WarmLevel(*recording, disturbances.ambient_drift);
+      Eigen::Index warmest = 0;
+      level.cwiseAbs().maxCoeff(&warmest);
+      const double warm = level[warmest];
+      const RandomKey key{bench.scenario.seed, realized};
+      const RandomKey earlier{bench.scenario.seed, kDayBefore + realized};
+      const Days days{WithTemperature(log, level, warm, {key, kTemperatureNoise}),
+                      WithTemperature(Prepare(before->measurements),
+                                      WarmLevel(*before, disturbances.ambient_drift), warm,
+                                      {earlier, kTemperatureNoise}),
+                      *recording, KnownOf(recording->truth.friction, disturbances),
                       disturbances.contact.TorqueAlong(recording->measurements.time)};
       for (const PreparedCompensator& compensate : contestants.compensators) {
         realization.results.push_back(RunCompensator(compensate, days));

@@ -78,6 +78,16 @@ TEST(CompensatorArms, EachGivesATorque) {
   EXPECT_LT(residual("polynomial"), residual("fixed") / 3);
 }
 
+TEST(CompensatorArms, ATableByALateTemperatureHelpsSomewhat) {
+  const auto reached = Reached(
+      "  - {name: fixed, label: mean, options: {knows: before}}\n"
+      "  - {name: fixed, label: table, options: {knows: temperature}}\n  - {name: heat}\n");
+  ASSERT_EQ(reached.at("table").status, "ok") << reached.at("table").message;
+  const auto residual = [&](const char* label) { return Measure(reached.at(label), "residual"); };
+  EXPECT_LT(residual("table"), residual("mean"));
+  EXPECT_GT(residual("table"), residual("heat")) << "a sensor that is late";
+}
+
 TEST(CompensatorArms, AContactIsNotTakenForFriction) {
   const auto reached = Reached("  - {name: level, options: {begin: \"900\"}}\n  - {name: heat}\n",
                                "contact: {torque: 2, begin: 120, end: 1320}");
