@@ -152,7 +152,7 @@ def one(program, robot, kind, case, seed, options):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         mujoco.mj_saveModel(wrong, str(folder / "robot.mjb"))
-        answer = robots.identify(program, folder / "robot.mjb", time, q, torque, folder, *options)
+        answer = robots.identify(program, folder / "robot.mjb", time, q, torque, folder, "--unit", "position=rad", *options)
     return judge(answer, joints)
 
 
