@@ -84,7 +84,7 @@ std::string StartAttributes(Cause cause, const std::string& start) {
 }
 
 /// Variables and structure of a model description, joint after joint.
-struct Described {
+struct FmuModel {
   std::string variables, structure;
   std::set<std::string> units;
 
@@ -101,7 +101,7 @@ struct Described {
 };
 
 void Describe(const SeenFriction& seen, const std::string& prefix, unsigned& reference,
-              Described& model) {
+              FmuModel& model) {
   for (const FmuVariable& one : NumbersOf(seen)) {
     model.units.insert(one.unit);
     model.Add(prefix + one.name, reference++, one.cause,
@@ -115,7 +115,7 @@ void Describe(const SeenFriction& seen, const std::string& prefix, unsigned& ref
   }
 }
 
-std::string DescriptionOf(const Described& model, const std::string& name,
+std::string DescriptionOf(const FmuModel& model, const std::string& name,
                           const std::string& token) {
   std::string units, unknowns = model.structure;
   for (const std::string& unit : model.units) {
@@ -190,7 +190,7 @@ FmuFiles FmuFilesOf(const std::vector<SeenFriction>& frictions) {
 
   // joint after joint; the token is of all that the library is made of
   const bool is_one = frictions.size() == 1;
-  Described model;
+  FmuModel model;
   unsigned reference = 1;
   for (const SeenFriction& seen : frictions) {
     Describe(seen, is_one ? "" : Printable(seen.joint) + ".", reference, model);
