@@ -92,19 +92,26 @@ VectorXd FieldsAlong(const SolvedFields& solved, Index p, const LogSamples& m) {
   return along;
 }
 
+VectorXd FrictionOverTime(const SolvedFields& solved) {
+  const FieldRows& rows = solved.rows;
+  for (size_t k = 0; k < solved.blocks.size(); ++k) {
+    const FieldBlock& block = solved.blocks[k];
+    if (block.kind != FieldKind::time_friction) continue;
+    return block.UnsignedAt(rows.time, rows.position, rows.velocity) * solved.ValuesOf(k);
+  }
+  return {};
+}
+
 VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m) {
   VectorXd along = VectorXd::Zero(m.size());
-  const FieldRows& rows = solved.rows;
   for (size_t k = 0; k < solved.blocks.size(); ++k) {
     const FieldBlock& block = solved.blocks[k];
     if (block.kind != FieldKind::time_friction && block.kind != FieldKind::time_torque) continue;
     along += block.ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
-    if (!IsFriction(block.kind)) continue;
-    const SparseRows unsigned_ = block.UnsignedAt(rows.time, rows.position, rows.velocity);
-    along -= (unsigned_ * solved.ValuesOf(k)).mean() *
-             m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
   }
-  return along;
+  const VectorXd friction = FrictionOverTime(solved);
+  if (friction.size() == 0) return along;
+  return along - friction.mean() * m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
 }
 
 FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m)

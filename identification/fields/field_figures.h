@@ -29,6 +29,8 @@ struct SolvedFields {
 
 /// What the fields hold along a log, with the constant torque beside them. p: unknowns of the fit's table; returns [N] N.m or N
 Eigen::VectorXd FieldsAlong(const SolvedFields& solved, Eigen::Index p, const LogSamples& m);
+/// The friction over time at the rows, unsigned; empty without such a field. [n] N.m or N
+Eigen::VectorXd FrictionOverTime(const SolvedFields& solved);
 /// The part of it that is of this log alone: the torque over time, and the friction over time about its mean. [N] N.m or N
 Eigen::VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m);
 

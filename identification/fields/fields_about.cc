@@ -96,15 +96,9 @@ double CostOf(const Fit& fit, const FieldRows& rows, double friction, double wit
 
 /// How much the friction changes over time: rms about its mean, a share of the friction.
 double DriftOf(const SolvedFields& solved, double friction) {
-  for (size_t k = 0; k < solved.blocks.size(); ++k) {
-    const FieldBlock& block = solved.blocks[k];
-    if (block.kind != FieldKind::time_friction) continue;
-    const FieldRows& rows = solved.rows;
-    const VectorXd drift =
-        block.UnsignedAt(rows.time, rows.position, rows.velocity) * solved.ValuesOf(k);
-    return std::sqrt((drift.array() - drift.mean()).square().mean()) / friction;
-  }
-  return 0;
+  const VectorXd drift = FrictionOverTime(solved);
+  if (drift.size() == 0) return 0;
+  return std::sqrt((drift.array() - drift.mean()).square().mean()) / friction;
 }
 
 /// Changes the table and the model to x, [p]. held: columns of rows that are at a bound
@@ -195,18 +189,18 @@ std::unique_ptr<Round> Solve(FitForFields at, const FieldSet& asked, const Vecto
   return round;
 }
 
-/// The answer: the fit moved to the posterior, with what fields add to it. measured: [N] torque
-Fit Conclude(const Round& round, const VectorXd& measured) {
+/// The answer: the fit moved to the posterior, with what fields add to it.
+Fit Conclude(const Round& round) {
   const LogSamples& m = round.at.motion;
   Fit fit = round.at.fit;
   SolvedFields solved = round.solved();
   const FieldFigures figures(solved, round.at.fit, m);
   const std::vector<Index> held = HoldBounds(figures.report(), round.at.fit, solved.posterior);
   const VectorXd x = UnknownsOf(fit);
-  const VectorXd torque = round.at.torque_of(fit) +
+  const VectorXd torque = round.at.torque_of(fit, m) +
                           fit.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
                           FieldsAlong(solved, x.size(), m);
-  fit.torque = Kept(measured, fit.used);
+  fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(torque, fit.used);
   fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
   const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
@@ -220,7 +214,7 @@ Fit Conclude(const Round& round, const VectorXd& measured) {
                             .time_friction = DriftOf(solved, round.friction)};
   for (const FieldBlock& block : round.blocks) fit.fields->present.kinds.push_back(block.kind);
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
-  fit.fields->rest = torque - round.at.torque_of(fit);
+  fit.fields->rest = torque - round.at.torque_of(fit, m);
   fit.count += static_cast<int>(round.evidence->size() - x.size());
   // what the friction file leaves out: the parts of fields that may be chance, and what lies between the centres of maps
   const VectorXd left_out = Kept(VectorXd(fit.fields->rest - DriftAlong(solved, m)), fit.used);
@@ -231,9 +225,9 @@ Fit Conclude(const Round& round, const VectorXd& measured) {
 
 }  // namespace
 
-Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const VectorXd& measured,
-                    const FitToTheRest& again) {
-  auto round = Solve(std::move(first), asked, VectorXd::Zero(measured.size()));
+Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const FitToTheRest& again) {
+  const VectorXd nothing = VectorXd::Zero(first.motion.size());
+  auto round = Solve(std::move(first), asked, nothing);
   if (!round->evidence) {
     Fit plain = std::move(round->at.fit);
     plain.causes.push_back(Note(ExplainFewFieldRows(round->rows.size(), kFewestRows)));
@@ -251,7 +245,7 @@ Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const VectorXd& m
     round = std::move(other);
   }
   round->posterior = round->evidence->Averaged(round->best);
-  return Conclude(*round, measured);
+  return Conclude(*round);
 }
 
 }  // namespace warmjoint

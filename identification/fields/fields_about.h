@@ -15,9 +15,9 @@ namespace warmjoint {
 /// A fit with all that fields need of it. Its Jacobian is that of its table's estimated rows.
 struct FitForFields {
   Fit fit{};
-  LogSamples motion{};  // [N] that its torque follows
-  /// [N] torque of a fit of this table along the motion, N.m or N: a gravity, inertia and friction, maps included
-  std::function<Eigen::VectorXd(const Fit&)> torque_of{};
+  LogSamples motion{};  // [N] that its torque follows, with the measured torque
+  /// [N] torque of a fit of this table along a motion, N.m or N: gravity, inertia and friction, maps included
+  std::function<Eigen::VectorXd(const Fit&, const LogSamples&)> torque_of{};
   /// [p] of what is known of the estimated rows beforehand, and its precision, 0 where nothing is; or empty
   Eigen::VectorXd prior_mean{}, prior_precision{};
 };
@@ -25,8 +25,7 @@ struct FitForFields {
 /// The same fit to what fields leave of the torque; nothing where that has no such fit. held: [N] N.m or N
 using FitToTheRest = std::function<std::optional<FitForFields>(const Eigen::VectorXd& held)>;
 
-/// The fit with the fields that are asked for (FitWithFields). measured: [N] torque; again: of a fit that is not linear in its unknowns
-Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const Eigen::VectorXd& measured,
-                    const FitToTheRest& again);
+/// The fit with the fields that are asked for (FitWithFields). again: of a fit that is not linear in its unknowns
+Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const FitToTheRest& again);
 
 }  // namespace warmjoint

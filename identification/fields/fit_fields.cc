@@ -48,7 +48,7 @@ FitForFields ForFields(Fit fit, const IdentifierInput& input) {
   FitForFields at{.fit = std::move(fit),
                   .motion = followed ? std::move(followed->measurements) : input.measurements};
   TakePrior(InitialEnergyOf(input.options).mean, at);
-  at.torque_of = [motion = at.motion](const Fit& of) { return TorqueAlong(of, motion); };
+  at.torque_of = TorqueAlong;
   return at;
 }
 
@@ -70,8 +70,7 @@ Fit FitWithFields(const IdentifierInput& input,
     if (next.refusal || WhyNone(next)) return std::nullopt;
     return ForFields(std::move(next), input);
   };
-  return WithFieldsAbout(ForFields(std::move(fit), input), option->fields,
-                         input.measurements.torque, again);
+  return WithFieldsAbout(ForFields(std::move(fit), input), option->fields, again);
 }
 
 }  // namespace warmjoint

@@ -27,14 +27,25 @@ VectorXd OfMaps(Friction friction, const LogSamples& m, const Takes& takes) {
   return PredictFriction(friction, m).force - PredictFriction(law, m).force;
 }
 
+/// The torque of a table with its maps. x: [P]; returns [N] N.m or N
+VectorXd TorqueOf(const Model& model, const VectorXd& x, const Friction& friction,
+                  const LogSamples& m) {
+  VectorXd force(m.size());
+  Index n = 0;
+  ModelAt(model, x).ForEachStretch([&](const ModelRows& rows) {
+    force.segment(n, rows.force.size()) = rows.force;
+    n += rows.force.size();
+  });
+  return force + OfMaps(friction, m, [](const FrictionMap&) { return true; });
+}
+
 /// A joint's fit as fields are fitted about it.
 FitForFields ForFields(const JointFit& fit, const JointColumns& c, const ModelSamples& samples) {
   const auto kept = std::make_shared<const JointFit>(fit);
   FitForFields at{.fit = FitOf(*kept, c, samples), .motion = SamplesOf(*kept, c)};
   at.fit.jacobian = [kept] { return ModelAt(kept->model, kept->solved.x).All().derivatives; };
-  at.torque_of = [kept, motion = at.motion](const Fit& of) -> VectorXd {
-    return ModelAt(kept->model, UnknownsOf(of)).All().force +
-           OfMaps(of.friction, motion, [](const FrictionMap&) { return true; });
+  at.torque_of = [kept](const Fit& of, const LogSamples& m) {
+    return TorqueOf(kept->model, UnknownsOf(of), of.friction, m);
   };
   at.prior_mean = kept->model.PriorMean();
   at.prior_precision = kept->model.PriorPrecision();
@@ -51,7 +62,7 @@ Fit WithFields(const JointFit& fit, const JointColumns& c, const ModelSamples& s
     next.solved = Solve(next.model, less, fit.solved.x);
     return ForFields(next, c, less);
   };
-  Fit made = WithFieldsAbout(ForFields(fit, c, samples), fields, samples.torque, again);
+  Fit made = WithFieldsAbout(ForFields(fit, c, samples), fields, again);
   made.inertia.reset();  // the rotor's, a row of the table
   return made;
 }
@@ -62,13 +73,13 @@ void AddFields(const JointColumns& c, const FieldSet& fields, JointFit& fit) {
   if (fields.kinds.empty()) return;
   Fit made = WithFields(fit, c, c.samples, fields);
   if (!made.fields) return;
-  const VectorXd residual = made.residual();
+  const VectorXd torque =
+      TorqueOf(fit.model, UnknownsOf(made), made.friction, SamplesOf(fit, c)) + made.fields->rest;
   fit.uncertainty = made.errors.covariance();
   fit.effective_parameters = made.effective_parameters;
   fit.solved.x = UnknownsOf(made);
-  fit.solved.noise = NoiseScaleOf(residual);
-  fit.solved.residual =
-      c.samples.torque - ForFields(fit, c, c.samples).torque_of(made) - made.fields->rest;
+  fit.solved.noise = NoiseScaleOf(made.residual());
+  fit.solved.residual = c.samples.torque - torque;
   made.parameters[static_cast<std::size_t>(fit.at.given.log_gain)].has_interval = KnowsGain(fit);
   fit.fields = std::make_shared<const FieldsOfJoint>(FieldsOfJoint{fields, std::move(made)});
 }
@@ -79,7 +90,8 @@ VectorXd PredictedBy(const JointFit& fit, const JointColumns& c, const ModelSamp
   const VectorXd table = samples.torque - again.solved.residual;
   if (!fit.fields) return table;
   const Fit made = WithFields(again, c, samples, fit.fields->asked);
-  return made.fields ? ForFields(again, c, samples).torque_of(made) : table;
+  if (!made.fields) return table;
+  return TorqueOf(fit.model, UnknownsOf(made), made.friction, SamplesOf(again, c));
 }
 
 VectorXd FrictionOfMaps(const Friction& friction, const LogSamples& m) {

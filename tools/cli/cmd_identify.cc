@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "identification/estimate.h"
+#include "identification/fields/field_set.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/friction_actuator.h"
@@ -272,8 +273,7 @@ void AddIdentifierOptions(CLI::App& parser, IdentifyArguments& arguments) {
       ->take_all()
       ->capture_default_str();
   AddValue(parser, "--fields", "LIST", arguments.fields,
-           "what the model may lack, with a strength that the log decides: auto, none, or some of "
-           "q,r,v,d,t (trust.md); auto has all, nominal-ls and energy-ml none");
+           std::string(kFieldsHelp) + "; auto has all, nominal-ls and energy-ml none");
   AddValue(parser, "--set", "KEY=VALUE", arguments.set,
            "option of the identifier, as law=asymmetric")
       ->take_all();

@@ -169,8 +169,7 @@ void AddFields(CLI::App& parser, FieldSet& fields) {
             if (!set) Refuse({"--fields"}, "is '{}'; it must be {}", Excerpt(text), kWordsOfFields);
             fields = *set;
           },
-          "what the model may lack, with a strength that the log decides: auto, none, or some of "
-          "q,r,v,d,t (trust.md)")
+          kFieldsHelp)
       ->type_name("LIST")
       ->default_str("auto");
 }
