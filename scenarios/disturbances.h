@@ -87,6 +87,11 @@ struct AmbientDrift {
   double amplitude = 0;
   double period = 1;
 
+  /// What joins E at each of some times, s. [N] N.m or N
+  Eigen::VectorXd LevelAlong(const Eigen::VectorXd& time) const {
+    return amplitude * (2 * std::numbers::pi / period * time.array()).sin();
+  }
+
   template <class A>
   void Serialize(A* a) {
     a->Field("amplitude", &amplitude, Needed("N.m", "size of the sine"));

@@ -23,7 +23,8 @@ enum class Stream : std::uint32_t {
   periodic_torque = 8,
   outliers = 9,
   uneven_noise = 10,
-  lost_samples = 11
+  lost_samples = 11,
+  temperature_noise = 12
 };
 
 /// Key of all the random numbers of one realization.

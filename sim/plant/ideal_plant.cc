@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "models/foundation/bad_input.h"
 #include "models/friction/along_motion.h"
@@ -229,8 +228,7 @@ class IdealPlant : public Plant {
     // what moves its level
     const AmbientDrift& drift = disturbances.ambient_drift;
     if (drift.amplitude != 0) {
-      trajectory.level =
-          drift.amplitude * (2 * std::numbers::pi / drift.period * samples.time.array()).sin();
+      trajectory.level = drift.LevelAlong(samples.time);
     }
     if (disturbances.load_change.load != 0) {
       const Eigen::VectorXd growth = disturbances.load_change.gain * Load(samples.time).cwiseAbs();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -123,16 +122,11 @@ struct Days {
 constexpr double kLargestRise = 30;    // K
 constexpr double kHousingLag = 300;    // s
 constexpr double kReadingNoise = 0.2;  // K
-/// Of its noise, after the streams that models/foundation lists.
-constexpr Stream kTemperatureNoise{12};
 
 /// What falls with the temperature of what rubs: its heat and what the room does. [N] N.m or N
 Eigen::VectorXd WarmLevel(const Simulation& recording, const AmbientDrift& drift) {
-  Eigen::VectorXd level = recording.truth.energy;
-  if (drift.amplitude == 0) return level;
-  return level + recording.measurements.time.unaryExpr([&](double t) {
-    return drift.amplitude * std::sin(2 * std::numbers::pi * t / drift.period);
-  });
+  if (drift.amplitude == 0) return recording.truth.energy;
+  return recording.truth.energy + drift.LevelAlong(recording.measurements.time);
 }
 
 /// The log with what a sensor on the housing reads, K over the cold joint. level: as WarmLevel; warm: what of it is kLargestRise.
@@ -282,10 +276,10 @@ RealizationResult RunRealization(const Bench& bench, const Contestants& contesta
       const double warm = level[warmest];
       const RandomKey key{bench.scenario.seed, realized};
       const RandomKey earlier{bench.scenario.seed, kDayBefore + realized};
-      const Days days{WithTemperature(log, level, warm, {key, kTemperatureNoise}),
+      const Days days{WithTemperature(log, level, warm, {key, Stream::temperature_noise}),
                       WithTemperature(Prepare(before->measurements),
                                       WarmLevel(*before, disturbances.ambient_drift), warm,
-                                      {earlier, kTemperatureNoise}),
+                                      {earlier, Stream::temperature_noise}),
                       *recording, KnownOf(recording->truth.friction, disturbances),
                       disturbances.contact.TorqueAlong(recording->measurements.time)};
       for (const PreparedCompensator& compensate : contestants.compensators) {

@@ -7,7 +7,14 @@ import sys
 GOLDEN = pathlib.Path(__file__).resolve().parents[2] / "golden"
 NAMES = ("coulomb", "viscous_coulomb", "asymmetric", "stiction", "stribeck", "asymmetric_stribeck", "everything")
 COLUMNS = ("velocity", "position", "load", "ambient_rise", "force", "energy")
-
+CASE = """typedef struct {
+  const char* name;
+  void (*numbers)(wj_friction*);
+  int count;
+  wj_real step, initial_energy;
+  const wj_real *velocity, *position, *load, *ambient_rise, *force, *energy;
+} Case;
+"""
 
 def array(name, values):
     return f"static const wj_real {name}[] = {{{', '.join(f'(wj_real){value!r}' for value in values)}}};\n"
@@ -69,7 +76,7 @@ def main(out):
         texts.append(text)
         columns = ", ".join(f"{name}_{column}" for column in COLUMNS)
         rows.append(f'  {{"{name}", {name}_numbers, {n}, (wj_real){golden["step"]!r}, (wj_real){golden.get("initial_energy", 0)!r}, {columns}}},\n')
-    pathlib.Path(out).write_text("".join(texts) + "static const Case cases[] = {\n" + "".join(rows) + "};\n")
+    pathlib.Path(out).write_text(CASE + "".join(texts) + "static const Case cases[] = {\n" + "".join(rows) + "};\n")
 
 
 main(sys.argv[1])

@@ -6,13 +6,6 @@
 #include <time.h>
 #include <warmjoint/compensate.h>
 
-typedef struct {
-  const char* name;
-  void (*numbers)(wj_friction*);
-  int count;
-  wj_real step, initial_energy;
-  const wj_real *velocity, *position, *load, *ambient_rise, *force, *energy;
-} Case;
 #include "cases.h"
 
 static int failures = 0;

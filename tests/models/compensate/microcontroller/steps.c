@@ -4,13 +4,6 @@
 #include <string.h>
 #include <warmjoint/compensate.h>
 
-typedef struct {
-  const char* name;
-  void (*numbers)(wj_friction*);
-  int count;
-  wj_real step, initial_energy;
-  const wj_real *velocity, *position, *load, *ambient_rise, *force, *energy;
-} Case;
 #include "cases.h"
 
 /// Bits of a double, high word first: newlib's small printf has no %a.
