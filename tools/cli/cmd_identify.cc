@@ -15,6 +15,7 @@
 #include "tools/cli/backend.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
+#include "tools/cli/foretold_table.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
 #include "tools/identify/identify_recording.h"
@@ -37,6 +38,7 @@ struct IdentifyArguments {
   std::string output;
   std::string mjcf;
   std::string plot;
+  std::string design;  // whose foretold answer is shown beside
   std::string format = "text";
   bool explain = false;
   bool force = false;
@@ -102,6 +104,7 @@ Outputs ClaimOutputs(const IdentifyArguments& arguments) {
   std::vector<std::filesystem::path> inputs = InputsOf(arguments.recording);
   inputs.emplace_back(arguments.holdout);
   inputs.emplace_back(arguments.earlier.file);
+  inputs.emplace_back(arguments.design);
   if (!arguments.plot.empty()) PictureFormatOf(arguments.plot);
   return {OutputsOf(arguments), inputs};
 }
@@ -180,6 +183,9 @@ void Deliver(const IdentifyArguments& arguments, Identified identified, const Pr
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
       SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
+      if (!arguments.design.empty()) {
+        SayText(words, ForetoldToText(ReadForetold(arguments.design), estimate, PageOf(words)));
+      }
     }
   });
 }
@@ -213,6 +219,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
     asked.push_back(CheckIdentifier(arguments, identifier));
     if (asked.back().command) commands.push_back(asked.back().command->command);
   }
+  if (!arguments.design.empty()) ReadForetold(arguments.design);
   Outputs outputs = ClaimOutputs(arguments);
   const std::optional<Backend> backend =
       arguments.plot.empty() ? std::nullopt : std::optional<Backend>(std::in_place);
@@ -258,6 +265,8 @@ void AddOutputOptions(CLI::App& parser, IdentifyArguments& arguments) {
   AddValue(parser, "--mjcf", "FILE", arguments.mjcf, "MuJoCo model of a joint with this friction");
   parser.add_flag("-v,--explain", arguments.explain,
                   "every remark, every test for lack of fit and every assumption");
+  AddValue(parser, "--design", "FILE", arguments.design,
+           "design.json of `design`, whose foretold numbers stand beside those reached");
   AddChoice(parser, "--format", arguments.format, {"text", "json"},
             "of what is printed; json: as in estimate.json");
 }

@@ -113,8 +113,8 @@ Command AddPlotCommand(CLI::App& program) {
   GiveExample(*parser, "warmjoint plot estimate.json --figure fit -o pictures");
   // what is drawn, and where to
   AddValue(*parser, "SOURCE", "SOURCE", arguments->sources,
-           "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
-           "plain kernels); several fill folders of their own")
+           "directory of `run`, `simulate` or `design`, estimate file, or `kernels` (normalised "
+           "and plain kernels); several fill folders of their own")
       ->required();
   AddValue(*parser, "-o,--output", "DIR", arguments->output,
            "directory for the pictures; made if absent")

@@ -17,6 +17,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
+#include "tools/design/read_motion.h"
 #include "tools/store/run_store.h"
 #include "tools/suite/engine.h"
 #include "tools/terminal/progress_line.h"
@@ -69,6 +70,13 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   return VariantScenario(suite, static_cast<int>(named - names.begin()));
 }
 
+/// Of a file that is a motion, or of a recording.
+TimedMotion MotionFrom(const RecordingSource& source) {
+  if (const auto motion = ReadMotion(source.files.front())) return *motion;
+  const Measurements log = Prepare(ReadRecordings(source)).raw().measurements;
+  return {MotionOf(log, SelectConstantSpeed(log)), log.time[log.size() - 1] - log.time[0]};
+}
+
 /// Of a scenario file, with the motion of --motion, or of a run.
 Scenario ResolveScenario(const SimulateArguments& arguments) {
   if (!arguments.from.empty()) return ScenarioOfRun(arguments);
@@ -76,9 +84,8 @@ Scenario ResolveScenario(const SimulateArguments& arguments) {
   // a log's motion first, for as long as it lasts, so that --set can still change it
   Settings settings;
   if (!arguments.motion.files.empty()) {
-    const Measurements log = Prepare(ReadRecordings(arguments.motion)).raw().measurements;
-    const Motion motion = MotionOf(log, SelectConstantSpeed(log));
-    settings = MotionSettings(motion, log.time[log.size() - 1] - log.time[0]);
+    const TimedMotion made = MotionFrom(arguments.motion);
+    settings = MotionSettings(made.motion, made.duration);
   }
   for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
     settings.push_back({key, value});
@@ -149,7 +156,8 @@ Command AddSimulateCommand(CLI::App& program) {
   AddValue(*parser, "--from", "RUN", arguments->from, "run directory: replay its --realization");
   AddValue(*parser, "--variant", "TEXT", arguments->variant, "of the run's ladder");
   AddValue(*parser, "--motion", "RECORDING", arguments->motion.files,
-           "CSV or HDF5 file whose motion is replayed")
+           "CSV or HDF5 file whose motion is replayed; without a torque column its velocity is "
+           "followed from row to row, as motion.csv of `design`")
       ->expected(1);
 
   // what changes of it

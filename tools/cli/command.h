@@ -31,6 +31,7 @@ Command AddListCommand(CLI::App& program);
 Command AddNewCommand(CLI::App& program);
 Command AddSimulateCommand(CLI::App& program);
 Command AddConvertCommand(CLI::App& program);
+Command AddDesignCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
 Command AddIdentifyRobotCommand(CLI::App& program);

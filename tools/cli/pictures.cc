@@ -9,6 +9,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/parse_number.h"
 #include "tools/cli/typed_options.h"
+#include "tools/design/read_motion.h"
 #include "tools/shown/estimate_data.h"
 #include "tools/shown/kernel_example.h"
 #include "tools/shown/run/run_data.h"
@@ -64,6 +65,23 @@ PictureSource OfSimulation(const fs::path& directory, shown::ShownData& data) {
   return source;
 }
 
+/// Of a directory of `design`.
+PictureSource OfDesign(const fs::path& directory) {
+  const Tree design = ReadJsonFile(directory / "design.json");
+  const auto motion = ReadMotion(directory / "motion.csv");
+  if (!motion) Refuse({directory / "motion.csv"}, "is no motion; make it by `warmjoint design`");
+  Tree time = Tree::array(), velocity = Tree::array();
+  for (const VelocityCorner& corner : motion->motion.corners) {
+    time.push_back(corner.time);
+    velocity.push_back(corner.velocity);
+  }
+  const bool is_linear = design.value("settings", Tree::object()).value("joint", "") == "linear";
+  const JointKind joint = is_linear ? JointKind::linear : JointKind::rotary;
+  return {
+      {{"design", design},
+       {"motion", {{"time", time}, {"velocity", velocity}, {"unit", kVelocityUnit.For(joint)}}}}};
+}
+
 constexpr double kSmallest = 20, kLargest = 2000;  // mm
 
 double Millimetres(const std::string& text, const std::string& size) {
@@ -90,6 +108,9 @@ PictureSource SourceOf(const std::string& source, const RecordingSource& recordi
   } else if (fs::is_regular_file(source)) {
     kind = "estimate";
     made = OfEstimate(source, recording, data);
+  } else if (fs::exists(fs::path(source) / "design.json")) {
+    kind = "design";
+    made = OfDesign(source);
   } else if (shown::IsSimulation(source)) {
     kind = "simulation";
     made = OfSimulation(source, data);

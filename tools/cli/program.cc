@@ -90,8 +90,8 @@ struct CommandGroup {
 const std::vector<CommandGroup>& CommandGroups() {
   static const std::vector<CommandGroup> groups{
       {"From a log",
-       {AddCheckCommand, AddIdentifyCommand, AddIdentifyRobotCommand, AddPredictCommand,
-        AddCompensateCommand, AddConvertCommand}},
+       {AddDesignCommand, AddCheckCommand, AddIdentifyCommand, AddIdentifyRobotCommand,
+        AddPredictCommand, AddCompensateCommand, AddConvertCommand}},
       {"To a simulator", {AddAttachCommand, AddExportCommand, AddSimulateCommand}},
       {"Pictures and pages", {AddPlotCommand, AddReportCommand}},
       {"Identifiers compared",

@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
 
 # the rooms, whose public headers lie together
-set(rooms models recording robots scenarios truth plugin attach sim identification score store terminal board identify compensate actions robot_log rigid robot_joints shown robot)
+set(rooms models recording robots scenarios truth plugin attach sim identification score store terminal board identify design design_motion compensate actions robot_log rigid robot_joints shown robot)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
   install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

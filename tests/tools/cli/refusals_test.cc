@@ -55,7 +55,8 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"check", "log.csv", "--trim", "-1"}, "0 or more"},
       {{"check", "log.csv", "--gear", "ten"}, "--gear = ten"},
       {{"check", "log.csv", "--gear"}, "NUMBER"},
-      {{"check", "log.csv", "--identifier", "auto"}, "no '--identifier' here"},
+      {{"check", "log.csv", "--identifier", "auto"}, "requires --until"},
+      {{"check", "log.csv", "--identifer", "auto"}, "'--identifier'"},
       {{"check", "suite.yaml"}, "time"},
       // identify
       {{"identify", "log.csv", "--identifier", "energyml"}, "'energy-ml'"},

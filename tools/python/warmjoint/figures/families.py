@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from . import along_log, compensation, fit_page, friction, motor, residuals, robots, runs, steps
+from . import along_log, compensation, designed, fit_page, friction, motor, residuals, robots, runs, steps
 from .run_view import Run
 from .sheet import Sheet
 from .view import Answer, View
@@ -24,7 +24,7 @@ class Source:
 
     def figures(self) -> dict[str, tuple[Callable[[], Sheet | None], str]]:
         """{name: (function, what a source without it lacks)}"""
-        return {"estimate": _of_estimate, "simulation": _of_simulation, "run": _of_run, "kernels": _of_kernels, "robot": _of_robot}[self.kind](self)
+        return {"estimate": _of_estimate, "simulation": _of_simulation, "run": _of_run, "kernels": _of_kernels, "robot": _of_robot, "design": _of_design}[self.kind](self)
 
 
 Family = dict[str, tuple[Callable[[], "Sheet | None"], str]]
@@ -85,6 +85,10 @@ def _of_run(one: Source) -> Family:
 
 def _of_kernels(one: Source) -> Family:
     return {"kernels": (lambda: steps.kernels(one.facts), "")}
+
+
+def _of_design(one: Source) -> Family:
+    return {"design": (lambda: designed.design(one.facts), "")}
 
 
 def _of_robot(one: Source) -> Family:
