@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "identification/robot/robot_joint.h"
+#include "identification/uncertainty/tails.h"
 
 namespace warmjoint {
 
@@ -71,6 +72,15 @@ std::string ExplainTurnedTorque(const std::string& joint) {
       joint, joint);
 }
 
+std::string ExplainDelayOfAll(double delay, double deviation) {
+  const double reach = 1e3 * kNormal95 * deviation;
+  return fmt::format(
+      "the {} come {:.3g} +- {:.2g} ms after the {}, in all joints alike: positions are taken at "
+      "that time, and intervals hold what is left open",
+      delay > 0 ? "torques" : "positions", 1e3 * std::abs(delay), reach,
+      delay > 0 ? "positions" : "torques");
+}
+
 std::string ExplainTurnedSign(const std::string& joint) {
   return fmt::format(
       "torque and description of {} have opposite signs, though its friction brakes: its axis is "
@@ -87,6 +97,29 @@ std::string ExplainWrongDescription(const std::string& joint, double times) {
       "a load, --gear a motor's ripple, --inertials given:SHARE says how wrong the description may "
       "be",
       joint, times);
+}
+
+std::string ExplainScaleOfAll(double gain) {
+  return fmt::format(
+      "the torques of all joints are {:.3g} times those of the description: they are of the "
+      "motors' side of the gears, or in another unit; --scale torque={:.4g} makes them of the "
+      "joints, --inertials given:1 says that the description is so wrong",
+      gain, 1 / gain);
+}
+
+std::string ExplainScale(const std::string& joint, double gain) {
+  return fmt::format(
+      "the torque of {} is {:.3g} times that of the description: it is of the motor's side of a "
+      "gear, or in another unit; --scale {}.torque={:.4g} makes it of the joint, --inertials "
+      "given:1 says that the description is so wrong",
+      joint, gain, joint, 1 / gain);
+}
+
+std::string ExplainDoubtfulGain(const std::string& joint, double gain) {
+  return fmt::format(
+      "the torque of {} is {:.3g} times that of the description, more than descriptions are wrong "
+      "by: where its unit or constant is in doubt, so is its friction (--scale {}.torque={:.3g})",
+      joint, gain, joint, 1 / gain);
 }
 
 std::string ExplainUnknownGain(const std::string& joint) {

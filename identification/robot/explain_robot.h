@@ -27,8 +27,18 @@ std::string ExplainWorseHeldOut(double with, double without, const std::string& 
 
 // what a reader has to know in addition to the numbers
 std::string ExplainTurnedTorque(const std::string& joint);
+inline constexpr const char* kAllTorquesTurned =
+    "the torques of all joints drive their motion where friction would brake: their signs are "
+    "taken "
+    "to be turned (--scale torque=-1)";
+/// delay: s
+std::string ExplainDelayOfAll(double delay, double deviation);
 std::string ExplainTurnedSign(const std::string& joint);
 std::string ExplainWrongDescription(const std::string& joint, double times);
+// gains: of the log's torque over that of the description
+std::string ExplainScaleOfAll(double gain);
+std::string ExplainScale(const std::string& joint, double gain);
+std::string ExplainDoubtfulGain(const std::string& joint, double gain);
 std::string ExplainUnknownGain(const std::string& joint);
 inline constexpr const char* kNegativeRotor =
     "the rotor's inertia is below 0: the torque may be late against the position, or the links "

@@ -20,6 +20,20 @@ using Eigen::VectorXd;
 constexpr int kTries = 8;
 // of the log: a faster time constant would follow the motion, not its losses
 constexpr double kShare = 30;
+// why: within less than 20 s no housing of a joint warms, and within ten periods E follows the motion
+constexpr double kShortest = 20, kPeriods = 10;  // s
+
+/// Mean time from one reversal to the next but one, s; the log's length where the joint does not turn back.
+double PeriodOf(const JointColumns& c) {
+  double reversals = 0, last = 0;
+  for (const double sign : c.sign) {
+    if (sign == 0) continue;
+    if (sign == -last) ++reversals;
+    last = sign;
+  }
+  const double length = c.samples.time.tail(1)[0] - c.samples.time[0];
+  return 2 * length / std::max(reversals, 2.0);
+}
 
 /// E at unit gain by given losses, times the direction of friction. loss: [N]
 VectorXd HeatColumn(const JointColumns& c, const VectorXd& loss, double tau) {
@@ -62,11 +76,13 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   model.LossesAlong({0, c.velocity.size()}, friction);
   const VectorXd loss = c.velocity.cwiseAbs().cwiseProduct(c.sign.cwiseProduct(friction.force));
 
-  const double shortest = length / kShare;
+  const double shortest = std::max({length / kShare, kShortest, kPeriods * PeriodOf(c)});
   HeatGuess best;
+  best.shortest = shortest;
   double blocks = 1;
+  if (shortest > length) return best;
   for (int i = 0; i < kTries; ++i) {
-    const double tau = shortest * std::pow(kShare, i / (kTries - 1.0));
+    const double tau = shortest * std::pow(length / shortest, i / (kTries - 1.0));
     const VectorXd z = rest_of(Kept(HeatColumn(c, loss, tau), used));
     const double squares = z.squaredNorm();
     if (!(squares > 0)) continue;
@@ -82,11 +98,10 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
     const auto count = static_cast<double>(scores.size());
     const double wald = k * squares / std::sqrt(sum * count / std::max(count - 1, 1.0));
     if (std::abs(wald) <= std::abs(best.deviations)) continue;
-    best = {false, wald, k, tau, 0, 0};
+    best = {false, wald, k, tau, 0, shortest};
     blocks = count;
   }
   const double level_of_one = q.error_level / kTries / std::max(q.joints, 1);
-  best.shortest = shortest;
   // the test is one-sided, for friction that falls
   best.limit = StudentQuantile(std::max(blocks - 1, 1.0), 1 - 2 * level_of_one);
   best.warms = best.deviations < -best.limit;

@@ -17,8 +17,8 @@ struct HeatGuess {
   double shortest = 0;       // s, of the time constants that were tried
 };
 
-/// The gain of E by the losses of the cold fit, by least squares together with all its columns, for eight time constants from a
-/// thirtieth of the log to its length; its error is by blocks of time, its limit by Student's t for eight tries on each joint of the robot.
+/// The gain of E by the losses of the cold fit, by least squares together with all its columns, for eight time constants up to the log's
+/// length, from a thirtieth of it, ten periods of the motion or 20 s on; its error is by blocks of time, its limit by Student's t for eight tries on each joint of the robot.
 HeatGuess FindHeat(const JointColumns& columns, const JointFit& cold,
                    const JointQuestion& question);
 

@@ -176,8 +176,9 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
                                const std::optional<JointHoldOut>& holdout) {
   const double gain = ValueOf(fit, fit.at.given.log_gain);
   summary.gain = gain;
-  if (c.basis.cols() == fit.at.given.z.size && c.described.size() > 0) {
-    const VectorXd mended = c.described + c.basis * fit.at.given.z.Of(fit.solved.x);
+  if (c.basis.cols() <= fit.at.given.z.size && c.described.size() > 0) {
+    const VectorXd z = fit.at.given.z.Of(fit.solved.x);
+    const VectorXd mended = c.described + c.basis * z.head(c.basis.cols());
     summary.inertials.assign(mended.begin(), mended.end());
   }
   summary.gain_is_known = KnowsGain(fit);

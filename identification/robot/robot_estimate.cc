@@ -25,6 +25,9 @@ Tree RobotEstimateToTree(const RobotEstimate& robot, const std::filesystem::path
   tree["log"] = robot.log;
   tree["notices"] = robot.notices;
   tree["payload"] = robot.payload ? WriteFields(EstimatedParameter(*robot.payload)) : Tree();
+  tree["gravity"] = robot.gravity ? WriteFields(BaseGravity(*robot.gravity)) : Tree();
+  tree["gravity_taken_off"] = robot.gravity_taken_off;
+  tree["delay"] = robot.delay ? WriteFields(EstimatedParameter(*robot.delay)) : Tree();
   tree["summary"] = std::move(summary);
   tree["joints"] = std::move(joints);
   return tree;
@@ -63,6 +66,14 @@ RobotEstimate ReadRobotEstimate(const std::filesystem::path& file) {
   if (const auto load = node.Find("payload")) {
     robot.payload = ReadAs<EstimatedParameter>(*load);
     robot.payload->name = "payload";
+  }
+  if (const auto gravity = node.Find("gravity")) robot.gravity = ReadAs<BaseGravity>(*gravity);
+  if (const auto taken = node.Find("gravity_taken_off")) {
+    ReadValue(*taken, &robot.gravity_taken_off, {});
+  }
+  if (const auto delay = node.Find("delay")) {
+    robot.delay = ReadAs<EstimatedParameter>(*delay);
+    robot.delay->name = "delay";
   }
   if (const auto name = node.Find("robot")) robot.robot = name->Text();
   robot.log = texts("log");

@@ -22,8 +22,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Log gain about that of the robot's other motors: a factor of e, since motors of one robot are alike and not equal.
-constexpr double kGainSpread = 1;
 constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor of 1.6
 /// Load-dependent friction over load: gears lose some per cent of what they carry, bad ones a fifth. Where a joint carries
 /// nothing, the prior determines it.
@@ -84,7 +82,8 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   fit.at.rotor = model.Append({rotor});
 
   // the rigid part, its gain about that of the robot's other joints
-  const double start = guess.IsSure() ? std::abs(guess.value) : q.middle_gain;
+  const GainPrior prior = PriorOfGain(c, guess, q.middle_gain);
+  const double start = guess.IsSure() ? std::abs(guess.value) : prior.middle;
   fit.at.given.sign = guess.IsSure() && guess.value < 0 ? -1 : 1;
   fit.at.given.log_gain =
       model
@@ -93,7 +92,7 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
                     .unit = c.torque_unit + "/(" + std::string(kTorqueUnit.For(c.kind)) + ")",
                     .coordinate = Coordinate::logarithm,
                     .start = std::log(start),
-                    .prior = Normal{std::log(q.middle_gain), kGainSpread},
+                    .prior = Normal{std::log(prior.middle), prior.spread},
                     .largest_step = kGainStep}})
           .begin;
   const Unknown direction = Nuisance(1);
@@ -291,6 +290,28 @@ JointFit Concluded(const JointColumns& c, const JointQuestion& q, JointFit cold,
 }
 
 }  // namespace
+
+void JointColumns::AddDirections(const MatrixXd& of_rigid, const MatrixXd& of_carried) {
+  const auto append = [](const MatrixXd& columns, MatrixXd& directions) {
+    directions.conservativeResize(Eigen::NoChange, directions.cols() + columns.cols());
+    directions.rightCols(columns.cols()) = columns;
+  };
+  append(of_rigid, rigid.directions);
+  append(of_carried, carried.directions);
+}
+
+bool IsTorque(const JointColumns& c) { return c.torque_unit == kTorqueUnit.For(c.kind); }
+
+GainPrior PriorOfGain(const JointColumns& c, const GainGuess& guess, double middle_gain) {
+  if (!IsTorque(c)) return {middle_gain, 1};
+  const auto off = [](double gain, double factor) {
+    return std::abs(std::log(gain)) > std::log(factor);
+  };
+  const double middle = off(middle_gain, kOtherUnit) ? middle_gain : 1;
+  const double own = std::abs(guess.value) / middle;
+  if (guess.IsSure() && off(own, kAlikeGains)) return {middle, 1};
+  return {middle, std::log(kAlikeGains) / kNormal95};
+}
 
 GainGuess GuessGain(const JointColumns& c) {
   // least squares with the description as it is

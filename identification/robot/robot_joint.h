@@ -44,6 +44,8 @@ struct JointColumns {
 
   /// Direction in which friction brakes, through the filter. [N]
   Eigen::VectorXd Direction() const { return forwards - backwards; }
+  /// Further directions in which the given torque may be wrong, unknowns with the prior N(0, 1). of_rigid, of_carried: [N x k]
+  void AddDirections(const Eigen::MatrixXd& of_rigid, const Eigen::MatrixXd& of_carried);
 };
 
 /// The settings of the fit of a joint.
@@ -66,9 +68,27 @@ struct GainGuess {
   bool IsSure() const { return deviations > 5; }
   /// Whether friction drives the joint: the sign of its torque is turned.
   bool IsTurned() const { return braking < -5; }
+  bool Brakes() const { return braking > 5; }
 };
 
 GainGuess GuessGain(const JointColumns& columns);
+
+/// What is known of a joint's gain before its log is fitted: its logarithm is normal.
+struct GainPrior {
+  double middle = 1;
+  double spread = 1;  // deviation of the logarithm
+};
+
+/// A factor between the gains of alike torques: descriptions are wrong by a tenth or two, constants of motors by as much.
+inline constexpr double kAlikeGains = 1.4;
+/// A factor that no description is wrong by: the torque is of another unit, or of another side of a gear.
+inline constexpr double kOtherUnit = 3;
+
+/// In N.m or N a gain is 1, to within kAlikeGains with 95 %, unless the joint's own is sure to be another; in A, where motors are alike and
+/// not equal, it is the robot's middle gain, to within a factor of e.
+GainPrior PriorOfGain(const JointColumns& columns, const GainGuess& guess, double middle_gain);
+/// Whether the torque is in N.m or N.
+bool IsTorque(const JointColumns& columns);
 
 /// The places of the unknowns of a joint's model.
 struct JointPlaces {

@@ -14,6 +14,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Deviation of a log gain from which on the unit says nothing of it (PriorOfGain).
+constexpr double kFreeSpread = 1;
+
 /// The rows of a joint's kept samples at a point, over the noise's standard deviation.
 struct JointSays {
   MatrixXd derivatives;  // [n x m] by the unknowns that the joint has of all
@@ -31,7 +34,9 @@ class SharedSquares {
       for (Index i = 0; i < fit.model.size(); ++i) {
         const bool held = std::ranges::find(fit.solved.at_bound, i) != fit.solved.at_bound.end();
         if (held || (i >= z.begin && i < z.end())) continue;
-        if (i == fit.at.given.log_gain) gains_.push_back(all_.size());
+        if (i == fit.at.given.log_gain && RowOf(fit, i).prior->deviation >= kFreeSpread) {
+          gains_.push_back(all_.size());
+        }
         own.Add(i, all_.Append({RowOf(fit, i)}).begin);
       }
     }
@@ -50,13 +55,22 @@ class SharedSquares {
   /// The place of z in x.
   const Slice& z() const { return z_; }
 
-  /// Each joint's fit, and a description that is right.
+  /// Each joint's fit, and the z that their normal densities have together: the prior of each once.
   VectorXd Start() const {
     VectorXd x = VectorXd::Zero(all_.size());
+    MatrixXd precision = MatrixXd::Identity(z_.size, z_.size);
+    VectorXd product = VectorXd::Zero(z_.size);
     for (std::size_t j = 0; j < fits_.size(); ++j) {
-      x(places_[j].here) = fits_[j].solved.x(places_[j].of_joint);
+      const JointFit& fit = fits_[j];
+      x(places_[j].here) = fit.solved.x(places_[j].of_joint);
+      const MatrixXd h = fit.solved.gram / fit.solved.noise.scale() +
+                         MatrixXd(fit.model.PriorPrecision().asDiagonal());
+      const Slice& own = fit.at.given.z;
+      const MatrixXd of_z = InverseScaled(own.Block(InverseScaled(h)));
+      precision += of_z - MatrixXd::Identity(z_.size, z_.size);
+      product += of_z * own.Of(fit.solved.x);
     }
-    z().In(x).setZero();
+    z().In(x) = SolveScaled(precision, product);
     return x;
   }
 
@@ -111,11 +125,11 @@ class SharedSquares {
 
   /// The rows of the priors: of each joint's own unknowns and, once, of z. The priors of log gains are about their mean.
   RowSums OfPriors(const VectorXd& x) const {
-    const auto n = static_cast<double>(gains_.size());
+    const double n = std::max(static_cast<double>(gains_.size()), 1.0);
     MatrixXd rows = MatrixXd::Identity(x.size(), x.size());
     rows(gains_, gains_).array() -= 1 / n;
     VectorXd off = x - all_.PriorMean();
-    off(gains_) = x(gains_).array() - x(gains_).mean();
+    off(gains_) = x(gains_).array() - x(gains_).sum() / n;
     const VectorXd precision = all_.PriorPrecision();
     const MatrixXd weighed = precision.asDiagonal() * rows;
     return {rows.transpose() * weighed, -weighed.transpose() * off, off.cwiseAbs2().dot(precision)};

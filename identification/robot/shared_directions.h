@@ -18,8 +18,8 @@ struct SharedDirections {
 
 /// The least squares (minimise.h) over the joints' own unknowns and one z for all of them, from the joints' fits on. fits, columns:
 /// [n] of joints whose columns have the same r directions. Weights, priors and the colour of the noise are those of each
-/// joint's fit; the prior of z counts once. The prior of a gain is about the mean of the joints' log gains, so that
-/// the priors of the gains do not determine a common scale of all masses.
+/// joint's fit; the prior of z counts once. Where the unit does not tell the gains, their prior is about the mean of
+/// the joints' log gains, so that it does not determine a common scale of all masses.
 SharedDirections FitShared(const std::vector<JointFit>& fits,
                            const std::vector<JointColumns>& columns);
 

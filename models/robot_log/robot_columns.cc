@@ -99,6 +99,10 @@ std::size_t PlaceOfWords(const std::string& joint, const std::string& column) {
   return at;
 }
 
+/// What a controller asked for, which no friction of the joint is in but that of its own model.
+const Words kAskedFor{"target",  "desired",   "des",  "ref",      "reference", "cmd",
+                      "command", "commanded", "goal", "setpoint", "soll"};
+
 /// By the joints' names, in columns that hold none by their short ones.
 std::vector<Family> NamedFamilies(const Words& names, const Words& joints) {
   std::map<std::string, std::map<std::size_t, std::string>> found;
@@ -261,6 +265,14 @@ RobotColumns FindRobotColumns(const Words& names, const Words& joints, const Col
   found.torque_is_current =
       std::ranges::any_of(words, [](const std::string& word) { return Holds(kCurrents, word); });
   Join(position, torque, joints, found);
+  const auto asked =
+      std::ranges::find_if(words, [](const std::string& word) { return Holds(kAskedFor, word); });
+  if (asked != words.end()) {
+    found.notices.push_back(fmt::format(
+        "'{}' is a commanded torque by its word '{}': its friction is that which the controller "
+        "assumes, and what it corrects; a measured torque or current tells the joint's",
+        torque.columns.front(), *asked));
+  }
   const auto said = map.find("time");
   const auto time = said != map.end() ? std::optional(said->second) : NameOfTime(names);
   for (ColumnTexts& one : found.maps) {

@@ -44,6 +44,41 @@ Eigen::Array<bool, Eigen::Dynamic, 1> OutsideGaps(const Eigen::VectorXd& time,
   return logged;
 }
 
+/// In how many rows a slower clock repeats each value; 1 where none does. A run of equal values is a multiple of it in 19 of 20 cases, where that
+/// of a coarse resolution has any length.
+Index RepeatsOf(const Eigen::VectorXd& x) {
+  constexpr double share = .95;
+  constexpr std::size_t fewest = 20;  // runs
+  std::vector<Index> runs;
+  for (Index i = 1, begin = 0; i < x.size(); ++i) {
+    if (x[i] == x[i - 1]) continue;
+    // the first may have begun before the log
+    if (begin > 0) runs.push_back(i - begin);
+    begin = i;
+  }
+  if (runs.size() < fewest) return 1;
+  std::vector<Index> sorted = runs;
+  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
+  const Index middle = sorted[sorted.size() / 2];
+  const auto fit = std::ranges::count_if(runs, [&](Index run) { return run % middle == 0; });
+  return static_cast<double>(fit) >= share * static_cast<double>(runs.size()) ? middle : 1;
+}
+
+/// A torque that a slower clock repeats, at the rows where it is new.
+void TakeNewValues(Measurements& torque, std::vector<std::string>& notes) {
+  const Index repeats = RepeatsOf(torque.torque);
+  if (repeats < 2) return;
+  std::vector<Index> rows{0};
+  for (Index i = 1; i < torque.torque.size(); ++i) {
+    const bool is_new = torque.torque[i] != torque.torque[i - 1];
+    if (is_new || i - rows.back() >= repeats) rows.push_back(i);
+  }
+  torque.time = Eigen::VectorXd(torque.time(rows));
+  torque.torque = Eigen::VectorXd(torque.torque(rows));
+  notes.push_back(
+      fmt::format("a slower clock repeats each torque in {} rows: taken where it is new", repeats));
+}
+
 bool Is(const ColumnSource& source, std::string_view name) { return source.column->name == name; }
 
 /// One joint in a table.
@@ -189,9 +224,11 @@ RobotLog ReadRobotLog(const std::string& source, FileContent content, const Read
     std::ranges::move(motions.back().notes, std::back_inserter(joint.notes));
     torques.emplace_back();
     try {
-      if (joint.dead.empty())
+      if (joint.dead.empty()) {
         torques.back() =
             AssembleOnClock(WithClockOf(table, std::move(joint.torque)), {}, joint.layout);
+        TakeNewValues(torques.back(), joint.notes);
+      }
     } catch (const BadInput& refusal) {
       joint.dead = refusal.what();
     }

@@ -147,6 +147,7 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
   }
   Note(servos, "--armature changes their kv, which follows from dampratio", notices);
   if (options.integrator) spec.option.integrator = *options.integrator;
+  if (options.gravity) std::ranges::copy(*options.gravity, spec.option.gravity);
   if (!options.timestep) return;
   if (!(std::isfinite(*options.timestep) && *options.timestep > 0)) {
     Refuse({"--timestep"}, "is {}; it must be above 0, s", *options.timestep);

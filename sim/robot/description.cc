@@ -112,7 +112,7 @@ int CarrierOf(const mjModel& m, const std::vector<ModelJoint>& joints, int body)
   return 0;
 }
 
-/// Mass, first and second moments of a body in the axes of its carrier, with all joints at 0.
+/// Mass, first and second moments of a body in the axes of its carrier, where the joints between stand.
 InertialParameters ParametersIn(const mjModel& m, const mjData& d, int body, int carrier) {
   const Matrix3d to = Eigen::Map<const RowMatrix3d>(d.xmat + 9 * carrier).transpose();
   const Matrix3d axes = to * Eigen::Map<const RowMatrix3d>(d.ximat + 9 * body);
@@ -142,8 +142,11 @@ InertialParameters SpreadOf(const InertialParameters& p) {
   return spread.array() + 1e-9;
 }
 
-std::vector<RobotLink> LinksOf(const mjModel& m, const std::vector<ModelJoint>& joints) {
+/// rest: [nq] where all joints stand
+std::vector<RobotLink> LinksOf(const mjModel& m, const std::vector<ModelJoint>& joints,
+                               const std::vector<double>& rest) {
   const DataPtr data(mj_makeData(&m));
+  std::ranges::copy(rest, data->qpos);
   mj_kinematics(&m, data.get());
   std::vector<RobotLink> links;
   for (int body = 1; body < m.nbody; ++body) {
@@ -223,18 +226,30 @@ ReadModel ReadRobotModel(const std::filesystem::path& file) {
   return read;
 }
 
-RobotDescription DescribeRobot(ReadModel read, const std::vector<std::string>& joints) {
-  RobotDescription robot{read.name, nullptr, {}, {}, read.notices};
+RobotDescription DescribeRobot(ReadModel read, const std::vector<std::string>& joints,
+                               const std::map<std::string, double>& at) {
+  RobotDescription robot{.name = read.name, .notices = read.notices};
   std::vector<std::string> still = read.joints;
   for (const std::string& name : joints) {
     robot.joints.push_back(FindModelJoint(read, name));
     std::erase(still, name);
   }
-  if (!still.empty()) {
-    robot.notices.push_back(fmt::format(
-        "joints that the log does not hold, taken to stand still at 0: {}", ExcerptOfList(still)));
+  robot.rest.assign(read.model->qpos0, read.model->qpos0 + read.model->nq);
+  for (const auto& [name, place] : at) {
+    const ModelJoint joint = FindModelJoint(read, name);
+    if (std::erase(still, name) == 0) {
+      Refuse({"--at"}, "'{}' is in the log, which says where it stands; leave it out",
+             Excerpt(name));
+    }
+    robot.rest[static_cast<std::size_t>(joint.qpos)] = place;
   }
-  robot.links = LinksOf(*read.model, robot.joints);
+  if (!still.empty()) {
+    robot.notices.push_back(
+        fmt::format("joints that the log does not hold, taken to stand still at 0: {} (--at {}=.5 "
+                    "says where one stands, rad or m)",
+                    ExcerptOfList(still), still.front()));
+  }
+  robot.links = LinksOf(*read.model, robot.joints, robot.rest);
   robot.model = std::move(read.model);
   return robot;
 }

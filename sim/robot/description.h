@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,11 +38,12 @@ struct RobotLink {
 };
 
 struct RobotDescription {
-  std::string name;                      // of the file, in messages
-  std::shared_ptr<const mjModel> model;  // in which nothing acts but gravity and inertia
-  std::vector<ModelJoint> joints;        // [n] in the order of the log
-  std::vector<RobotLink> links;          // from the base outwards
-  std::vector<std::string> notices;      // what was mended or left out, one sentence each
+  std::string name;                        // of the file, in messages
+  std::shared_ptr<const mjModel> model{};  // in which nothing acts but gravity and inertia
+  std::vector<ModelJoint> joints{};        // [n] in the order of the log
+  std::vector<RobotLink> links{};          // from the base outwards
+  std::vector<double> rest{};          // [nq] of the model, where joints that were not logged stand
+  std::vector<std::string> notices{};  // what was mended or left out, one sentence each
 
   /// Whether the joint moves the link.
   bool Moves(const ModelJoint& joint, const RobotLink& link) const;
@@ -63,8 +65,9 @@ struct ReadModel {
 /// friction loss, armature, springs and gravity compensation are taken out, with a notice. Throws BadInput.
 ReadModel ReadRobotModel(const std::filesystem::path& file);
 
-/// The robot whose `joints` were logged, in that order; the others stand still at their zero, and what they carry is merged with
-/// what carries them. Throws BadInput for a name that the model lacks.
-RobotDescription DescribeRobot(ReadModel read, const std::vector<std::string>& joints);
+/// The robot whose `joints` were logged, in that order; the others stand still, those of `at` where that says (rad or m), the rest at 0, and what
+/// they carry is merged with what carries them. Throws BadInput for a name that the model lacks, and for a logged joint in `at`.
+RobotDescription DescribeRobot(ReadModel read, const std::vector<std::string>& joints,
+                               const std::map<std::string, double>& at = {});
 
 }  // namespace warmjoint

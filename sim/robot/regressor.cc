@@ -46,6 +46,7 @@ RobotMotion::RobotMotion(const RobotDescription& robot, const Eigen::MatrixXd& q
   const auto run = [&](Index first, Index last) {
     const DataPtr data(mj_makeData(&m));
     mjData& d = *data;
+    std::ranges::copy(robot.rest, d.qpos);
     for (Index i = first; i < last; ++i) {
       const auto set = [&](mjtNum* values, const Eigen::MatrixXd& given, auto place) {
         for (std::size_t j = 0; j < robot.joints.size(); ++j) {
@@ -105,9 +106,10 @@ void RobotMotion::Record(const mjModel& m, const mjData& d, Index sample, Accele
   }
 }
 
-Eigen::MatrixXd RobotMotion::Regressor(const Eigen::VectorXd& weights, Accelerations which) const {
+/// row: of a link by its numbers, its axes, and the turn and shift of the joints' axes there
+template <typename Row>
+Eigen::MatrixXd RobotMotion::RowsOf(const Eigen::VectorXd& weights, const Row& row_of) const {
   const Index l = std::ssize(robot_.links);
-  const bool counted = which == Accelerations::counted;
   Eigen::MatrixXd regressor = Eigen::MatrixXd::Zero(samples_, 10 * l);
   for (Index k = 0; k < l; ++k) {
     // the joints that move this link
@@ -126,13 +128,28 @@ Eigen::MatrixXd RobotMotion::Regressor(const Eigen::VectorXd& weights, Accelerat
       const Vector3d turn = axes.transpose() * axis.head<3>();
       const Vector3d shift =
           axes.transpose() * (axis.tail<3>() + Vector3d(axis.head<3>()).cross(At(row + 9)));
-      regressor.block<1, 10>(i, 10 * k) =
-          PowerRow(turn, shift, At(row + 12), At(row + (counted ? 15 : 21)),
-                   At(row + (counted ? 18 : 24)))
-              .transpose();
+      regressor.block<1, 10>(i, 10 * k) = row_of(row, axes, turn, shift).transpose();
     }
   }
   return regressor;
+}
+
+Eigen::MatrixXd RobotMotion::Regressor(const Eigen::VectorXd& weights, Accelerations which) const {
+  const bool counted = which == Accelerations::counted;
+  return RowsOf(weights,
+                [&](const double* row, const auto&, const Vector3d& turn, const Vector3d& shift) {
+                  return PowerRow(turn, shift, At(row + 12), At(row + (counted ? 15 : 21)),
+                                  At(row + (counted ? 18 : 24)));
+                });
+}
+
+Eigen::MatrixXd RobotMotion::GravityRegressor(const Eigen::VectorXd& weights,
+                                              const Vector3d& gravity) const {
+  return RowsOf(
+      weights, [&](const double*, const auto& axes, const Vector3d& turn, const Vector3d& shift) {
+        const Vector3d still = Vector3d::Zero();
+        return PowerRow(turn, shift, still, still, Vector3d(-(axes.transpose() * gravity)));
+      });
 }
 
 Eigen::MatrixXd RobotMotion::Regressor(Index joint, Accelerations which) const {

@@ -25,6 +25,9 @@ class RobotMotion {
   /// times `weights` [n], as a motor has it that drives several. Equal to mj_inverse of a model in which nothing else acts.
   /// Returns [N x 10 L], N.m or N for each unit of phi.
   Eigen::MatrixXd Regressor(const Eigen::VectorXd& weights, Accelerations which) const;
+  /// What a gravity by itself adds to it, at rest. gravity: m/s^2, in the world's axes. [N x 10 L]
+  Eigen::MatrixXd GravityRegressor(const Eigen::VectorXd& weights,
+                                   const Eigen::Vector3d& gravity) const;
   /// The same of one joint.
   Eigen::MatrixXd Regressor(Eigen::Index joint, Accelerations which) const;
 
@@ -34,8 +37,10 @@ class RobotMotion {
   static constexpr Eigen::Index kOfLink = 27;
 
   void Record(const mjModel& m, const mjData& d, Eigen::Index sample, Accelerations which);
+  template <typename Row>
+  Eigen::MatrixXd RowsOf(const Eigen::VectorXd& weights, const Row& row) const;
 
-  const RobotDescription& robot_;
+  RobotDescription robot_;
   Eigen::Index samples_ = 0;
   Eigen::MatrixXd links_;   // [kOfLink L x N]
   Eigen::MatrixXd joints_;  // [6 n x N] cdof

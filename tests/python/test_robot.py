@@ -130,9 +130,105 @@ def test_swapped_columns_and_a_turned_position_are_named(wrong, log):
     assert "position of elbow is turned" in wj.identify_robot(wrong, turned)["elbow"].message
 
 
-def test_a_turned_torque_is_named_and_fitted(wrong, log):
+def torque_of(gravity, log):
+    """The log's torques with another gravity in them."""
+    model = mujoco.MjModel.from_xml_string(ARM)
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    data, change = mujoco.MjData(model), np.zeros_like(log["position"])
+    for sign, one in ((-1, (0, 0, -9.81)), (1, gravity)):
+        model.opt.gravity = one
+        for i, q in enumerate(log["position"]):
+            data.qpos[:] = q
+            mujoco.mj_inverse(model, data)
+            change[i] += sign * data.qfrc_inverse
+    return log["torque"] + change
+
+
+def assert_true(robot):
+    for j, (name, estimate) in enumerate(robot.items()):
+        assert estimate.ok, f"{name}: {estimate.message}"
+        one = estimate["coulomb"]
+        assert abs(one.value - (UP[j] + DOWN[j]) / 2) < 4 * one.std, name
+
+
+@pytest.mark.parametrize("gravity", [(9.81, 0, 0), (0, 0, 9.81), (2.54, 0, -9.48)])
+def test_a_base_that_is_tilted_is_found_and_said(wrong, log, gravity):
+    robot = wj.identify_robot(wrong, log | {"torque": torque_of(gravity, log)})
+    assert_true(robot)
+    found = robot.data["gravity"]
+    # in the plane in which both joints swing
+    off = [(found["value"][k] - gravity[k]) / found["std"][k] for k in (0, 2) if found["std"][k] > 1e-3]
+    assert np.max(np.abs(off)) < 4
+    said = wj.identify_robot(wrong, log | {"torque": torque_of(gravity, log)}, gravity=gravity)
+    assert_true(said)
+    assert said.data["gravity"] is None
+
+
+def test_gravity_that_was_taken_off_is_said_and_no_load_is_named(wrong, log):
+    robot = wj.identify_robot(wrong, log | {"torque": torque_of((0, 0, 0), log)})
+    assert robot.data["gravity_taken_off"]
+    assert robot.data["payload"] is None
+    assert_true(robot)
+
+
+def test_torques_that_come_late_are_fitted_with_their_delay(wrong, log):
+    late = 3  # samples of 10 ms
+    robot = wj.identify_robot(wrong, log | {"torque": np.roll(log["torque"], late, axis=0)})
+    delay = robot.data["delay"]
+    assert abs(delay["value"] - .01 * late) < 4 * delay["std"]
+    assert_true(robot)
+    assert wj.identify_robot(wrong, log).data["delay"] is None
+
+
+def test_torques_of_the_motors_side_are_refused_by_their_gain(wrong, log):
+    robot = wj.identify_robot(wrong, log | {"torque": log["torque"] / 100})
+    assert not any(estimate.ok for estimate in robot.values())
+    one = wj.identify_robot(wrong, log | {"torque": log["torque"] / [100, 1, 1]})
+    assert not one["shoulder"].ok
+    assert "scale shoulder.torque=" in one["shoulder"].message
+    assert one["elbow"].ok
+    # the description may be as wrong as that
+    assert wj.identify_robot(wrong, log | {"torque": log["torque"] / 100}, inertials=1)["elbow"].ok
+
+
+def test_all_torques_turned_are_one_sentence(wrong, log):
     robot = wj.identify_robot(wrong, log | {"torque": -log["torque"]})
-    assert len([one for one in robot.notices if "sign is taken to be turned" in one]) == 3
+    assert len([one for one in robot.notices if "turned" in one]) == 1
+    assert_true(robot)
+
+
+def test_a_zero_that_is_off_is_named_and_undone(wrong, log):
+    off = log | {"position": log["position"] + [0, np.pi / 2, 0]}
+    refused = wj.identify_robot(wrong, off)
+    assert not any(estimate.ok for estimate in refused.values())
+    assert "zero elbow=1.5" in refused["elbow"].message
+    assert_true(wj.identify_robot(wrong, off, zero={"elbow": np.pi / 2}))
+
+
+def test_a_joint_that_the_log_lacks_stands_where_it_is_said():
+    # the wrist's frame is held 1 rad off by a joint that was not logged
+    bent = ARM.replace('<body name="b" pos="0 0 .4">', '<body name="m" pos="0 0 .1"><joint name="held" axis="0 1 0"/><inertial pos="0 0 .1" mass="2" '
+                       'diaginertia=".02 .02 .01"/><body name="b" pos="0 0 .3">').replace("</body></body></body></worldbody>", "</body></body></body></body></worldbody>")
+    model = mujoco.MjModel.from_xml_string(bent)
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    arm = mujoco.MjModel.from_xml_string(ARM)
+    source = log_of(arm)
+    data, torque = mujoco.MjData(model), np.empty_like(source["position"])
+    v = np.gradient(source["position"], source["time"], axis=0)
+    a = np.gradient(v, source["time"], axis=0)
+    for i, q in enumerate(source["position"]):
+        data.qpos[:], data.qvel[:], data.qacc[:] = [q[0], 1, *q[1:]], [v[i, 0], 0, *v[i, 1:]], [a[i, 0], 0, *a[i, 1:]]
+        mujoco.mj_inverse(model, data)
+        torque[i] = data.qfrc_inverse[[0, 2, 3]]
+    friction = VISCOUS * v + UP * (v > 0) - DOWN * (v < 0)
+    table = source | {"torque": torque + friction + .1 * np.random.default_rng(5).standard_normal(v.shape)}
+    robot = wj.identify_robot(model, table, joints=["shoulder", "elbow", "wrist"], at={"held": 1})
+    assert_true(robot)
+
+
+def test_a_turned_torque_is_named_and_fitted(wrong, log):
+    robot = wj.identify_robot(wrong, log | {"torque": log["torque"] * [1, -1, 1]})
+    assert len([one for one in robot.notices if "sign is taken to be turned" in one]) == 1
     assert robot["elbow"]["viscous"].value == pytest.approx(2, rel=.1)
 
 

@@ -131,6 +131,11 @@ void AddRobotReading(CLI::App& parser, ReadSettings& read, RobotSettings& settin
            [&settings](const char* option, const std::string& key, const std::string& value) {
              TakeScale(key, NumberIn(option, key, value), settings);
            });
+  AddPairs(parser, "--zero", "JOINT=NUMBER",
+           "what the log reads where the description is at 0, rad or m: J4=1.5708",
+           [&settings](const char* option, const std::string& key, const std::string& value) {
+             settings.zero[key] = NumberIn(option, key, value);
+           });
   AddPairs(parser, "--columns", "NAMES", "names of all columns of a text file without a header",
            [&read](const char*, const std::string&, const std::string& value) {
              read.columns.push_back(value);
@@ -181,6 +186,25 @@ void AddKnownRobot(CLI::App& parser, RobotSettings& settings) {
           "a load at the last link that the description lacks: mass=KG,com=X,Y,Z in its axes, or "
           "unknown")
       ->type_name("TEXT");
+  parser
+      .add_option_function<std::string>(
+          "--gravity",
+          [&settings](const std::string& text) {
+            settings.gravity.clear();
+            for (const std::string& part : SplitAtCommas(text)) {
+              settings.gravity.push_back(NumberIn("--gravity", "X,Y,Z", part));
+            }
+            if (settings.gravity.size() == 3) return;
+            Refuse({"--gravity"}, "'{}' has {} numbers; it must be X,Y,Z, as 0,0,-9.81",
+                   Excerpt(text), settings.gravity.size());
+          },
+          "m/s^2 in the description's axes, of a base that does not stand as described: X,Y,Z")
+      ->type_name("TEXT");
+  AddPairs(parser, "--at", "JOINT=NUMBER",
+           "where a joint stands that the log does not hold, rad or m: waist=.5",
+           [&settings](const char* option, const std::string& key, const std::string& value) {
+             settings.at[key] = NumberIn(option, key, value);
+           });
   AddValue(parser, "--coupling", "TEXT", settings.coupling,
            "a motor that turns with several joints, as J6=J5+J6")
       ->take_all();

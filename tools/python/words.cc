@@ -54,6 +54,8 @@ constexpr std::array kSpellings = std::to_array<Spelling>({
     {"inertials", "inertials", Behind::number},
     {"coupling", "coupling", Behind::number},
     {"tool", "tool", Behind::number},
+    {"zero", "zero", Behind::pairs},
+    {"at", "at", Behind::pairs},
     // of predict and attach
     {"initial", "initial", Behind::word, " cold end "},
     {"armature", "armatures", Behind::pairs},

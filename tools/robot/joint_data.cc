@@ -81,6 +81,8 @@ RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
     const RobotSamples& s = rows.samples.back();
     rows.motions.emplace_back(data.robot, s.joint_position, s.joint_velocity, s.joint_acceleration);
   }
+  const Eigen::Vector3d gravity = Eigen::Map<const Eigen::Vector3d>(data.robot.model->opt.gravity);
+  rows.gravity = {gravity, gravity, gravity, MatrixXd(3, 0)};
   rows.parameters = data.robot.Parameters();
   rows.deviations = settings.inertials * SpreadOf(data.robot);
   if (settings.tool.known == ToolKnown::given) {
@@ -88,6 +90,47 @@ RobotRows MakeRows(const RobotData& data, const RobotSettings& settings) {
         PointMass(settings.tool.mass, settings.tool.centre);
   }
   return rows;
+}
+
+RobotRows Thinned(const RobotData& data, const RobotRows& rows, Index most) {
+  RobotRows thinned;
+  thinned.gravity = rows.gravity;
+  thinned.parameters = rows.parameters;
+  thinned.deviations = rows.deviations;
+  for (const RobotSamples& s : rows.samples) {
+    const Index every = std::max<Index>(1, s.time.size() / most);
+    const auto thin = Eigen::seq(0, s.time.size() - 1, every);
+    RobotSamples t;
+    t.step = s.step * static_cast<double>(every);
+    t.time = s.time(thin);
+    for (const auto column :
+         {&RobotSamples::joint_position, &RobotSamples::joint_velocity,
+          &RobotSamples::joint_acceleration, &RobotSamples::position, &RobotSamples::velocity,
+          &RobotSamples::acceleration, &RobotSamples::torque, &RobotSamples::sign,
+          &RobotSamples::forwards, &RobotSamples::backwards, &RobotSamples::slow}) {
+      t.*column = (s.*column)(thin, Eigen::all);
+    }
+    t.keep = s.keep(thin, Eigen::all);
+    t.top = s.top;
+    t.travel = s.travel;
+    t.ripple.assign(s.ripple.size(), MatrixXd(t.time.size(), 0));
+    thinned.motions.emplace_back(data.robot, t.joint_position, t.joint_velocity,
+                                 t.joint_acceleration);
+    thinned.samples.push_back(std::move(t));
+  }
+  return thinned;
+}
+
+MatrixXd GravityColumns(const RobotData& data, const RobotRows& rows, Index j) {
+  const VectorXd weights = data.coupling.inverse().col(j);
+  return Stacked(rows, [&](std::size_t i) -> MatrixXd {
+    MatrixXd columns(rows.motions[i].size(), 3);
+    for (const Index axis : {0, 1, 2}) {
+      columns.col(axis) =
+          rows.motions[i].GravityRegressor(weights, Eigen::Vector3d::Unit(axis)) * rows.parameters;
+    }
+    return columns;
+  });
 }
 
 JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
@@ -129,16 +172,27 @@ JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
 
   // torque of the motor, of the joints that it drives, by the description and by what that may have wrong
   const VectorXd weights = data.coupling.inverse().col(j);
-  const auto regressor = [&](Accelerations which) {
-    return Stacked(rows, [&](std::size_t i) { return rows.motions[i].Regressor(weights, which); });
+  const auto regressor = [&](Accelerations which, const Eigen::Vector3d& gravity) {
+    const Eigen::Vector3d change = gravity - rows.gravity.described;
+    return Stacked(rows, [&](std::size_t i) -> MatrixXd {
+      MatrixXd of_log = rows.motions[i].Regressor(weights, which);
+      if (!change.isZero(0)) of_log += rows.motions[i].GravityRegressor(weights, change);
+      return of_log;
+    });
   };
-  const MatrixXd y = regressor(Accelerations::counted), still = regressor(Accelerations::left_out);
+  const MatrixXd y = regressor(Accelerations::counted, rows.gravity.in_torque),
+                 still = regressor(Accelerations::left_out, rows.gravity.at_joints);
   MatrixXd basis = rows.deviations;
   if (directions == Directions::seen) {
     basis *= DirectionsSeen(y * basis, VectorXd::Ones(basis.cols())).basis;
   }
   c.rigid = {y * rows.parameters, y * basis};
   c.carried = {still * rows.parameters, still * basis};
+  if (rows.gravity.open.cols() > 0) {
+    // what is not known of gravity, for all joints the same
+    const MatrixXd open = GravityColumns(data, rows, j) * rows.gravity.open;
+    c.AddDirections(open, open);
+  }
   c.described = rows.parameters;
   c.basis = std::move(basis);
   return c;

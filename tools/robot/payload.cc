@@ -28,39 +28,6 @@ constexpr double kHeldOut = .4;
 constexpr Index kMostRows =
     5000;  // why: inertials are told by the poses, of which a log has far fewer
 
-/// Every so manieth sample, for fits without heat.
-RobotRows Thinned(const RobotData& data, const RobotRows& rows) {
-  RobotRows thinned;
-  thinned.parameters = rows.parameters;
-  thinned.deviations = rows.deviations;
-  for (const RobotSamples& s : rows.samples) {
-    const Index every = std::max<Index>(1, s.time.size() / kMostRows);
-    const auto thin = Eigen::seq(0, s.time.size() - 1, every);
-    RobotSamples t;
-    t.step = s.step * static_cast<double>(every);
-    t.time = s.time(thin);
-    for (const auto column :
-         {&RobotSamples::joint_position, &RobotSamples::joint_velocity,
-          &RobotSamples::joint_acceleration, &RobotSamples::position, &RobotSamples::velocity,
-          &RobotSamples::acceleration, &RobotSamples::torque, &RobotSamples::sign,
-          &RobotSamples::forwards, &RobotSamples::backwards, &RobotSamples::slow}) {
-      t.*column = (s.*column)(thin, Eigen::all);
-    }
-    t.keep = s.keep(thin, Eigen::all);
-    t.top = s.top;
-    t.travel = s.travel;
-    t.ripple.assign(s.ripple.size(), MatrixXd(t.time.size(), 0));
-    thinned.motions.emplace_back(data.robot, t.joint_position, t.joint_velocity,
-                                 t.joint_acceleration);
-    thinned.samples.push_back(std::move(t));
-  }
-  return thinned;
-}
-
-}  // namespace
-
-namespace {
-
 using LinkMatrix = Eigen::Matrix<double, 10, 10>;
 
 /// Deviations of a load at the last link, about none: a fifth of all that moves, within a fifth of the reach.
@@ -80,20 +47,36 @@ InertialParameters LoadSpread(const RobotDescription& robot) {
 
 }  // namespace
 
+namespace {
+
+/// How much of a joint's rigid torque its directions leave open, as a share.
 double OpenShare(const JointColumns& columns) {
   return columns.rigid.directions.norm() / columns.rigid.force.norm();
 }
 
-LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<double>& open) {
+}  // namespace
+
+LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses,
+                           const std::vector<const JointColumns*>& free) {
   LoadedGains loaded{std::move(guesses), 1};
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < open.size(); ++j) {
+  for (std::size_t j = 0; j < free.size(); ++j) {
     const GainGuess& guess = loaded.guesses[j];
-    if (!guess.IsSure() || !(open[j] < least)) continue;
-    least = open[j];
+    const double open = OpenShare(*free[j]);
+    if (IsTorque(*free[j]) || !guess.IsSure() || !(open < least)) continue;
+    least = open;
     loaded.middle = std::abs(guess.value);
   }
-  for (GainGuess& one : loaded.guesses) one.value = std::copysign(loaded.middle, one.value);
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    double& value = loaded.guesses[j].value;
+    if (!IsTorque(*free[j])) {
+      value = std::copysign(loaded.middle, value);
+      continue;
+    }
+    // an axis that is turned against the description has a gain of about -1; what is farther off is the load's
+    const bool is_turned = value < 0 && std::abs(std::log(-value)) < std::log(kAlikeGains);
+    value = is_turned ? -1 : 1;
+  }
   return loaded;
 }
 
@@ -162,25 +145,29 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     JointQuestion question, ToolKnown tool) {
   question.warms = question.slows = false;
   question.fields = {};
-  const RobotRows as_given = Thinned(data, rows);
+  const RobotRows as_given = Thinned(data, rows, kMostRows);
   RobotRows free = as_given;
   free.deviations = FreeLastLink(data, rows.deviations);
   std::vector<JointColumns> columns(joints.size());
-  std::vector<double> open(joints.size());
   std::vector<GainGuess> own;
   for (const Index j : joints) own.push_back(guesses[static_cast<std::size_t>(j)]);
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
     columns[at] = ColumnsOf(data, free, joints[at]);
-    open[at] = OpenShare(columns[at]);
   });
-  const LoadedGains gains = GainsUnderLoad(own, open);
+  std::vector<const JointColumns*> of_joints;
+  for (const JointColumns& one : columns) of_joints.push_back(&one);
+  const LoadedGains gains = GainsUnderLoad(own, of_joints);
   JointQuestion under_load = question;
   under_load.middle_gain = gains.middle;
   std::vector<std::optional<double>> falls(joints.size());
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
-    const auto before = HeldOut(ColumnsOf(data, as_given, joints[at]), own[at], question);
+    // where the unit tells the gain, it cannot stand for the load
+    const bool is_told = IsTorque(columns[at]);
+    const auto before =
+        HeldOut(ColumnsOf(data, as_given, joints[at]), is_told ? gains.guesses[at] : own[at],
+                is_told ? under_load : question);
     const auto after = HeldOut(columns[at], gains.guesses[at], under_load);
     if (before && after) falls[at] = *after / *before;
   });
@@ -198,6 +185,9 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     const SharedDirections shared = SharedOf(data, free, gains.guesses, joints, under_load);
     payload.mass = MassOf(data, rows.deviations, free.deviations, shared);
   }
+  // what lifts the robot, or may be nothing, is another error of the description
+  payload.is_shown = payload.is_shown && (*payload.mass->interval95)[0] > 0;
+  if (!payload.is_shown && tool != ToolKnown::unknown) payload.mass.reset();
   return payload;
 }
 
@@ -208,7 +198,7 @@ std::string ExplainPayload(const Payload& payload, ToolKnown tool) {
       "{:.2g}): with that link free a joint's held-out residual falls to {:.0f} %",
       payload.mass->value, lower, upper, 100 * payload.falls);
   if (tool == ToolKnown::unknown) return text;
-  return text + ". --tool unknown takes it in, --tool mass=..,com=.. where it is known";
+  return text + ". The fits take it in; --tool mass=..,com=.. says what it is, where that is known";
 }
 
 }  // namespace warmjoint

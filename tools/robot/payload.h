@@ -25,18 +25,17 @@ struct LoadedGains {
   double middle = 1;
 };
 
-/// How much of a joint's rigid torque its directions leave open, as a share.
-double OpenShare(const JointColumns& columns);
-
-/// A load that the description lacks spoils the gains of joints that carry little else, those of wrists. All begin at the gain of the joint, of those that are
-/// sure, whose torque the free last link leaves least open. guesses: [n]; open: [n] OpenShare of the same joints with the last link free.
-LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses, const std::vector<double>& open);
+/// A load that the description lacks spoils the gains of joints that carry little else, those of wrists. In N.m or N all begin at 1; in A at the gain
+/// of the joint, of those that are sure, whose torque the free last link leaves least open. guesses: [n]; free: [n] columns of the same joints with the
+/// last link free.
+LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses,
+                           const std::vector<const JointColumns*>& free);
 
 /// The prior with a last link that may carry a load: a fifth of all that moves, within a fifth of the reach. [10 L x 10 L]
 Eigen::MatrixXd FreeLastLink(const RobotData& data, const Eigen::MatrixXd& deviations);
 
 /// Fits each joint with and without a free last link, and compares them on held-out samples: a load is shown where the residual of one joint falls
-/// by a third, and the product of all joints' as well. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too;
+/// by a third, the product of all joints' as well, and its mass is above 0 with the whole interval. Its mass is what all joints say together (FitShared), with a description that may be wrong elsewhere too;
 /// it is computed where a load is shown or `tool` is unknown. guesses: [n] gains; question: as of the joints' fits. joints: those that have a fit.
 Payload FindPayload(const RobotData& data, const RobotRows& rows,
                     const std::vector<GainGuess>& guesses, const std::vector<Eigen::Index>& joints,

@@ -103,6 +103,7 @@ void TakeOptions(const RobotSettings& settings, RobotData& data) {
     for (RobotLog& log : data.logs) {
       log.torque.col(j) *= factor;
       log.position.col(j) *= NumberOf(settings.position_scale, joint.name, 1);
+      log.position.col(j).array() -= NumberOf(settings.zero, joint.name, 0);
     }
     const bool is_torque = constant != 0 || unit == "N.m" || unit == "N" || unit.empty();
     data.torque_units.push_back(is_torque ? std::string(kTorqueUnit.For(joint.kind)) : unit);
@@ -126,7 +127,8 @@ void CheckSettings(const RobotSettings& settings) {
   constexpr double most_factor =
       1e9;                           // why: from a unit to one of a thousand millionth, either way
   constexpr double most_mass = 1e6;  // kg; why: a thousand times what any robot carries
-  constexpr double most_length = 1e3;  // m; why: the same
+  constexpr double most_length = 1e3;   // m; why: the same
+  constexpr double most_gravity = 300;  // m/s^2; why: more than on any planet
   std::set<std::string> known;
   for (const std::string& joint : settings.joints) {
     if (known.insert(joint).second) continue;
@@ -136,6 +138,13 @@ void CheckSettings(const RobotSettings& settings) {
   CheckRange(settings.torque_constant, "--torque-constant", 1 / most_factor, most_factor);
   CheckRange(settings.torque_scale, "--scale of the torque", 1 / most_factor, most_factor);
   CheckRange(settings.position_scale, "--scale of the position", 1 / most_factor, most_factor);
+  CheckRange(settings.zero, "--zero", 0, most_length);
+  CheckRange(settings.at, "--at", 0, most_length);
+  for (const double one : settings.gravity) {
+    if (std::abs(one) <= most_gravity) continue;
+    Refuse({"--gravity"}, "has {}; it must be from -{:g} to {:g} m/s^2", one, most_gravity,
+           most_gravity);
+  }
   const RobotTool& tool = settings.tool;
   if (!(tool.mass >= 0 && tool.mass <= most_mass)) {
     Refuse({"--tool"}, "mass is {}; it must be from 0 to {:g} kg", tool.mass, most_mass);
@@ -222,17 +231,19 @@ RobotData ReadRobotData(const std::filesystem::path& robot, const RobotSource& s
   Tables tables = ReadTables(source, joints);
   const RobotColumns& columns = tables.columns;
   ReadSettings read = source.read;
-  RobotData data{.robot = DescribeRobot(std::move(model), columns.joints),
+  if (!settings.gravity.empty()) std::ranges::copy(settings.gravity, model.model->opt.gravity);
+  RobotData data{.robot = DescribeRobot(std::move(model), columns.joints, settings.at),
                  .logs = {},
                  .torque_units = {},
                  .coupling = {},
                  .notices = columns.notices};
   data.notices.insert(data.notices.begin(), data.robot.notices.begin(), data.robot.notices.end());
   data.coupling = ReadCoupling(settings.coupling, data.robot.joints);
-  for (const auto& [numbers, option] : {std::pair(&settings.gear, "--gear"),
-                                        std::pair(&settings.torque_constant, "--torque-constant"),
-                                        std::pair(&settings.torque_scale, "--scale"),
-                                        std::pair(&settings.position_scale, "--scale")}) {
+  for (const auto& [numbers, option] :
+       {std::pair(&settings.gear, "--gear"),
+        std::pair(&settings.torque_constant, "--torque-constant"),
+        std::pair(&settings.torque_scale, "--scale"),
+        std::pair(&settings.position_scale, "--scale"), std::pair(&settings.zero, "--zero")}) {
     CheckNames(*numbers, option, data.robot);
   }
   if (columns.torque_is_current && !read.unit.contains("torque")) {

@@ -96,6 +96,10 @@ AttachedText WarmModel(const std::filesystem::path& robot, const RobotEstimate& 
     if (rotor && rotor->value > 0)
       options.armatures.push_back({summary.joint, rotor->value / gain});
   }
+  if (estimate.gravity) {
+    options.gravity.emplace();
+    std::ranges::copy(estimate.gravity->value, options.gravity->begin());
+  }
   if (frictions.empty()) Refuse({"--mjcf"}, "no joint has a friction that MuJoCo can use");
   AttachedText made = AttachFrictionAsText(robot, frictions, out, options);
   std::vector<std::string>& notices = made.attached.notices;

@@ -67,6 +67,17 @@ struct RobotJointEstimate {
   bool HasFriction() const { return estimate.friction && estimate.friction->torque_unit.empty(); }
 };
 
+/// Gravity of a base that does not stand as the description says, m/s^2 in the description's axes.
+struct BaseGravity {
+  std::vector<double> value{}, std{};  // [3]
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("value", &value, {.unit = "m/s^2", .meaning = "in the axes of the description"});
+    a->Field("std", &std, {.unit = "m/s^2"});
+  }
+};
+
 /// The result of identify-robot.
 struct RobotEstimate {
   std::string robot;                       // file of the description
@@ -75,13 +86,17 @@ struct RobotEstimate {
   std::vector<std::string> notices;        // one sentence each
   /// Mass of the load at the last link that the description lacks, kg; where one is shown or asked for.
   std::optional<EstimatedParameter> payload{};
+  std::optional<BaseGravity> gravity{};  // where the base does not stand as the description says
+  bool gravity_taken_off = false;        // by a controller, before the torques were logged
+  /// s by which all torques come after the positions; where the log shows one.
+  std::optional<EstimatedParameter> delay{};
 
   /// The joint of that name, or nullptr.
   const RobotJointEstimate* Find(std::string_view joint) const;
 };
 
-/// {joints{NAME: an estimate}, summary{NAME: ...}, robot, log, notices[], payload: null or {value, unit, std, interval95}}, and the
-/// inverse. Throws BadInput.
+/// {joints{NAME: an estimate}, summary{NAME: ...}, robot, log, notices[], payload and delay: null or {value, unit, std, interval95},
+/// gravity: null or {value[3], std[3]}, gravity_taken_off}, and the inverse. Throws BadInput.
 std::string RobotEstimateToJson(const RobotEstimate& robot,
                                 const std::filesystem::path& target = {});
 RobotEstimate ReadRobotEstimate(const std::filesystem::path& file);

@@ -63,8 +63,9 @@ struct AttachOptions {
   std::vector<ArmatureForJoints> armatures{};
   std::optional<mjtIntegrator> integrator{};
   IntegratorChoice integrator_choice = IntegratorChoice::model;
-  std::optional<double> timestep{};  // s
-  PackageFolders packages{};         // of a URDF's meshes
+  std::optional<double> timestep{};                // s
+  std::optional<std::array<double, 3>> gravity{};  // m/s^2; none: the model's
+  PackageFolders packages{};                       // of a URDF's meshes
   /// A sensor "JOINT_friction" for each joint: force on it (N.m or N), heat E (N.m or N), rise of its
   /// temperature (K), loss (W), 1 held or 0 sliding.
   bool sensors = false;

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "identification/robot/common_columns.h"
 #include "identification/robot/report_joint.h"
 #include "identification/robot/shared_directions.h"
 
@@ -162,7 +163,7 @@ TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
   // a friction that wanders, which some logs show as a warming where there are no fields
   truth.thermal_gain = 0;
   int claimed = 0, without = 0;
-  for (unsigned seed = 1; seed <= 40 && without < 3; ++seed) {
+  for (unsigned seed = 1; seed <= 40 && without < 2; ++seed) {
     JointColumns c = Columns(truth, seed);
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -175,7 +176,7 @@ TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
     ++without;
     claimed += FitToFields(c, true).at.heat ? 1 : 0;
   }
-  EXPECT_EQ(without, 3);
+  EXPECT_EQ(without, 2);
   EXPECT_EQ(claimed, 0);
 }
 
@@ -235,6 +236,49 @@ TEST(RobotJoint, IsReportedWithBothDirectionsAndTheirMean) {
   EXPECT_NEAR(answer.estimate.Find("coulomb")->value, 4.5, .2);
   EXPECT_LT(*answer.summary.rms_held_out, .35);
   EXPECT_GT(*answer.summary.rms_without_friction, 2);
+}
+
+TEST(RobotJoint, JointsTogetherTellADelay) {
+  // three joints whose torques come late by a third of a step, and three that do not
+  constexpr double late = .033;  // s
+  Eigen::VectorXd off(10);
+  for (const double delay : {0.0, late}) {
+    int shown = 0;
+    for (unsigned seed = 0; seed < off.size(); ++seed) {
+      std::vector<JointColumns> joints;
+      std::vector<GainGuess> guesses;
+      for (unsigned j = 0; j < 3; ++j) {
+        JointColumns c = Columns({}, 10 * seed + j);
+        const Eigen::VectorXd torque = c.samples.torque;
+        for (Index i = 1; i < torque.size(); ++i) {
+          c.samples.torque[i] += delay / c.step * (torque[i - 1] - torque[i]);
+        }
+        c.samples.keep = c.velocity.array().abs() > .3 * c.top_speed;
+        guesses.push_back(GuessGain(c));
+        joints.push_back(std::move(c));
+      }
+      const CommonFit fit = FitDelay(joints, guesses, 1);
+      off[seed] = (fit.value[0] - delay) / std::sqrt(fit.covariance(0, 0));
+      shown += fit.is_shown ? 1 : 0;
+    }
+    // chi-squared of ten: 30 by chance in 1 of 1000
+    EXPECT_LT(off.squaredNorm(), 30) << off.transpose();
+    EXPECT_EQ(shown, delay > 0 ? 10 : 0);
+  }
+}
+
+TEST(RobotJoint, TheUnitTellsTheGainUnlessTheLogDoes) {
+  const JointColumns c = Columns({}, 1);
+  const auto spread = [&](double guess, double middle) {
+    return PriorOfGain(c, {.value = guess, .deviations = 50}, middle).spread;
+  };
+  EXPECT_LT(spread(1.1, 1.2), .2);
+  EXPECT_EQ(spread(.0125, 1), 1);
+  // all on the motors' side
+  EXPECT_NEAR(PriorOfGain(c, {.value = .0125, .deviations = 50}, .013).middle, .013, 1e-12);
+  JointColumns current = c;
+  current.torque_unit = "A";
+  EXPECT_EQ(PriorOfGain(current, {.value = 1, .deviations = 50}, .2).middle, .2);
 }
 
 TEST(RobotJoint, IsRefusedWhereItMovesOneWayOrNotAtAll) {

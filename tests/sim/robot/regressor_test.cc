@@ -95,6 +95,59 @@ TEST(RobotRegressor, LeavesAccelerationOut) {
   }
 }
 
+TEST(RobotRegressor, IsLinearInGravity) {
+  RobotDescription robot = Describe(Robots().front().mjcf);
+  const Index n = std::ssize(robot.joints);
+  const Eigen::MatrixXd q = Uniform(n, 1), v = Uniform(n, 2), a = Uniform(n, 3);
+  const RobotMotion upright(robot, q, v, a);
+  // a base on a wall
+  ReadModel read = ReadRobotModel(Robots().front().mjcf);
+  const Eigen::Vector3d before = Eigen::Map<const Eigen::Vector3d>(read.model->opt.gravity);
+  const Eigen::Vector3d after(3, 9, -1);
+  std::ranges::copy(after, read.model->opt.gravity);
+  const std::vector<std::string> all = read.joints;
+  const RobotMotion turned(DescribeRobot(std::move(read), all), q, v, a);
+  for (Index j = 0; j < n; ++j) {
+    const Eigen::MatrixXd sum =
+        upright.Regressor(j, Accelerations::counted) +
+        upright.GravityRegressor(Eigen::VectorXd::Unit(n, j), after - before);
+    EXPECT_TRUE(sum.isApprox(turned.Regressor(j, Accelerations::counted), 1e-12)) << j;
+  }
+}
+
+TEST(RobotRegressor, PutsStillJointsWhereTheyStand) {
+  // a torque at a place of all joints is that of the same place with one of them still
+  const std::vector<RobotInfo> robots = Robots();
+  const auto arm = std::ranges::find_if(
+      robots, [](const RobotInfo& robot) { return ReadRobotModel(robot.mjcf).joints.size() > 3; });
+  const std::filesystem::path& file = arm->mjcf;
+  const RobotDescription whole = Describe(file);
+  const Index n = std::ssize(whole.joints);
+  Eigen::MatrixXd q = Uniform(n, 1), v = Uniform(n, 2), a = Uniform(n, 3);
+  constexpr double place = .7;
+  q.col(1).setConstant(place);
+  v.col(1).setZero();
+  a.col(1).setZero();
+  const Eigen::MatrixXd expected = InverseDynamics(whole, q, v, a);
+  ReadModel read = ReadRobotModel(file);
+  std::vector<std::string> joints = read.joints;
+  const std::string still = joints[1];
+  joints.erase(joints.begin() + 1);
+  const RobotDescription part = DescribeRobot(std::move(read), joints, {{still, place}});
+  const auto rest = [&](const Eigen::MatrixXd& x) {
+    Eigen::MatrixXd left(x.rows(), n - 1);
+    left << x.col(0), x.rightCols(n - 2);
+    return left;
+  };
+  const RobotMotion motion(part, rest(q), rest(v), rest(a));
+  for (Index j = 0; j < n - 1; ++j) {
+    const Eigen::VectorXd torque = motion.Regressor(j, Accelerations::counted) * part.Parameters();
+    EXPECT_TRUE(torque.isApprox(rest(expected).col(j), 1e-9)) << j;
+  }
+  read = ReadRobotModel(file);
+  EXPECT_THROW(DescribeRobot(std::move(read), joints, {{joints[0], place}}), BadInput);
+}
+
 TEST(RobotRegressor, KeepsTheDirectionsThatTorqueSees) {
   // a prior along them makes the same torque as one of all parameters
   const RobotDescription robot = Describe(Robots().front().mjcf);

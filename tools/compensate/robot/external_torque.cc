@@ -187,8 +187,9 @@ void FindForce(const RobotData& data, const RobotRows& rows, const RobotSettings
 }  // namespace
 
 RobotExternal FindExternal(const std::filesystem::path& robot, const RobotEstimate& estimate,
-                           const RobotSource& source, const RobotSettings& settings,
+                           const RobotSource& source, RobotSettings settings,
                            const CompensatorSettings& compensation) {
+  if (settings.gravity.empty() && estimate.gravity) settings.gravity = estimate.gravity->value;
   if (source.logs.size() != 1) Refuse({"log"}, "are {}; give one", source.logs.size());
   const RobotData data = ReadRobotData(robot, source, settings);
   const RobotRows rows = MakeRows(data, settings);

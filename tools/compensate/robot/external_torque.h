@@ -43,7 +43,7 @@ struct RobotExternal {
 ///   f = (J W J^T)^-1 J W tau,   cov f = (J W J^T)^-1,   J: [3 x n] of the origin of the last link, or tool.centre in its axes.
 /// Throws BadInput, also where no joint has a friction in N.m or N.
 RobotExternal FindExternal(const std::filesystem::path& robot, const RobotEstimate& estimate,
-                           const RobotSource& source, const RobotSettings& settings,
+                           const RobotSource& source, RobotSettings settings,
                            const CompensatorSettings& compensation);
 
 /// time; JOINT.velocity, .torque, .rigid, .friction, .energy, .external, .half_width and .contact of each joint; force.x, .y, .z

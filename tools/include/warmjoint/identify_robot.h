@@ -58,6 +58,10 @@ struct RobotSettings {
   NumberOfJoints torque_constant{};     // N.m/A or N/A at the joint
   NumberOfJoints torque_scale{};        // factor on the torque of single joints
   NumberOfJoints position_scale{};      // the same on positions
+  NumberOfJoints zero{};                // rad or m that the log reads where the description is at 0
+  NumberOfJoints at{};                  // rad or m at which joints stand that the log does not hold
+  /// m/s^2 in the description's axes: three numbers; none: the description's, unless the torques hold another
+  std::vector<double> gravity{};
   double holdout = .4;                // share of the log's end for figures on unseen data; 0: none
   FieldSet fields = FieldSet::All();  // that each joint has
 
@@ -72,6 +76,10 @@ struct RobotSettings {
     a->Field("torque_constant", &torque_constant);
     a->Field("torque_scale", &torque_scale);
     a->Field("position_scale", &position_scale);
+    a->Field("zero", &zero);
+    a->Field("at", &at);
+    a->Field("gravity", &gravity, {.unit = "m/s^2"});
+    a->Check(gravity.empty() || gravity.size() == 3, "gravity", "three numbers");
     a->Field("holdout", &holdout, {.bounds = {.at_least = 0, .at_most = .9}});
     a->Field("fields", &fields, kFieldsInfo);
   }

@@ -181,7 +181,9 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
                    scale: Mapping[str, float] | None = None, columns: Sequence[str] = (), rate: float = 0,
                    joints: Sequence[str] = (), gear: Numbers = 0, inertials: float | Literal["exact"] = 0.1,
                    tool: Mapping[str, Any] | Literal["unknown"] | None = None, coupling: str | Sequence[str] = (), cutoff: float = 10,
-                   torque_constant: Numbers = 0, holdout: float = 0.4, fields: str = "auto", topic: str | None = None) -> RobotEstimate:
+                   torque_constant: Numbers = 0, holdout: float = 0.4, fields: str = "auto", gravity: Sequence[float] = (),
+                   zero: Mapping[str, float] | None = None, at: Mapping[str, float] | None = None,
+                   topic: str | None = None) -> RobotEstimate:
     """The friction of all joints: what `warmjoint identify-robot` does.
 
     model: path or text of an MJCF or URDF, or a mujoco.MjModel or MjSpec. log: path of a wide file or bag of any kind that read takes, a
@@ -189,10 +191,12 @@ def identify_robot(model: Any, log: Any, *, map: Mapping[str, str] | None = None
     recordings, each from a cold start. Samples that a mask hides, or that hold no number, are left out. topic: of a bag. map, unit, scale,
     columns, rate, joints, gear, coupling, cutoff, torque_constant, holdout and fields are the options of the program: map={"position": "q_{j}"},
     scale={"J4.torque": -1}, gear=101 or {"J4": 101}. inertials: share by which the description may be wrong. tool: {"mass": kg, "com":
-    (x, y, z)} at the last link. Needs MuJoCo 4.0. Raises BadInput.
+    (x, y, z)} at the last link. gravity: (x, y, z) m/s^2 in the description's axes, of a base that stands otherwise. zero: what the log reads
+    where the description is at 0, at: where joints stand that it does not hold, {"waist": .5}, rad or m. Needs MuJoCo 4.0. Raises BadInput.
     """
     settings = _settings(scale=scale, joints=joints, gear=gear, inertials=inertials, tool=tool, coupling=coupling, cutoff=cutoff,
                          torque_constant=torque_constant, holdout=holdout)
+    settings |= {"gravity": [number("gravity", one) for one in gravity], "zero": _of_joints("zero", zero), "at": _of_joints("at", at)}
     settings["fields"] = text("fields", fields)
     asked = Asked(topic, joints="all")
     tables = tables_of(log, "log", asked)
@@ -222,6 +226,11 @@ def _settings(*, scale: Mapping[str, float] | None, joints: Sequence[str], gear:
             "coupling": texts("coupling", coupling), "cutoff": number("cutoff", cutoff),
             "torque_constant": _numbers("torque_constant", torque_constant), "torque_scale": factors["torque"],
             "position_scale": factors["position"], "holdout": number("holdout", holdout), "tool": _tool(tool)}
+
+
+def _of_joints(argument: str, given: Mapping[str, float] | None) -> dict[str, float]:
+    """Numbers by the names of joints."""
+    return {joint: number(argument, one) for joint, one in named(argument, given).items()}
 
 
 def _read(tables: list[Table], map: Mapping[str, str] | None, unit: Mapping[str, str] | None, columns: Sequence[str], rate: float) -> dict[str, object]:
