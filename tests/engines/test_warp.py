@@ -199,6 +199,19 @@ def pushed_humanoid(nworld):
     return m, d, f, push
 
 
+def test_a_step_launches_one_kernel_more_than_without_friction(monkeypatch):
+    m, d, _, _ = pushed_humanoid(2)
+    launched = []
+    for name in ("launch", "launch_tiled"):
+        real = getattr(wp, name)
+        monkeypatch.setattr(wp, name, lambda *given, real=real, **named: (launched.append(given[:1] or named["kernel"]), real(*given, **named)))
+    mjw.step(m, d)
+    with_friction = len(launched)
+    m.callback.passive = None
+    mjw.step(m, d)
+    assert 2 * with_friction == len(launched) + 1
+
+
 def test_a_state_that_is_put_back_repeats_the_run_to_the_bit():
     m, d, f, push = pushed_humanoid(3)
     f.reset(warm=np.array([[0.0], [0.5], [1.0]]))
@@ -215,7 +228,7 @@ def test_a_state_that_is_put_back_repeats_the_run_to_the_bit():
         getattr(d, name).assign(values)
     f.set_state(saved)
     again = f.get_state()
-    for name in ("load", "energy", "slip", "turns", "stretch", "first", "second"):
+    for name in ("load", "energy", "slip", "turns", "stretch", "status"):
         assert (getattr(again, name).numpy() == getattr(saved, name).numpy()).all(), name
     for _ in range(40):
         mjw.step(m, d)
@@ -293,6 +306,40 @@ def test_what_is_no_finite_number_is_gone_once_the_engine_has_right_ones_again(b
     for _ in range(50):
         mjw.step(m, d)
     assert energy[1] == cold.energy.numpy()[0, 0] and speed[1] == d.qvel.numpy()[0, 0]
+
+
+@pytest.mark.parametrize("form", ["port", "native"])
+def test_of_a_thousand_numbers_that_are_none_nothing_is_left_after_two_steps(form):
+    """One in each world: of the engine's states and of friction's own."""
+    count, random = 1000, np.random.default_rng(5)
+    if form == "port":
+        bare, friction = wj.split(wj.attach(HINGE, {"hinge": WARM}))
+        m, d, f = engine(bare, friction, count)
+        step = lambda: mjw.step(m, d)
+        own = [f._states.stretch, f._states.next_stretch, f._states.energy, f._states.next_energy, f._states.slip, f._states.next_slip]
+    else:
+        heavy = HINGE.replace("<mujoco>", '<mujoco><option integrator="implicitfast"/>', 1)
+        native = wj.native(heavy, {"hinge": wj.Friction("viscous_coulomb", viscous=0.5, coulomb=2, thermal_gain=-0.1, thermal_time_constant=20)}, timestep=0.001)
+        m, d = mjw.put_model(native.model), mjw.put_data(native.model, mujoco.MjData(native.model), nworld=count)
+        f = native.update(m, d)
+        step = lambda: (mjw.step(m, d), native.update(m, d))
+        own = [f.energy, d.plastic]
+    step()
+    arrays = [d.qpos, d.qvel, d.qfrc_applied, *own]
+    which, bad = random.integers(len(arrays), size=count), random.choice([np.nan, np.inf, -np.inf], count)
+    for k, array in enumerate(arrays):
+        values = array.numpy().copy().reshape(count, -1)
+        values[which == k, random.integers(values.shape[1], size=(which == k).sum())] = bad[which == k]
+        array.assign(values.reshape(array.shape))
+    step()
+    for array, value in ((d.qpos, 0), (d.qvel, 0), (d.qacc_warmstart, 0), (d.qfrc_applied, 10)):
+        array.fill_(value)
+    step()
+    step()
+    assert np.isfinite(f.energy.numpy()).all() and np.isfinite(d.qvel.numpy()).all()
+    for _ in range(20):
+        step()
+    assert (d.qvel.numpy() > 0.01).all()
 
 
 def test_springs_of_native_have_the_heat_of_mujoco_s_own_by_world():

@@ -43,19 +43,32 @@ def everything(level):
             "maps": [{**one, "weights": [level * weight for weight in one["weights"]]} for one in (POSITION_MAP, RIPPLE_MAP)]}
 
 
-def humanoid():
-    """A free base with two legs of six hinges and two arms of four, without contacts."""
-    text = ['<mujoco model="humanoid"><option timestep="0.002"/><default><geom contype="0" conaffinity="0"/></default><worldbody>',
-            '<body name="pelvis" pos="0 0 1"><freejoint name="base"/><geom type="box" size="0.12 0.15 0.25" mass="30"/>']
-    for name, side, axes in (("leg_l", 0.1, 6), ("leg_r", -0.1, 6), ("arm_l", 0.2, 4), ("arm_r", -0.2, 4)):
-        length, mass = (0.14, 2.5) if axes == 6 else (0.15, 1.2)
-        for k in range(axes):
-            place = f"0 {side} {-0.1 if axes == 6 else 0.25}" if k == 0 else f"0 0 {-length}"
-            axis = ("0 1 0", "1 0 0", "0 0 1")[k % 3]
-            text.append(f'<body pos="{place}"><joint name="{name}{k}" axis="{axis}" armature="0.02" damping="0.2"/>'
-                        f'<geom type="capsule" fromto="0 0 0 0.02 0 {-length}" size="0.04" mass="{mass}"/>')
-        text.append("</body>" * axes)
-    return "".join([*text, "</body></worldbody></mujoco>"])
+# of a humanoid: name, what it hangs on, place there, hinges, length and mass of a link
+LIMBS = (("leg_l", "pelvis", "0 0.1 -0.1", 6, 0.14, 2.5), ("leg_r", "pelvis", "0 -0.1 -0.1", 6, 0.14, 2.5),
+         ("arm_l", "pelvis", "0 0.2 0.25", 4, 0.15, 1.2), ("arm_r", "pelvis", "0 -0.2 0.25", 4, 0.15, 1.2))
+# of one of 29 joints
+MORE_LIMBS = (("waist", "pelvis", "0 0 0.1", 3, 0.05, 3.0), *LIMBS[:2],
+              ("arm_l", "waist2", "0 0.2 0.25", 7, 0.12, 1.0), ("arm_r", "waist2", "0 -0.2 0.25", 7, 0.12, 1.0))
+
+
+def humanoid(limbs=LIMBS):
+    """A free base with legs and arms, without contacts."""
+    def bodies(on):
+        text = []
+        for name, root, first, hinges, length, mass in limbs:
+            if root != on:
+                continue
+            for k in range(hinges):
+                place = first if k == 0 else f"0 0 {-length}"
+                axis = ("0 1 0", "1 0 0", "0 0 1")[k % 3]
+                text.append(f'<body pos="{place}"><joint name="{name}{k}" axis="{axis}" armature="0.02" damping="0.2"/>'
+                            f'<geom type="capsule" fromto="0 0 0 0.02 0 {-length}" size="0.04" mass="{mass}"/>')
+            text += [*bodies(f"{name}{hinges - 1}"), "</body>" * hinges]
+        return text
+
+    return "".join(['<mujoco model="humanoid"><option timestep="0.002"/><default><geom contype="0" conaffinity="0"/></default><worldbody>',
+                    '<body name="pelvis" pos="0 0 1"><freejoint name="base"/><geom type="box" size="0.12 0.15 0.25" mass="30"/>', *bodies("pelvis"),
+                    "</body></worldbody></mujoco>"])
 
 
 def bare_spec(robot):

@@ -1,9 +1,11 @@
 """The forms in which friction runs in MuJoCo, beside each other on five arms and a humanoid: creep of what is held, cost of a step, and the springs
 of `native` beside the plugin over minutes of motion with heat.
 
-    forms.py ROBOTS [held|cost|warm] [SECONDS]     ROBOTS: the folder shared/robots; SECONDS of `warm`, 600 by default
+    forms.py ROBOTS [held|cost|warm|humanoid] [SECONDS]     ROBOTS: the folder shared/robots; SECONDS of `warm`, 600 by default
 
 Prints a table in Markdown. `held` and `cost` measure the forms whose engines this Python has: mujoco_warp with MuJoCo 4.0, MJX with 3.17; both on a CPU.
+`humanoid`: what friction adds to a step of mujoco_warp on 29 joints in one tree, with 64 and 1024 worlds, and how many kernels a step launches; on a GPU,
+as a captured graph, where Warp finds one.
 Arms have an armature of .1 kg.m^2 (YuMi's .05) and steps of 1 ms in implicitfast, no stops, no contacts.
 """
 
@@ -28,8 +30,8 @@ STEP = 1e-3
 
 def bare_spec(folder, name):
     """A robot without drives, friction, stops and contacts; the humanoid floats without gravity."""
-    if name == "humanoid":
-        spec = mujoco.MjSpec.from_string(friction_worlds.humanoid())
+    if name.startswith("humanoid"):
+        spec = mujoco.MjSpec.from_string(friction_worlds.humanoid(friction_worlds.MORE_LIMBS if name == "humanoid of 29" else friction_worlds.LIMBS))
         spec.option.gravity = [0, 0, 0]
     else:
         path, armature = ARMS[name]
@@ -197,6 +199,89 @@ class InMjx:
         return np.asarray(self.d.qpos)[0, self.robot.places].astype(float)
 
 
+class Humanoids(InWarp):
+    """Worlds of 29 joints, of which random torques hold some and move some; a graph on a GPU."""
+
+    def __init__(self, robot, form, nworld):
+        super().__init__(robot, form, nworld)
+        self.random, self.graph, self.at = np.random.default_rng(0), None, 0.0
+
+    def launches(self):
+        """Of kernels in a step."""
+        import warp as wp
+
+        count, real = 0, (wp.launch, wp.launch_tiled)
+
+        def counting(launch):
+            def one(*arguments, **named):
+                nonlocal count
+                count += 1
+                return launch(*arguments, **named)
+
+            return one
+
+        wp.launch, wp.launch_tiled = map(counting, real)
+        try:
+            super().steps(self.robot.torque, 1)
+        finally:
+            wp.launch, wp.launch_tiled = real
+        return count
+
+    def capture(self):
+        import warp as wp
+
+        if self.d.qvel.device.is_cuda:
+            with wp.ScopedCapture() as found:
+                self.engine.step(self.m, self.d)
+            self.graph = found.graph
+
+    def torques(self, drive):
+        """[worlds x nv] Of up to twice the level: drawn anew each 20 ms, or sines of 0.3 to 1 Hz."""
+        found, shape = np.zeros(self.d.qvel.shape, np.float32), (len(self.d.qvel), len(self.robot.dofs))
+        if drive == "jumps":
+            share = self.random.uniform(-2, 2, shape)
+        else:
+            waves = np.random.default_rng(1)
+            self.at += 0.02
+            share = 2 * np.sin(2 * np.pi * waves.uniform(0.3, 1, shape) * self.at + waves.uniform(0, 6, shape))
+        found[:, self.robot.dofs] = self.robot.level * share
+        return found
+
+    def timed(self, drive, count):
+        """Seconds a step: of the processor, or of the clock for a GPU."""
+        import warp as wp
+
+        self.d.qfrc_applied.assign(self.torques(drive))
+        wp.synchronize()
+        clock = time.perf_counter if self.graph else time.process_time
+        begin = clock()
+        for _ in range(count):
+            if self.graph:
+                wp.capture_launch(self.graph)
+            else:
+                self.engine.step(self.m, self.d)
+        wp.synchronize()
+        return (clock() - begin) / count
+
+
+def humanoids(folder, rounds=30):
+    """Friction in mujoco_warp beside the same robot without, 20 ms of each in turns."""
+    print("| worlds | device | torques | step over that without friction | without, us a world | launches | without | held | turns |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    robot = Robot(folder, "humanoid of 29")
+    for nworld in (64, 1024):
+        port, bare = made = [Humanoids(robot, form, nworld) for form in ("port", "bare")]
+        launches = [one.launches() for one in made]
+        for one in made:
+            one.capture()
+        for drive in ("swing", "jumps"):
+            count = round(0.02 / STEP)
+            pairs = np.array([[one.timed(drive, count) for one in made] for _ in range(rounds)])
+            friction = port.m.callback.passive
+            print(f"| {nworld} | {bare.d.qvel.device} | {drive} | {np.median(pairs[:, 0] / pairs[:, 1]):.2f} | {1e6 * np.median(pairs[:, 1]) / nworld:.0f} "
+                  f"| {launches[0]} | {launches[1]} | {friction.held.numpy().mean():.2f} | {friction.turns.numpy().mean():.2f} |", flush=True)
+
+
 def has(module):
     try:
         __import__(module)
@@ -296,6 +381,9 @@ def main(folder, what="held", seconds="600"):
         for name in names[:-1]:
             warm(pathlib.Path(folder), name, float(seconds))
         return
+    if what == "humanoid":
+        humanoids(pathlib.Path(folder))
+        return
     rows = {}
     for name in names:
         robot = Robot(pathlib.Path(folder), name)
@@ -304,7 +392,7 @@ def main(folder, what="held", seconds="600"):
             for form, one in made.items():
                 rows.setdefault(form, []).append(f"{creep(one, robot):.0e}")
             for form, (make, _) in batches(robot, 1).items():
-                rows.setdefault(form, []).append(f"{creep(make(), robot):.0e}")
+                rows.setdefault(form, []).append(f"{creep(make(), robot, 1):.0e}")
             continue
         bare = Stepped(robot, robot.model)
         if "native" in made:

@@ -46,8 +46,7 @@ class WarpState:
     slip: Any  # direction of the last slide, of stiction: -1, 0 or 1
     turns: Any  # [worlds x trees] of the last search for what slides
     stretch: Any  # of the bristles, rad or m, from which the load follows
-    first: Any  # the active sets of both projections, with which the search begins
-    second: Any
+    status: Any  # the active set with which the search begins
 
 
 class WarpFriction:
@@ -64,7 +63,7 @@ class WarpFriction:
         with wp.ScopedDevice(m.qpos0.device):
             self._joints = _joints(friction, m.nv)
             self._states = _states(friction, nworld, m)
-            self._scratch = _scratch(nworld, m.nv)
+            self._scratch = _scratch(nworld, m.nv, m.M_colind.shape[0])
             self._dofs = _ints(friction.dofs)
             self._per_load = _floats(friction.timestep**2 / (friction.stiffness * friction.inertia))
         self._device = m.qpos0.device
@@ -126,9 +125,9 @@ class WarpFriction:
                 wp.launch(kernel.settle, dim=(self.nworld, m.ntree),
                           inputs=[time, m.tree_dofadr, m.tree_dofnum, self.friction.timestep, self._joints, self._states])
             shape = (self.nworld, len(self.joints))
-            stretch, load, first, second = wp.empty(shape, dtype=float), wp.empty(shape, dtype=float), wp.empty(shape, dtype=int), wp.empty(shape, dtype=int)
-            wp.launch(kernel.take, dim=shape, inputs=[self._dofs, self._per_load, self._states], outputs=[stretch, load, first, second])
-            return WarpState(load, wp.clone(self._states.energy), wp.clone(self._states.slip), wp.clone(self._states.turns), stretch, first, second)
+            stretch, load, status = wp.empty(shape, dtype=float), wp.empty(shape, dtype=float), wp.empty(shape, dtype=int)
+            wp.launch(kernel.take, dim=shape, inputs=[self._dofs, self._per_load, self._states], outputs=[stretch, load, status])
+            return WarpState(load, wp.clone(self._states.energy), wp.clone(self._states.slip), wp.clone(self._states.turns), stretch, status)
 
     def set_state(self, state: WarpState, mask: npt.ArrayLike | Any | None = None) -> None:
         """Lets the next step of the worlds in `mask` ([worlds] of bool, NumPy's or Warp's; all where not given) begin with a state of
@@ -149,11 +148,10 @@ class WarpFriction:
         """A state in which nothing slides yet, from the host."""
         shape = (self.nworld, len(self.joints))
         with wp.ScopedDevice(self._device):
-            sets = wp.zeros(shape, dtype=int)
             stretched = _floats(np.broadcast_to(stretch, shape))
             stages = wp.array(np.ascontiguousarray(np.broadcast_to(energy, (*shape, 2))), dtype=wp.float64)
             turns = wp.zeros(self._states.turns.shape, dtype=int)
-            return WarpState(None, stages, _floats(np.broadcast_to(slip, shape)), turns, stretched, sets, sets)
+            return WarpState(None, stages, _floats(np.broadcast_to(slip, shape)), turns, stretched, wp.zeros(shape, dtype=int))
 
     def _chosen(self, mask: npt.ArrayLike | Any | None) -> Any:
         """[worlds] of bool on the device."""
@@ -167,7 +165,7 @@ class WarpFriction:
 
     def _put(self, chosen: Any, state: WarpState) -> None:
         wp.launch(kernel.put, dim=(self.nworld, len(self.joints)), device=self._device,
-                  inputs=[chosen, self._dofs, state.stretch, state.energy, state.slip, state.first, state.second, state.turns, self._states])
+                  inputs=[chosen, self._dofs, state.stretch, state.energy, state.slip, state.status, state.turns, self._states])
 
     def _check(self, m: Any, d: Any) -> None:
         """Raises BadInput for data of another count of worlds, and for a timestep that was changed."""
@@ -259,8 +257,7 @@ def _states(friction: FrictionArrays, nworld: int, m: Any) -> Any:
     found.turns = wp.zeros((nworld, m.ntree), dtype=int)
     for name in ("stretch", "next_stretch"):
         setattr(found, name, wp.zeros((nworld, m.nv), dtype=float))
-    for name in ("first", "second"):
-        setattr(found, name, wp.zeros((nworld, m.nv), dtype=int))
+    found.status = wp.zeros((nworld, m.nv), dtype=int)
     for name in ("slip", "next_slip", "force", "loss"):
         setattr(found, name, wp.zeros((nworld, joints), dtype=float))
     for name in ("energy", "next_energy"):
@@ -272,11 +269,12 @@ def _states(friction: FrictionArrays, nworld: int, m: Any) -> Any:
     return found
 
 
-def _scratch(nworld: int, nv: int) -> Any:
+def _scratch(nworld: int, nv: int, entries: int) -> Any:
     found = kernel.Scratch()
-    for name in ("inertia", "factor"):
-        setattr(found, name, wp.zeros((nworld, nv, nv), dtype=float))
-    for name in ("lower", "upper", "aim", "damped", "slip", "force"):
+    found.factor = wp.zeros((nworld, entries), dtype=float)
+    for name in ("lower", "upper", "base", "aim", "result", "force"):
         setattr(found, name, wp.zeros((nworld, nv), dtype=float))
-    found.taken = wp.zeros((nworld, nv), dtype=int)
+    found.sum = wp.zeros((nworld, nv), dtype=wp.float64)
+    for name in ("taken", "status"):
+        setattr(found, name, wp.zeros((nworld, nv), dtype=int))
     return found

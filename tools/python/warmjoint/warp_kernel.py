@@ -5,6 +5,11 @@ In arrays that hold both, friction's joints are [worlds x J] and degrees of free
 
 import warp as wp
 
+from warmjoint.warp_projection import Tree, nearest
+
+# nobody differentiates through a step
+wp.set_module_options({"enable_backward": False})
+
 # columns of `law`
 POSITIVE, NEGATIVE, RISE, STATIC, VELOCITY, EXPONENT, BREAKS, LOAD_GAIN, PER_ENERGY = range(9)
 # of `heat`: what a loss adds to each stage and what stays, what a rise of the ambient adds
@@ -44,8 +49,7 @@ class States:
     next_energy: wp.array3d(dtype=wp.float64)
     slip: wp.array2d(dtype=float)  # [worlds x J]
     next_slip: wp.array2d(dtype=float)
-    first: wp.array2d(dtype=int)  # [worlds x nv] the active sets of both projections
-    second: wp.array2d(dtype=int)
+    status: wp.array2d(dtype=int)  # [worlds x nv] the active set of the spring's projection
     ambient: wp.array(dtype=float)  # [worlds] rise, K
     force: wp.array2d(dtype=float)  # [worlds x J]
     loss: wp.array2d(dtype=float)
@@ -57,15 +61,16 @@ class States:
 
 @wp.struct
 class Scratch:
-    inertia: wp.array3d(dtype=float)  # M [worlds x nv x nv]
-    factor: wp.array3d(dtype=float)
-    lower: wp.array2d(dtype=float)  # [worlds x nv]
+    factor: wp.array2d(dtype=float)  # [worlds x nM]
+    taken: wp.array2d(dtype=int)  # [worlds x nv]
+    status: wp.array2d(dtype=int)
+    lower: wp.array2d(dtype=float)
     upper: wp.array2d(dtype=float)
+    base: wp.array2d(dtype=float)
     aim: wp.array2d(dtype=float)
-    damped: wp.array2d(dtype=float)
-    slip: wp.array2d(dtype=float)
+    result: wp.array2d(dtype=float)
     force: wp.array2d(dtype=float)
-    taken: wp.array2d(dtype=int)
+    sum: wp.array2d(dtype=wp.float64)
 
 
 @wp.func
@@ -174,96 +179,6 @@ def level_at(j: Joints, w: int, k: int, side: float, v: float, slip: float, ener
 
 
 @wp.func
-def bound_of(s: Scratch, w: int, i: int, status: int) -> float:
-    if status > 0:
-        return s.upper[w, i]
-    if status < 0:
-        return -s.lower[w, i]
-    return 0.0
-
-
-@wp.func
-def nearest(w: int, i0: int, n: int, most: int, status: wp.array2d(dtype=int), s: Scratch) -> int:
-    """Projects s.aim onto the box: s.force and s.slip, from `status` and with what it ends with. The number of turns."""
-    turns = int(0)
-    done = int(0)
-    while done == 0:
-        turns += 1
-        # what slips, and its block of M = L L'
-        count = int(0)
-        for a in range(n):
-            i = i0 + a
-            s.slip[w, i] = 0.0
-            if s.upper[w, i] == 0.0 and s.lower[w, i] == 0.0:
-                status[w, i] = 2
-            elif status[w, i] == 2:
-                status[w, i] = 0
-            if status[w, i] != 0:
-                s.taken[w, i0 + count] = i
-                count += 1
-        for a in range(count):
-            i = s.taken[w, i0 + a]
-            bound = float(0.0)
-            if status[w, i] != 2:
-                bound = bound_of(s, w, i, status[w, i])
-            y = s.aim[w, i] - bound
-            for c in range(a + 1):
-                k = s.taken[w, i0 + c]
-                v = s.inertia[w, i, k]
-                for e in range(c):
-                    v -= s.factor[w, i, i0 + e] * s.factor[w, k, i0 + e]
-                if c == a:
-                    s.factor[w, i, i0 + c] = wp.sqrt(wp.max(v, 1.0e-30))
-                else:
-                    s.factor[w, i, i0 + c] = v / s.factor[w, k, i0 + c]
-                    y -= s.factor[w, i, i0 + c] * s.slip[w, k]
-            s.slip[w, i] = y / s.factor[w, i, i0 + a]
-        for b in range(count):
-            a = count - 1 - b
-            i = s.taken[w, i0 + a]
-            y = s.slip[w, i]
-            for c in range(a + 1, count):
-                k = s.taken[w, i0 + c]
-                y -= s.factor[w, k, i0 + a] * s.slip[w, k]
-            s.slip[w, i] = y / s.factor[w, i, i0 + a]
-        # forces of what holds, and whose status was wrong
-        done = int(1)
-        for a in range(n):
-            i = i0 + a
-            if status[w, i] == 2:
-                s.force[w, i] = 0.0
-            elif status[w, i] != 0:
-                s.force[w, i] = bound_of(s, w, i, status[w, i])
-                if float(status[w, i]) * s.slip[w, i] < 0.0 and turns < most:
-                    status[w, i] = 3
-                    done = 0
-            else:
-                x = s.aim[w, i]
-                for c in range(count):
-                    k = s.taken[w, i0 + c]
-                    x -= s.inertia[w, i, k] * s.slip[w, k]
-                s.force[w, i] = wp.clamp(x, -s.lower[w, i], s.upper[w, i])
-                # single precision is worth that much
-                room = 1.0e-6 * (s.upper[w, i] + s.lower[w, i])
-                if turns < most:
-                    if x > s.upper[w, i] + room:
-                        status[w, i] = 4
-                        done = 0
-                    elif -x > s.lower[w, i] + room:
-                        status[w, i] = 5
-                        done = 0
-        for a in range(n):
-            i = i0 + a
-            if status[w, i] == 3:
-                status[w, i] = 0
-            elif status[w, i] == 4:
-                status[w, i] = 1
-            elif status[w, i] == 5:
-                status[w, i] = -1
-    return turns
-
-
-@wp.func
 def finite(x: float) -> float:
     """What is no finite number counts as 0."""
     return wp.where(wp.isfinite(x), x, 0.0)
@@ -294,8 +209,7 @@ def begin(w: int, tree: int, i0: int, n: int, time: float, h: float, j: Joints, 
                 st.slip[w, k] = 0.0
                 st.energy[w, k, 0] = st.start_energy[w, k, 0]
                 st.energy[w, k, 1] = st.start_energy[w, k, 1]
-                st.first[w, i] = 0
-                st.second[w, i] = 0
+                st.status[w, i] = 0
             st.stretch[w, i] = finite(st.stretch[w, i])
             st.slip[w, k] = finite(st.slip[w, k])
             st.energy[w, k, 0] = finite_heat(st.energy[w, k, 0])
@@ -322,8 +236,7 @@ def put(
     stretch: wp.array2d(dtype=float),
     energy: wp.array3d(dtype=wp.float64),
     slip: wp.array2d(dtype=float),
-    first: wp.array2d(dtype=int),
-    second: wp.array2d(dtype=int),
+    status: wp.array2d(dtype=int),
     turns: wp.array2d(dtype=int),
     st: States,
 ):
@@ -340,8 +253,7 @@ def put(
         st.energy[w, k, stage] = energy[w, k, stage]
         st.next_energy[w, k, stage] = energy[w, k, stage]
     st.total[w, k] = energy[w, k, 0] + energy[w, k, 1]
-    st.first[w, i] = first[w, k]
-    st.second[w, i] = second[w, k]
+    st.status[w, i] = status[w, k]
     for tree in range(st.time.shape[1]):
         st.time[w, tree] = -wp.inf
         st.turns[w, tree] = turns[w, tree]
@@ -354,15 +266,13 @@ def take(
     st: States,
     stretch: wp.array2d(dtype=float),
     load: wp.array2d(dtype=float),
-    first: wp.array2d(dtype=int),
-    second: wp.array2d(dtype=int),
+    status: wp.array2d(dtype=int),
 ):
     """Of all degrees of freedom those with friction, [worlds x J] threads. per_load: h^2 / (A m) [J]."""
     w, k = wp.tid()
     stretch[w, k] = st.stretch[w, dofs[k]]
     load[w, k] = st.stretch[w, dofs[k]] / per_load[k]
-    first[w, k] = st.first[w, dofs[k]]
-    second[w, k] = st.second[w, dofs[k]]
+    status[w, k] = st.status[w, dofs[k]]
 
 
 @wp.func
@@ -423,59 +333,71 @@ def step_friction(
     i0 = tree_begin[tree]
     n = tree_size[tree]
     begin(w, tree, i0, n, time[w], h, j, st)
-    # levels, and the inertia matrix of the tree
+    t = Tree()
+    t.first = i0
+    t.size = n
+    t.row_begin = row_begin
+    t.row_count = row_count
+    t.column = column
+    t.mass = mass[w]
+    t.factor = s.factor[w]
+    t.taken = s.taken[w]
+    t.status = st.status[w]
+    t.lower = s.lower[w]
+    t.upper = s.upper[w]
+    t.base = s.base[w]
+    t.aim = s.aim[w]
+    t.result = s.result[w]
+    t.force = s.force[w]
+    t.sum = s.sum[w]
+    # levels, and by how much the springs of the bristles accelerate their joints
     for a in range(n):
         i = i0 + a
         k = j.of_dof[i]
-        for c in range(n):
-            s.inertia[w, i, i0 + c] = 0.0
-        s.lower[w, i] = 0.0
-        s.upper[w, i] = 0.0
+        t.lower[i] = 0.0
+        t.upper[i] = 0.0
+        t.base[i] = 0.0
+        t.aim[i] = 0.0
+        t.taken[i] = -1
         if k >= 0:
             energy = float(st.energy[w, k, 0] + st.energy[w, k, 1])
             position = qpos[w, j.position[k]]
-            s.upper[w, i] = wp.max(0.0, level_at(j, w, k, 1.0, qvel[w, i], st.slip[w, k], energy, position, bias[w, i]))
-            s.lower[w, i] = wp.max(0.0, level_at(j, w, k, -1.0, qvel[w, i], st.slip[w, k], energy, position, bias[w, i]))
-    for a in range(n):
-        i = i0 + a
-        for e in range(row_count[i]):
-            c = column[row_begin[i] + e]
-            s.inertia[w, i, c] = mass[w, row_begin[i] + e]
-            s.inertia[w, c, i] = mass[w, row_begin[i] + e]
-    # what joints without friction would add is undone by their slip
-    for a in range(n):
-        elastic = float(0.0)
-        damped = float(0.0)
-        for c in range(n):
-            i = i0 + c
-            k = j.of_dof[i]
-            if k >= 0:
-                m = s.inertia[w, i0 + a, i]
-                elastic += m * j.shape[k, STIFFNESS] * (st.stretch[w, i] + h * qvel[w, i])
-                damped += m * j.shape[k, DAMPING] * qvel[w, i]
-        s.aim[w, i0 + a] = elastic / (h * h)
-        s.damped[w, i0 + a] = damped / h
-    turns = nearest(w, i0, n, most, st.first, s)
+            t.upper[i] = wp.max(0.0, level_at(j, w, k, 1.0, qvel[w, i], st.slip[w, k], energy, position, bias[w, i]))
+            t.lower[i] = wp.max(0.0, level_at(j, w, k, -1.0, qvel[w, i], st.slip[w, k], energy, position, bias[w, i]))
+            t.aim[i] = j.shape[k, STIFFNESS] / (h * h) * (st.stretch[w, i] + h * qvel[w, i])
+        if t.upper[i] == 0.0 and t.lower[i] == 0.0:
+            t.status[i] = 2
+        elif t.status[i] == 2 or float(t.status[i]) * qvel[w, i] < 0.0:
+            # also what turned round holds at first
+            t.status[i] = 0
+    turns = nearest(t, most)
+    # the dampers join, and their search begins with the set of the springs', which is near
     for a in range(n):
         i = i0 + a
         k = j.of_dof[i]
+        t.base[i] = t.force[i]
         if k >= 0:
-            st.next_stretch[w, i] = st.stretch[w, i] + h * qvel[w, i] - h * h / j.shape[k, STIFFNESS] * s.slip[w, i]
-        s.aim[w, i] = s.force[w, i] + s.damped[w, i]
-        if st.first[w, i] == 0:
-            s.upper[w, i] = 2.0 * s.upper[w, i]
-            s.lower[w, i] = 2.0 * s.lower[w, i]
-    st.turns[w, tree] = wp.max(turns, nearest(w, i0, n, most, st.second, s))
+            # what holds keeps all digits
+            st.next_stretch[w, i] = st.stretch[w, i] + h * qvel[w, i]
+            if t.status[i] != 0:
+                st.next_stretch[w, i] = h * h / j.shape[k, STIFFNESS] * t.result[i]
+            t.aim[i] = j.shape[k, DAMPING] / h * qvel[w, i]
+        if t.status[i] == 0:
+            t.upper[i] = 2.0 * t.upper[i]
+            t.lower[i] = 2.0 * t.lower[i]
+        s.status[w, i] = t.status[i]
+    t.status = s.status[w]
+    st.turns[w, tree] = wp.max(turns, nearest(t, most))
     for a in range(n):
         i = i0 + a
         k = j.of_dof[i]
         if k >= 0:
             v = qvel[w, i]
             own = float(0.0)
-            if s.force[w, i] == 0.0 and v != 0.0:
+            if t.force[i] == 0.0 and v != 0.0:
                 energy = float(st.energy[w, k, 0] + st.energy[w, k, 1])
                 own = level_at(j, w, k, wp.sign(v), v, st.slip[w, k], energy, qpos[w, j.position[k]], bias[w, i])
             kv = dof_damping[w % dof_damping.shape[0], i]
-            finish(w, i, k, v, kv, s.force[w, i], own, st.first[w, i], j, st)
+            finish(w, i, k, v, kv, t.force[i], own, st.status[w, i], j, st)
             # the engine adds the joint's damping itself
             passive[w, i] = passive[w, i] + finite(kv * v) - st.force[w, k]
