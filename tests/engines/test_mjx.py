@@ -203,6 +203,34 @@ def test_what_is_no_finite_number_is_gone_once_the_engine_has_right_ones_again(b
     assert run(start._replace(stretch=jp.asarray([broken]), stages=jp.full_like(start.stages, broken))) == run(f.start(warm=0.0))
 
 
+def test_of_a_thousand_numbers_that_are_none_nothing_is_left_after_two_steps():
+    """One in each world: of the engine's states and of friction's own."""
+    bare, m, f, _ = hinge()
+    count, random = 1000, np.random.default_rng(5)
+    step = jax.jit(jax.vmap(lambda d, state: wj.mjx.step(m, d, f, state)))
+    clean = jax.vmap(lambda _: mjx.make_data(bare).replace(qfrc_applied=jp.asarray([10.0])))(jp.arange(count))
+    d, state = step(clean, f.start(nworld=count))
+    names = ["qpos", "qvel", "qfrc_applied"]
+    own = ["stretch", "stages", "lost_digits", "slip"]
+    which, bad = random.integers(len(names) + len(own), size=count), random.choice([np.nan, np.inf, -np.inf], count)
+
+    def broken(values, k):
+        flat = np.array(values, dtype=np.float32).reshape(count, -1)
+        flat[which == k, random.integers(flat.shape[1], size=(which == k).sum())] = bad[which == k]
+        return jp.asarray(flat.reshape(values.shape))
+
+    d = d.replace(**{name: broken(getattr(d, name), k) for k, name in enumerate(names)})
+    state = state._replace(**{name: broken(getattr(state, name), len(names) + k) for k, name in enumerate(own)})
+    _, state = step(d, state)
+    d = clean
+    for _ in range(2):
+        d, state = step(d, state)
+    assert all(np.isfinite(np.asarray(one)).all() for one in (state.energy, state.force, d.qvel))
+    for _ in range(20):
+        d, state = step(d, state)
+    assert (np.asarray(d.qvel) > 0.01).all()
+
+
 def test_starts_are_drawn_under_jit_and_vmap():
     _, _, f, friction = hinge()
     settled = wj.Friction.from_dict(WARM).settled_heat(1.0)

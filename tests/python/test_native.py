@@ -199,6 +199,34 @@ def test_a_pose_that_was_set_anew_and_a_reset_begin_relaxed_with_the_heat_of_the
     assert np.isfinite(native.heat).all() and np.isfinite(data.qvel).all()
 
 
+@pytest.mark.parametrize("form", ["passive", "actuator", "native"])
+def test_of_a_thousand_numbers_that_are_none_nothing_is_left_after_two_steps(form):
+    """In the engine's states and in friction's own; the engine's are put right by those who own them."""
+    native = wj.native(hinge(), {"hinge": WARM}) if form == "native" else None
+    attached = None if native else wj.attach(hinge(), {"hinge": WARM}, form)
+    model = native.model if native else attached.spec.compile()
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    data, random = mujoco.MjData(model), np.random.default_rng(2)
+    step = native.step if native else lambda data, count=1: mujoco.mj_step(model, data, count)
+    bound = native or attached.bind(model, data)
+    own = {"passive": lambda: data.plugin_state, "actuator": lambda: data.act, "native": lambda: (data.plastic, native.energy[0])[random.integers(2)]}[form]
+    for _ in range(1000):
+        mujoco.mj_resetData(model, data)
+        if native:
+            native.start(data)
+        step(data, 2)
+        broken = (data.qpos, data.qvel, data.qfrc_applied, own(), own())[random.integers(5)]
+        broken[random.integers(len(broken))] = random.choice([np.nan, np.inf, -np.inf])
+        step(data)
+        data.qpos[:], data.qvel[:], data.qacc_warmstart[:], data.qfrc_applied[:] = 20, 0, 0, 25
+        step(data, 2)
+        assert np.isfinite(bound.heat).all() and np.isfinite(data.qvel).all()
+        if native:
+            assert np.isfinite(model.jnt_springyield).all() and np.isfinite(data.plastic).all()
+        step(data, 20)
+        assert 0.05 < data.qvel[0] < 0.3
+
+
 def test_a_scene_that_holds_the_robot():
     native = wj.native(hinge(), {"hinge": WARM})
     scene = mujoco.MjSpec()

@@ -150,16 +150,17 @@ class Native:
         self._time = float(data.time)
 
     def warm(self, data: mujoco.MjData, steps: int = 1) -> None:
-        """The driver by itself, after so many steps by other means: heat and yields. Where they left no finite numbers the loss counts as 0."""
+        """The driver by itself, after so many steps by other means: heat and yields. What is no finite number counts as 0."""
         self._check(data)
         count = float(whole("steps", steps))
         v, stretch, yields = data.qvel[self.friction.dofs], self._stretch(data), self._yields()
         slides: Bools = (np.abs(stretch) >= _AT_YIELD * yields) & (stretch * v > 0)
-        loss = self.model.dof_damping[self.friction.dofs] * v * v + slides * self.stiffness * yields * np.abs(v)
+        with np.errstate(invalid="ignore"):
+            loss = self.model.dof_damping[self.friction.dofs] * v * v + slides * self.stiffness * yields * np.abs(v)
         pole, gain = self.pole, self.gain
         if count > 1:
             pole, gain = pole**count, gain * -np.expm1(-count * self._ratios) / -np.expm1(-self._ratios)
-        self.energy = pole * self.energy + gain * np.where(np.isfinite(loss), loss, 0.0)
+        self.energy = pole * np.where(np.isfinite(self.energy), self.energy, 0.0) + gain * np.where(np.isfinite(loss), loss, 0.0)
         self._set_yields(v)
 
     def update(self, m: Any, d: Any) -> Any:
@@ -178,7 +179,8 @@ class Native:
             raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
 
     def _stretch(self, data: mujoco.MjData) -> FloatArray:
-        stretch: FloatArray = data.qpos[self.friction.positions] - data.plastic[self.places]
+        with np.errstate(invalid="ignore"):
+            stretch: FloatArray = data.qpos[self.friction.positions] - data.plastic[self.places]
         return stretch
 
     def _yields(self) -> FloatArray:

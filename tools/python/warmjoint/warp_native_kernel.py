@@ -37,6 +37,9 @@ def drive(
         lost += numbers[k, STIFFNESS] * most * wp.abs(v)
     if not wp.isfinite(lost):
         lost = 0.0
+    for stage in range(2):
+        if not wp.isfinite(energy[w, k, stage]):
+            energy[w, k, stage] = wp.float64(0.0)
     if time[w] < last[w, k]:
         energy[w, k, 0] = start[w, k, 0]
         energy[w, k, 1] = start[w, k, 1]
@@ -49,6 +52,6 @@ def drive(
     if numbers[k, RISE] != 0.0 and wp.isfinite(v):
         level += numbers[k, RISE] * wp.exp(-wp.pow(wp.abs(v) / numbers[k, VELOCITY], numbers[k, EXPONENT]))
     yields[w, joint] = wp.max(0.0, level) / numbers[k, STIFFNESS]
-    # a pose that was set anew begins with a relaxed spring
-    if wp.isfinite(q) and not wp.abs(stretch) <= 2.0 * most + 2.4e-7 * wp.max(1.0, wp.abs(q)):
-        plastic[w, places[k, 3]] = q
+    # a pose that was set anew begins with a relaxed spring; one that is no finite number leaves none behind
+    if not wp.abs(stretch) <= 2.0 * most + 2.4e-7 * wp.max(1.0, wp.abs(q)):
+        plastic[w, places[k, 3]] = wp.where(wp.isfinite(q), q, 0.0)
