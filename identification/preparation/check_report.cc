@@ -76,6 +76,30 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
                      speeds.back(), unit);
 }
 
+/// The command that makes a motion with law and warming in it, within what this log reaches; "" where this one shows them.
+std::string DesignLine(const RecordingCheck& check) {
+  const auto lacks = [](const Excitation& one) {
+    const bool is_of_motion = one.kind == FrictionKind::coulomb ||
+                              one.kind == FrictionKind::viscous_coulomb ||
+                              one.kind == FrictionKind::warm_up;
+    return is_of_motion && !one.sufficient;
+  };
+  if (std::ranges::none_of(check.excitation, lacks)) return "";
+  double fastest = 0;
+  for (const SpeedLevel& level : check.motion.levels) {
+    fastest = std::max(fastest, std::abs(level.velocity));
+  }
+  std::string limits;
+  if (check.motion.upper > check.motion.lower && fastest > 0) {
+    limits = fmt::format(" --limits position={:.3g}..{:.3g},velocity={:.3g}", check.motion.lower,
+                         check.motion.upper, fastest);
+  }
+  return fmt::format(
+      "to record   `warmjoint design{} --minutes 20 -o motion` makes a motion that shows law and "
+      "warming\n",
+      limits);
+}
+
 }  // namespace
 
 std::string CheckToText(const RecordingCheck& check) {
@@ -108,7 +132,7 @@ std::string CheckToText(const RecordingCheck& check) {
     text += fmt::format("  {:<4}{}: {}\n", excitation.sufficient ? "yes" : "no", excitation.what,
                         excitation.reason);
   }
-  return text;
+  return text + DesignLine(check);
 }
 
 json CheckToJson(const RecordingCheck& check) {

@@ -12,7 +12,8 @@ namespace {
 std::string ExplainTradeOff(std::string_view known) {
   return fmt::format(
       "thermal_gain and thermal_time_constant cannot be distinguished: {}; record longer, from "
-      "cold until friction settles, or with rests",
+      "cold until friction settles, or with rests: `warmjoint design --for thermal_time_constant "
+      "-o motion` makes such a motion",
       known);
 }
 

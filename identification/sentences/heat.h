@@ -64,6 +64,8 @@ std::string ExplainRunawayTimeConstant(double duration);
 std::string ExplainLongestTimeConstant(double time_constant);
 inline constexpr const char* kWarmingIsMixed =
     "the motion does not distinguish warming from the nominal friction; record from cold, with "
-    "speeds that differ clearly, until the friction settles";
+    "speeds that differ clearly, until the friction settles; `warmjoint design --minutes 20 -o "
+    "motion` makes such "
+    "a motion";
 
 }  // namespace warmjoint
