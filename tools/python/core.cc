@@ -8,6 +8,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
+#include <warmjoint/design.h>
 #include <warmjoint/errors.h>
 #include <warmjoint/friction_model.h>
 #include <warmjoint/identify.h>
@@ -86,6 +87,14 @@ nb::object IdentifyInPython(const Log& log, nb::handle given, double share,
     if (watch) (*watch)(told->Get());
   });
   return ToPython(EstimateToTree(estimate));
+}
+
+/// aim: as `--until` takes it.
+nb::object EnoughInPython(const Log& log, const std::string& aim, nb::handle given) {
+  const auto settings = FieldsFromPython<IdentifySettings>(given, "enough");
+  const DesignAim wanted = GoalFrom(aim, "goal");
+  return FieldsToPython(
+      Interruptibly([=](const auto&) { return LookWhether(log.prepared, wanted, settings); }));
 }
 
 Estimate EstimateOf(nb::handle given) {
@@ -213,6 +222,9 @@ std::pair<nb::object, nb::object> StepHeat(nb::handle given,
 }
 
 void AddIdentification(nb::module_& module) {
+  module.def("enough", &EnoughInPython,
+             nb::sig("def enough(log: Log, aim: str, settings: dict[str, object]) -> "
+                     "dict[str, typing.Any]"));
   module.def("identify", &IdentifyInPython, nb::arg("log"), nb::arg("settings"), nb::arg("share"),
              nb::arg("other").none(), nb::arg("watch").none(),
              nb::sig("def identify(log: Log, settings: dict[str, object], share: float, other: Log "

@@ -7,11 +7,13 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
+#include <warmjoint/design.h>
 #include <warmjoint/identify_robot.h>
 #include <warmjoint/simulation.h>
 #include <warmjoint/suite.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +24,7 @@
 #include "identification/robot/robot_estimate.h"
 #include "sim/model/engine_warnings.h"
 #include "tools/compensate/robot/external_torque.h"
+#include "tools/design/aim.h"
 #include "tools/python/interrupt.h"
 #include "tools/python/trees.h"
 #include "tools/python/words.h"
@@ -75,6 +78,23 @@ nb::object SimulateInPython(const std::string& scenario,
     });
   });
   return nb::make_tuple(LogArguments(simulation.measurements), FieldsToPython(simulation.truth));
+}
+
+/// (design.json, [time, position, velocity] of its knots, {file: text}). settings: as DesignSettings has them
+nb::object DesignInPython(nb::handle given, const std::string& joint) {
+  const auto settings = FieldsFromPython<DesignSettings>(given, "design");
+  const Design design = Interruptibly([=](const auto& stop) {
+    return DesignMotion(settings, {}, [&](const std::string&) { stop(); });
+  });
+  nb::list columns;
+  for (const auto member : {&MotionKnot::time, &MotionKnot::position, &MotionKnot::velocity}) {
+    Eigen::VectorXd column(std::ssize(design.knots));
+    std::ranges::transform(design.knots, column.begin(), std::mem_fn(member));
+    columns.append(ToPython(column));
+  }
+  nb::dict files;
+  for (const auto& [name, text] : FilesOf(design, joint)) files[name.c_str()] = text;
+  return nb::make_tuple(FieldsToPython(design), columns, files);
 }
 
 /// functions: label -> (arguments of Log -> text of estimate.json). watch: (finished, total). Returns {results, refused, ...}.
@@ -223,6 +243,10 @@ NB_MODULE(_engine, module) {
              nb::arg("seed").none(), nb::arg("realization"),
              nb::sig("def simulate(scenario: str, set: list[tuple[str, str]], seed: int | None, "
                      "realization: int) -> tuple[dict[str, typing.Any], dict[str, typing.Any]]"));
+  module.def("design", &python::DesignInPython,
+             nb::sig("def design(settings: dict[str, object], joint: str) -> "
+                     "tuple[dict[str, typing.Any], list[numpy.typing.NDArray[numpy.float64]], "
+                     "dict[str, str]]"));
   module.def(
       "run", &python::RunInPython,
       nb::sig("def run(suite: str, output: str, options: dict[str, object], functions: dict[str, "

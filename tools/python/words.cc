@@ -66,6 +66,10 @@ constexpr std::array kSpellings = std::to_array<Spelling>({
     // of export
     {"warm", "warm", Behind::number},
     {"speed", "speed", Behind::number},
+    // of design
+    {"limits", "limits", Behind::number},
+    {"prior", "prior", Behind::word},
+    {"noise", "noise", Behind::number},
     // of simulate and run
     {"realizations", "realizations", Behind::number},
     {"realization", "realization", Behind::number},

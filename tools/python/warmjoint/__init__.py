@@ -21,6 +21,7 @@ from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
 from warmjoint.answers import FrictionAtSpeed, Parameter, Prediction, Residuals
 from warmjoint.compensate import Compensated, Compensator
+from warmjoint.design import Design, Enough, design, enough
 from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
 from warmjoint.estimate import Estimate, Rejected, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
@@ -63,6 +64,6 @@ with contextlib.suppress(Exception):
     importlib.import_module("warmjoint.mujoco_plugin")
 
 
-__all__ = ["BadInput", "Board", "Check", "Compensated", "Compensator", "Estimate", "Friction", "FrictionAtSpeed", "Log", "Machine", "OutputFailed", "Parameter", "Prediction", "Rejected",
-           "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "identifiers", "identify",
+__all__ = ["BadInput", "Board", "Check", "Compensated", "Compensator", "Design", "Enough", "Estimate", "Friction", "FrictionAtSpeed", "Log", "Machine", "OutputFailed", "Parameter", "Prediction", "Rejected",
+           "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "design", "enough", "identifiers", "identify",
            "identify_robot", "laws", "library", "load", "load_robot", "native", "read", "reference", "run", "score", "simulate", "split"]

@@ -41,12 +41,14 @@ def design(facts: dict[str, Any]) -> Sheet:
                 f"half widths of 95 % intervals on a simulated log; standard deviation of what is wanted: {against}",
                 f"After {significant(float(minutes[-1]))} min the friction is known to {significant(float(of_friction(answers)[-1]))} %.")
     above, below = fig.panels((200, [1]), (330, [1]))
-    draw.line(above, np.array(motion["time"]) / 60, np.array(motion["velocity"]), "velocity", look_of_several(0)[0], 0.6)
+    draw.line(above, np.array(motion["time"]) / 60, np.array(motion["velocity"]), "", look_of_several(0)[0], 0.6)
     draw.finish(above, "", f"velocity ({motion['unit']})", "")
     lines = [("friction", of_friction(answers))] + [(name, half_widths(answers, name)) for name in names]
     for i, (name, values) in enumerate(lines):
         hue, dash = look_of_several(i)
         draw.line(below, minutes, values, name, hue, 1.4, dash)
     draw.magnitudes(below, [values for _, values in lines])
+    for ax in (above, below):
+        ax.set_xlim(0, minutes[-1])
     draw.finish(below, "minutes recorded", "half width (%)", "")
     return fig
