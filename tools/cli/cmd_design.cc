@@ -1,5 +1,6 @@
 // warmjoint design: which motion to record, and what its log will tell.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <warmjoint/design.h>
 #include <warmjoint/prepared_log.h>
 
@@ -86,14 +87,15 @@ void TakeLimit(const std::string& entry, MotionLimits& limits) {
   if (name == "torque") limits.torque = last;
 }
 
-/// A number, or a log whose residual is the noise. Its rate is the log's, too.
-void TakeNoise(const std::string& given, DesignSettings& settings) {
+/// A number, or a log whose residual is the noise; its rate is taken, too.
+void TakeNoise(const std::string& given, const ReadSettings& read, DesignSettings& settings) {
   if (given.empty()) return;
   settings.noise = ParseFinite(given);
-  if (!settings.noise || !(*settings.noise > 0)) {
-    Refuse({"--noise"}, "is '{}'; give the standard deviation of a torque sample, above 0",
-           Excerpt(given));
-  }
+  if (!settings.noise)
+    return TakeNoiseOf(ReadAndPrepare({.files = {given}, .read = read}), settings);
+  if (*settings.noise > 0) return;
+  Refuse({"--noise"}, "is '{}'; give the standard deviation of a torque sample, above 0, or a log",
+         Excerpt(given));
 }
 
 std::string Percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
@@ -137,9 +139,9 @@ std::string TextOf(const Design& design, const DesignArguments& arguments, const
                           : fmt::format("{} is not reached in {:g} min: give more --minutes\n",
                                         TextOf(design.settings.aim), design.settings.minutes);
   }
-  return text +
-         fmt::format("{}: motion.csv, setpoints.csv, trajectory.yaml, motion.script, design.json\n",
-                     arguments.output);
+  std::vector<std::string> files;
+  for (const auto& [name, bytes] : FilesOf(design)) files.push_back(name);
+  return text + fmt::format("{}: {}\n", arguments.output, fmt::join(files, ", "));
 }
 
 /// The joint's kind and limits, as the robot's file has them; what the command line says goes before.
@@ -162,7 +164,7 @@ ExitStatus MakeDesign(DesignArguments arguments) {
   DesignSettings& settings = arguments.settings;
   settings.aim = AimFrom(arguments.aim);
   for (const std::string& entry : arguments.limits) TakeLimit(entry, settings.limits);
-  TakeNoise(arguments.noise, settings);
+  TakeNoise(arguments.noise, arguments.after.read, settings);
   if (arguments.seed) settings.seed = *arguments.seed;
   const std::vector<std::string> names{"design.json", "motion.csv", "setpoints.csv",
                                        "trajectory.yaml", "motion.script"};
@@ -221,8 +223,9 @@ Command AddDesignCommand(CLI::App& program) {
   AddValue(*parser, "--prior", "FILE", settings.prior,
            "friction that is expected: an estimate.json, or a friction file whose numbers may be "
            "ranges; else broad ranges");
-  AddValue(*parser, "--noise", "NUMBER", arguments->noise,
-           "standard deviation of a torque sample, N.m or N; else 2 % of the friction");
+  AddValue(*parser, "--noise", "NUMBER|LOG", arguments->noise,
+           "standard deviation of a torque sample, N.m or N, or a log of these sensors, whose rate "
+           "is taken, too; else 2 % of the friction");
   AddNumber(*parser, "--rate", settings.rate, {1, 10000, "from 1 to 10000"},
             "samples in a second, Hz")
       ->capture_default_str();

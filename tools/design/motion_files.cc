@@ -12,7 +12,10 @@ namespace warmjoint {
 namespace {
 
 std::string Row(const MotionKnot& knot) {
-  return fmt::format("{:.9g},{:.9g},{:.9g}\n", knot.time, knot.position, knot.velocity);
+  // to nine decimals: sums of strokes about 0 leave less
+  const auto rounded = [](double value) { return std::round(1e9 * value) / 1e9 + 0.0; };
+  return fmt::format("{:.10g},{:.10g},{:.10g}\n", rounded(knot.time), rounded(knot.position),
+                     rounded(knot.velocity));
 }
 
 constexpr const char* kHeader = "time,position,velocity\n";

@@ -81,6 +81,32 @@ TEST_F(DesignCommand, ShowsWhatWasForetoldBesideWhatIsReached) {
               HasSubstr("design.json"));
 }
 
+TEST_F(DesignCommand, TakesNoiseAndWhatIsKnownFromLogs) {
+  WriteWholeFile(at("scenario.yaml"), TableOneYaml(600));
+  Call({"simulate", "scenario.yaml", "--set", "sampling.rate=5", "-o", "log"});
+  ASSERT_EQ(Into("noisy", {"--noise", "log/recording.csv"}).status, 0);
+  const nlohmann::json settings = JsonFile("noisy/design.json").at("settings");
+  EXPECT_NEAR(settings.at("noise").get<double>(), 0.5, 0.03);  // of Table I, by 3000 samples
+  EXPECT_EQ(settings.at("rate"), 5);
+
+  // behind the log the same minutes tell more than alone
+  ASSERT_EQ(Into("after", {"--after", "log/recording.csv"}).status, 0);
+  const auto deviation = [&](const std::string& folder) {
+    const nlohmann::json draw = JsonFile(folder + "/design.json").at("draws").at(0);
+    return draw.at("deviations").at("thermal_time_constant").get<double>();
+  };
+  EXPECT_LT(deviation("after"), 0.5 * deviation("noisy"));
+}
+
+TEST_F(DesignCommand, TakesTheLimitsOfARobotsJoint) {
+  Call({"design", "linear_axis", "--joint", "carriage", "--limits", "velocity=0.1,acceleration=1",
+        "--minutes", "4", "--identifier", "energy-ml", "-o", "motion"});
+  const nlohmann::json settings = JsonFile("motion/design.json").at("settings");
+  EXPECT_EQ(settings.at("joint"), "linear");
+  EXPECT_EQ(settings.at("limits").at("position"), (nlohmann::json{0, 0.25}));
+  EXPECT_THAT(Refusal({"design", "linear_axis", "-o", "x"}), HasSubstr("--joint"));
+}
+
 TEST_F(DesignCommand, RefusesLimitsThatAreNone) {
   EXPECT_THAT(Refusal({"design", "-o", "x", "--limits", "speed=1"}), HasSubstr("position=a..b"));
   EXPECT_THAT(Refusal({"design", "-o", "x", "--limits", "velocity=1..0.1"}), HasSubstr("slowest"));

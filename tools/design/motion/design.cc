@@ -149,6 +149,14 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
+/// Between samples, s.
+std::vector<double> StepsOf(const PreparedLog& log) {
+  const Eigen::VectorXd& time = log.raw().measurements.time;
+  std::vector<double> steps;
+  for (Eigen::Index i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  return steps;
+}
+
 /// Deviations of the design over those of other motions.
 std::vector<DesignRatio> Compare(const SpeedSearch& search, const std::vector<MotionKnot>& knots) {
   const DesignSettings& settings = search.settings;
@@ -178,8 +186,7 @@ std::vector<DesignRatio> Compare(const SpeedSearch& search, const std::vector<Mo
   return ratios;
 }
 
-/// What is expected after an earlier log: its answer's friction, with what it leaves open, and its noise and rate where nothing is
-/// said of these.
+/// What is expected after an earlier log: its answer's friction, with what it leaves open; and its noise where nothing is said of that.
 DrawnFriction PriorAfter(const PreparedLog& after, DesignSettings& settings) {
   const Estimate estimate = Identify(after, IdentifyAs(settings), {.fraction = 0});
   if (estimate.status != Status::ok || !estimate.friction) {
@@ -224,6 +231,18 @@ std::vector<DesignDraw> DrawsOf(const SpeedSearch& search, const std::vector<Mot
 }
 
 }  // namespace
+
+void TakeNoiseOf(const PreparedLog& log, DesignSettings& settings) {
+  const Estimate estimate = Identify(log, IdentifyAs(settings), {.fraction = 0});
+  if (!estimate.metrics || !(estimate.metrics->rmse > 0)) {
+    Refuse({log.raw().measurements.source},
+           "gives no noise ({}): {}; give the standard deviation of a torque sample by --noise",
+           NameOf(estimate.status), estimate.message);
+  }
+  settings.noise = estimate.metrics->rmse;
+  // a clock's rounding is no rate
+  settings.rate = std::round(1e6 / Median(StepsOf(log))) / 1e6;
+}
 
 Design DesignMotion(const DesignSettings& asked, const std::optional<PreparedLog>& after,
                     const std::function<void(const std::string& words)>& watch) {

@@ -235,6 +235,10 @@ struct Design {
 Design DesignMotion(const DesignSettings& settings, const std::optional<PreparedLog>& after = {},
                     const std::function<void(const std::string& words)>& watch = {});
 
+/// Sets noise and rate to those of a log of the same sensors: the rms residual of the identifier's answer. Throws BadInput where it has
+/// none.
+void TakeNoiseOf(const PreparedLog& log, DesignSettings& settings);
+
 /// The files of a design, by name with their text: design.json; motion.csv, a row of time, position and velocity for each knot;
 /// setpoints.csv, the same every 1/rate seconds; trajectory.yaml, a JointTrajectory; motion.script, for Universal Robots. joint: its name
 std::vector<std::pair<std::string, std::string>> FilesOf(const Design& design,
