@@ -152,6 +152,36 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
       report_.row(column) += level.transpose();
     ++column;
   }
+  if (!warms && fast > kOneSpeed * slow) HoldFlat(slow, fast);
+}
+
+void FieldFigures::HoldFlat(double slow, double fast) {
+  Index slope = -1, column = 0;
+  std::vector<Index> levels;
+  for (const FitParameter& row : fit_.parameters) {
+    if (!row.estimated) continue;
+    const bool is_law = row.role == Role::law;
+    if (is_law && row.part == LawPart::slope && row.lower == 0) slope = column;
+    if (is_law && row.part == LawPart::level) levels.push_back(column);
+    ++column;
+  }
+  if (slope < 0 || levels.empty()) return;
+  const VectorXd of_slope = report_.row(slope);
+  if (of_slope.dot(solved_.posterior.mean) > -kNormal95 * Deviation(of_slope)) return;
+  for (const double speed : {slow, fast}) {
+    for (const double way : {-1.0, 1.0}) {
+      const VectorXd friction = AtVelocity(way * speed, 0);
+      if (friction.dot(solved_.posterior.mean) < kNormal95 * Deviation(friction)) return;
+    }
+  }
+  falls_ = true;
+  const double median = MedianOf(solved_.rows.velocity.cwiseAbs());
+  report_.row(slope).setZero();
+  for (const Index level : levels) {
+    report_.row(level) = OfFields(median).transpose();
+    report_(level, level) += 1;
+    report_(level, slope) += median;
+  }
 }
 
 VectorXd FieldFigures::MeansOfFields() const {
@@ -282,7 +312,7 @@ void FieldFigures::AddTo(double degrees_of_freedom, Fit& fit) const {
   const double reach = StudentQuantile(degrees_of_freedom, kIntervalLevel);
   AddFriction(reach, fit);
   AddPlaces(reach, fit);
-  if (Holds(FieldKind::speed_friction)) AddCurve(reach, fit);
+  if (Holds(FieldKind::speed_friction) || falls_) AddCurve(reach, fit);
 }
 
 std::optional<FieldFigures::WarmMoment> FieldFigures::Warmest(const Fit& fit) const {

@@ -48,10 +48,14 @@ class FieldFigures {
   Uncertainty UncertaintyOf(const Eigen::VectorXd& residual, double effective) const;
   /// Adds maps, their bands, and friction at speeds to a fit whose table and model have the reported law.
   void AddTo(double degrees_of_freedom, Fit& fit) const;
+  /// Whether friction falls with speed beyond chance: its line is held flat then, and the curve over the speed has the fall.
+  bool Falls() const { return falls_; }
   /// rms of each field that holds something, in the order of the blocks, shares of the friction.
   std::vector<FieldShare> Shares(double friction) const;
 
  private:
+  /// Reports the friction at the median speed as a level, where the line falls with all of its interval and friction brakes at all speeds.
+  void HoldFlat(double slow, double fast);
   /// The friction at a velocity as a function of all unknowns: law, curve over the speed, and the means of what depends on place and
   /// time. load: |load|, of a friction that grows with it. [p + m]
   Eigen::VectorXd AtVelocity(double velocity, double load) const;
@@ -76,6 +80,7 @@ class FieldFigures {
   const SolvedFields& solved_;
   const Fit& fit_;
   const LogSamples& m_;
+  bool falls_ = false;
   std::vector<FieldKind> held_;  // of the fields that are there beyond chance, and that maps give
   Eigen::VectorXd means_;        // MeansOfFields
   Eigen::MatrixXd report_;       // [p x p + m]

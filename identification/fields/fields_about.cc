@@ -205,6 +205,12 @@ Fit Conclude(const Round& round) {
   fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
   const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
   Take(figures.Reported(), held, fit);
+  if (figures.Falls()) {
+    for (FitParameter& row : fit.parameters) {
+      if (row.role == Role::law && row.part == LawPart::slope) row.has_interval = false;
+    }
+    fit.causes.push_back(Note(kFrictionFalls));
+  }
   fit.end_energy = nullptr;
   fit.errors = {};
   fit.errors.covariance = [uncertainty] { return uncertainty; };

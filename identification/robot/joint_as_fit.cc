@@ -39,7 +39,7 @@ Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
     friction.parameters[fit.model.table[static_cast<std::size_t>(row)].name] = fit.solved.x[row];
   }
   if (slows) {
-    friction.parameters[std::string(kStribeckVelocityRow.name)] = kSlowShare * c.top_speed;
+    friction.parameters[std::string(kStribeckVelocityRow.name)] = fit.slow_share * c.top_speed;
     friction.parameters[std::string(kStribeckExponentRow.name)] = 2;
   }
   friction.load_gain = fit.solved.x[fit.at.load.begin];

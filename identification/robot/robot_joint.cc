@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "identification/fit_data.h"
@@ -44,25 +45,25 @@ Unknown Nuisance(double deviation) {
 }
 
 /// Columns of the law over the samples. [N x 3], and one more where friction rises at low speed
-SharedColumns LawColumnsOf(const JointColumns& c, bool slows) {
-  ModelRows::Rows columns(c.velocity.size(), slows ? 4 : 3);
+SharedColumns LawColumnsOf(const JointColumns& c, std::optional<Index> slow) {
+  ModelRows::Rows columns(c.velocity.size(), slow ? 4 : 3);
   columns.leftCols(3) << c.velocity, c.forwards, -c.backwards;
-  if (slows) columns.col(3) = c.slow;
+  if (slow) columns.col(3) = c.slow.col(*slow);
   return std::make_shared<const ModelRows::Rows>(std::move(columns));
 }
 
 /// The same as the losses follow from them: as the joint moves, not as the filter of the torque shows it, so that all brake.
-SharedColumns LossColumnsOf(const JointColumns& c, bool slows) {
-  ModelRows::Rows columns(c.velocity.size(), slows ? 4 : 3);
+SharedColumns LossColumnsOf(const JointColumns& c, std::optional<Index> slow) {
+  ModelRows::Rows columns(c.velocity.size(), slow ? 4 : 3);
   columns.leftCols(3) << c.velocity.cwiseAbs().cwiseProduct(c.sign), c.sign.cwiseMax(0.0),
       c.sign.cwiseMin(0.0);
-  if (slows) columns.col(3) = c.slow.cwiseAbs().cwiseProduct(c.sign);
+  if (slow) columns.col(3) = c.slow.col(*slow).cwiseAbs().cwiseProduct(c.sign);
   return std::make_shared<const ModelRows::Rows>(std::move(columns));
 }
 
-/// Adds a joint's blocks to a model without heat.
-void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestion& q, bool slows,
-               double level, JointFit& fit) {
+/// Adds a joint's blocks to a model without heat. slow: of kSlowShares, of a friction that rises at low speed
+void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
+               std::optional<Index> slow, double level, JointFit& fit) {
   Model& model = fit.model;
   model.samples = c.velocity.size();
   std::vector<Unknown> law;
@@ -70,7 +71,10 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   for (const ParameterInfo& info : {kViscousRow, kCoulombPositiveRow, kCoulombNegativeRow}) {
     law.push_back(UnknownOf(info, Role::law, units));
   }
-  if (slows) law.push_back(UnknownOf(kStaticRiseRow, Role::law, units));
+  if (slow) {
+    law.push_back(UnknownOf(kStaticRiseRow, Role::law, units));
+    fit.slow_share = kSlowShares.at(static_cast<std::size_t>(*slow));
+  }
   fit.at.law = model.Append(law);
   Unknown load = LoadUnknown(units);
   load.prior = Normal{0, kLoadSpread};
@@ -103,7 +107,7 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
       model.Append(std::vector<Unknown>(static_cast<std::size_t>(c.ripple.cols()), harmonic));
 
   model.blocks = {
-      std::make_shared<FrictionBlock>(fit.at.law, LawColumnsOf(c, slows), LossColumnsOf(c, slows)),
+      std::make_shared<FrictionBlock>(fit.at.law, LawColumnsOf(c, slow), LossColumnsOf(c, slow)),
       std::make_shared<LoadBlock>(fit.at.load.begin, fit.at.given, c.carried,
                                   LoadBlock::Directions{c.Direction(), c.sign}),
       std::make_shared<LinearBlock>(fit.at.rotor, Shared(c.acceleration)),
@@ -147,7 +151,7 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
   JointFit first;
   JointColumns plain = c;
   plain.ripple.resize(c.ripple.rows(), 0);
-  AddBlocks(plain, guess, q, false, 1, first);
+  AddBlocks(plain, guess, q, {}, 1, first);
   SolveFresh(c, first);
   const Index law = first.at.law.begin;
   const double mean = (first.Value(law + 1) + first.Value(law + 2)) / 2;
@@ -186,7 +190,7 @@ void AddErrors(const JointColumns& c, JointFit& fit) {
 JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
                  double level) {
   JointFit fit;
-  AddBlocks(c, guess, q, false, level, fit);
+  AddBlocks(c, guess, q, {}, level, fit);
   SolveFresh(c, fit);
   AddErrors(c, fit);
   return fit;
@@ -194,9 +198,9 @@ JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuest
 
 /// The same with friction that rises at low speed, from the fit without on.
 JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
-                 double level, const JointFit& cold) {
+                 double level, const JointFit& cold, Index share) {
   JointFit fit;
-  AddBlocks(c, guess, q, true, level, fit);
+  AddBlocks(c, guess, q, share, level, fit);
   const Index rise = fit.at.law.end() - 1, size = cold.solved.x.size();
   VectorXd x = VectorXd::Zero(size + 1);
   x.head(rise) = cold.solved.x.head(rise);
@@ -273,6 +277,34 @@ bool Predicts(const JointFit& further, const JointFit& without, const JointColum
   return HeldOutSquare(further, c) <= HeldOutSquare(without, c);
 }
 
+/// Whether viscous friction is below 0 beyond chance: friction falls with speed.
+bool Falls(const JointColumns& c, const JointQuestion& q, const JointFit& cold) {
+  JointFit judged = cold;
+  FindBeyond(c, q, judged);
+  return std::ranges::find(judged.beyond, kViscousRow.name) != judged.beyond.end();
+}
+
+/// The fit with friction that rises at low speed, where the log shows it; of a friction that falls with speed, at the share of the top speed that leaves
+/// least.
+std::optional<JointFit> FindSlow(const JointColumns& c, const GainGuess& guess,
+                                 const JointQuestion& q, double level, const JointFit& cold) {
+  if (!q.slows) return std::nullopt;
+  const bool falls = Falls(c, q, cold);
+  const Index shares = falls ? std::ssize(kSlowShares) : 1;
+  std::optional<JointFit> best;
+  for (Index share = 0; share < shares; ++share) {
+    JointFit slow = FitSlow(c, guess, q, level, cold, share);
+    if (best && !(slow.solved.noise.variance < best->solved.noise.variance)) continue;
+    best = std::move(slow);
+  }
+  const Index rise = best->at.law.end() - 1;
+  const double level_of_one = q.error_level / static_cast<double>(shares) / q.joints;
+  const double reach = StudentQuantile(best->uncertainty.degrees_of_freedom, 1 - level_of_one);
+  const bool is_shown =
+      best->Value(rise) > reach * best->Deviation(rise) && Predicts(*best, cold, c);
+  return is_shown ? best : std::nullopt;
+}
+
 /// Adds what the model may lack. warm: the fit with heat as well, where the log shows one; with fields it stays where it is likelier
 /// than a friction that drifts
 JointFit Concluded(const JointColumns& c, const JointQuestion& q, JointFit cold,
@@ -338,16 +370,7 @@ GainGuess GuessGain(const JointColumns& c) {
 JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {
   const double level = c.ripple.cols() > 0 ? LevelOf(c, guess, q) : 1;
   JointFit fit = FitCold(c, guess, q, level);
-  if (q.slows) {
-    // friction that rises at low speed, where the log shows it
-    JointFit slow = FitSlow(c, guess, q, level, fit);
-    const Index rise = slow.at.law.end() - 1;
-    const double reach =
-        StudentQuantile(slow.uncertainty.degrees_of_freedom, 1 - q.error_level / q.joints);
-    if (slow.Value(rise) > reach * slow.Deviation(rise) && Predicts(slow, fit, c)) {
-      fit = std::move(slow);
-    }
-  }
+  if (std::optional<JointFit> slow = FindSlow(c, guess, q, level, fit)) fit = *std::move(slow);
   if (q.warms) {
     const HeatGuess heat = FindHeat(c, fit, q);
     fit.warming = heat.deviations;

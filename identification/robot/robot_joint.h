@@ -5,6 +5,7 @@
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,11 @@
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
+
+/// Shares of the top speed at which the rise of friction at low speed has fallen to 1/e. Why .08: joints of seven robots rise at .04 to .15 of
+/// their top speed, and their logs determine the size of the rise, not the speed at which it falls. The others are those of a
+/// friction that falls over all its speeds.
+inline constexpr std::array kSlowShares{.08, .2, .5};
 
 inline constexpr double kLeastTravel = .05;  // rad or m: a joint that is held moves by less
 
@@ -32,8 +38,8 @@ struct JointColumns {
   Eigen::VectorXd sign;  // [N] of the velocity, unfiltered
   /// [N] 1 where the joint moves in that direction, through the filter
   Eigen::VectorXd forwards, backwards;
-  Eigen::VectorXd
-      slow;  // [N] exp(-(v / (share of the top speed))^2) in its direction, through the filter
+  /// [N x 3] exp(-(v / (share of the top speed))^2) in its direction, through the filter; of each of kSlowShares
+  Eigen::MatrixXd slow;
   Eigen::MatrixXd ripple;  // [N x 4h] harmonics of the motor's angle in each direction; or [N x 0]
   GivenForce rigid;        // gravity, Coriolis and inertia by the description, N.m or N
   GivenForce carried;      // without inertia: what loads the joint
@@ -50,9 +56,10 @@ struct JointColumns {
 
 /// The settings of the fit of a joint.
 struct JointQuestion {
-  double middle_gain = 1;    // of the robot's joints, torque_unit for N.m or N
-  bool warms = true;         // whether warming is looked for
-  bool slows = true;         // whether a rise of friction at low speed is looked for
+  double middle_gain = 1;  // of the robot's joints, torque_unit for N.m or N
+  bool warms = true;       // whether warming is looked for
+  bool slows =
+      true;  // whether a rise of friction at low speed is looked for, where viscous friction is not below 0
   double error_level = .01;  // of the claim that one of all joints warms
   int joints = 1;            // of the robot that move
   FieldSet fields{};
@@ -112,6 +119,7 @@ struct JointFit {
   SolvedModel solved;
   Uncertainty uncertainty;          // of x
   double effective_parameters = 0;  // that the log determines, and not the priors
+  double slow_share = 0;            // of kSlowShares, where friction rises at low speed
   double warming =
       0;  // by how many deviations friction changes with the heat of its losses, at the best tau
   /// by how many times its prior the description is wrong; 1 where chance explains its errors
@@ -126,9 +134,5 @@ struct JointFit {
 /// The fit. guess: of its gain.
 JointFit FitJoint(const JointColumns& columns, const GainGuess& guess,
                   const JointQuestion& question);
-
-/// Share of the top speed at which the rise of friction has fallen to 1/e. Why .08: joints of seven robots rise at .04 to .15
-/// of their top speed, and their logs determine the size of the rise, not the speed at which it falls.
-inline constexpr double kSlowShare = .08;
 
 }  // namespace warmjoint

@@ -100,9 +100,11 @@ RobotSamples PrepareRobot(const RobotMotionLog& log, const MatrixXd& coupling,
   samples.acceleration = samples.joint_acceleration * coupling.transpose();
   samples.torque = thinned(low_pass.OfEach(log.torque));
   const Index count = samples.time.size();
-  for (MatrixXd* matrix : {&samples.sign, &samples.forwards, &samples.backwards, &samples.slow}) {
+  for (MatrixXd* matrix : {&samples.sign, &samples.forwards, &samples.backwards}) {
     matrix->resize(count, n);
   }
+  constexpr Index shares = std::ssize(kSlowShares);
+  samples.slow.resize(count, shares * n);
   samples.keep.resize(count, n);
   samples.top = speed.cwiseAbs().colwise().maxCoeff();
   samples.travel = motor.colwise().maxCoeff() - motor.colwise().minCoeff();
@@ -114,9 +116,11 @@ RobotSamples PrepareRobot(const RobotMotionLog& log, const MatrixXd& coupling,
     samples.sign.col(j) = (forwards - backwards)(thin);
     samples.forwards.col(j) = low_pass.Of(forwards)(thin);
     samples.backwards.col(j) = low_pass.Of(backwards)(thin);
-    const double bend = std::max(kSlowShare * samples.top[j], 1e-12);
-    const VectorXd slow = (-(u / bend).array().square()).exp() * (forwards - backwards).array();
-    samples.slow.col(j) = low_pass.Of(slow)(thin);
+    for (Index share = 0; share < shares; ++share) {
+      const double bend = std::max(kSlowShares.at(share) * samples.top[j], 1e-12);
+      const VectorXd slow = (-(u / bend).array().square()).exp() * (forwards - backwards).array();
+      samples.slow.col(shares * j + share) = low_pass.Of(slow)(thin);
+    }
     const auto moving =
         (u.array().abs() > std::max(kAtRest * samples.top[j], 1e-9)) && log.logged.col(j);
     samples.keep.col(j) = AllWithin(moving, static_cast<Index>(rate / filter.cutoff))(thin);

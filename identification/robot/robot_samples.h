@@ -23,7 +23,8 @@ struct RobotSamples {
   Eigen::MatrixXd sign;                              // [N x n] of the velocity, unfiltered
   /// [N x n] 1 where the joint moves in that direction, filtered
   Eigen::MatrixXd forwards, backwards;
-  Eigen::MatrixXd slow;  // [N x n] exp(-(v / (share of the top speed))^2) sign(v), filtered
+  /// [N x 3n] exp(-(v / (share of the top speed))^2) sign(v), filtered; three of kSlowShares a joint
+  Eigen::MatrixXd slow;
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>
       keep;                             // [N x n] away from rests, reversals and gaps
   Eigen::VectorXd top;                  // [n] speed, rad/s or m/s

@@ -25,6 +25,9 @@ inline constexpr const char* kNoFieldsBesideLag =
 inline constexpr const char* kNoFieldsBesideCovariance =
     "no fields are fitted, since this fit has errors of its own; use nominal-ls";
 /// The log is too short. rows: means over 40 ms that there are
+inline constexpr const char* kFrictionFalls =
+    "friction falls with speed: viscous friction is held at 0, Coulomb friction is that at the "
+    "median speed, and the fall is in the friction at speeds and in the map over the velocity";
 std::string ExplainFewFieldRows(Eigen::Index rows, Eigen::Index fewest);
 
 }  // namespace warmjoint

@@ -150,7 +150,10 @@ JointColumns ColumnsOf(const RobotData& data, const RobotRows& rows, Index j,
   c.sign = column(&RobotSamples::sign);
   c.forwards = column(&RobotSamples::forwards);
   c.backwards = column(&RobotSamples::backwards);
-  c.slow = column(&RobotSamples::slow);
+  constexpr Index shares = std::ssize(kSlowShares);
+  c.slow = Stacked(rows, [&](std::size_t i) -> MatrixXd {
+    return rows.samples[i].slow.middleCols(shares * j, shares);
+  });
   c.ripple = Stacked(rows, [&](std::size_t i) { return rows.samples[i].ripple[joint]; });
   c.samples.torque = column(&RobotSamples::torque);
 

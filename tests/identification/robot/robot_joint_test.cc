@@ -41,7 +41,11 @@ JointColumns Columns(const JointTruth& truth, unsigned seed, const VectorXd& giv
   c.forwards = (c.velocity.array() > 0).cast<double>();
   c.backwards = (c.velocity.array() < 0).cast<double>();
   c.top_speed = c.velocity.cwiseAbs().maxCoeff();
-  c.slow = (-(c.velocity.array() / (kSlowShare * c.top_speed)).square()).exp() * c.sign.array();
+  c.slow.resize(n, std::ssize(kSlowShares));
+  for (Index k = 0; k < c.slow.cols(); ++k) {
+    const double bend = kSlowShares.at(static_cast<std::size_t>(k)) * c.top_speed;
+    c.slow.col(k) = (-(c.velocity.array() / bend).square()).exp() * c.sign.array();
+  }
   c.ripple.resize(n, 0);
   const Eigen::ArrayXd q = c.position.array();
   Eigen::MatrixXd directions(n, 4);
