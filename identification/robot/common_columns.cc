@@ -20,7 +20,7 @@ constexpr double kBlock =
     5;  // s; why: far longer than the filter's memory, and moves of robots end within it
 constexpr double kLevelOfClaim = .01;
 constexpr int kRounds =
-    3;  // of noise and weights of the description's errors; why: both settle within two
+    4;  // of noise and weights of the description's errors; why: both settle within two
 
 /// The rate of a series by central differences within each recording. x: [N]
 VectorXd RateOf(const VectorXd& x, const JointColumns& c) {
@@ -66,25 +66,26 @@ MatrixXd ScatterByBlocks(const MatrixXd& rest, const VectorXd& e, const VectorXd
 Said SaidBy(std::size_t joint, const JointColumns& c, double gain, const CommonColumns& further) {
   const Selection used{c.samples.keep, {}};
   const Index r = c.rigid.directions.cols();
-  MatrixXd columns(c.velocity.size(), 5 + r);
+  MatrixXd columns(c.velocity.size(), 6 + r);
   columns << c.rigid.force, c.velocity, c.forwards, -c.backwards, c.acceleration,
-      c.rigid.directions;
-  const MatrixXd x = Kept(columns, used);
-  const VectorXd y = Kept(c.samples.torque, used);
-  const MatrixXd gram = GramOf(x);
-  VectorXd prior = VectorXd::Zero(5 + r);
+      VectorXd::Zero(c.velocity.size()), c.rigid.directions;
+  const VectorXd y = Kept(c.samples.torque, used), direction = c.Direction();
+  VectorXd prior = VectorXd::Zero(6 + r);
   prior.tail(r).setConstant(1 / (gain * gain));
 
-  // least squares with the description's errors as wide as their prior, over the noise that it leaves
-  MatrixXd inverse = InverseScaled(gram);
-  VectorXd solved, e;
+  // least squares with the description's errors as wide as their prior, over the noise that it leaves, and friction
+  // by the load that they give
+  MatrixXd x, inverse;
+  VectorXd solved = VectorXd::Zero(6 + r), e = y;
   for (int round = 0; round < kRounds; ++round) {
+    const VectorXd load = c.carried.At({0, c.velocity.size()}, solved.tail(r) / gain);
+    columns.col(5) = load.cwiseAbs().cwiseProduct(direction);
+    x = Kept(columns, used);
+    const double scale = round == 0 ? 0 : NoiseScaleOf(e).scale();
+    inverse = InverseScaled(GramOf(x) + MatrixXd((scale * prior).asDiagonal()));
     solved = inverse * (x.transpose() * y);
     e = y - x * solved;
-    inverse = InverseScaled(gram + MatrixXd((NoiseScaleOf(e).scale() * prior).asDiagonal()));
   }
-  solved = inverse * (x.transpose() * y);
-  e = y - x * solved;
 
   Said said;
   said.left = std::sqrt(e.squaredNorm() / static_cast<double>(e.size()));

@@ -52,9 +52,10 @@ Words WordsIn(const std::string& name) {
 
 /// Columns whose names differ in what tells the joint alone.
 struct Family {
-  std::string key;  // with {} in its place
-  Words columns;    // one for each joint, in their order
-  Words joints;     // whose they are; empty: by number, from the base outwards
+  std::string key;        // with {} in its place
+  Words columns;          // one for each joint, in their order
+  Words joints;           // whose they are; empty: by number, from the base outwards
+  std::size_t first = 0;  // of the numbers
 };
 
 /// The joints' names without a word "joint" at their end or front, which descriptions have and loggers leave out; as they are where that
@@ -122,7 +123,7 @@ std::vector<Family> NamedFamilies(const Words& names, const Words& joints) {
   }
   std::vector<Family> families;
   for (const auto& [key, members] : found) {
-    Family family{key, {}, {}};
+    Family family{key, {}, {}, 0};
     for (const auto& [joint, name] : members) {
       family.columns.push_back(name);
       family.joints.push_back(joints[joint]);
@@ -151,7 +152,7 @@ std::vector<Family> NumberedFamilies(const Words& names) {
   for (const auto& [key, members] : found) {
     const std::size_t first = members.begin()->first;
     if (first > 1) continue;
-    Family family{key, {}, {}};
+    Family family{key, {}, {}, first};
     for (const auto& [number, name] : members) {
       if (number != first + family.columns.size()) break;
       family.columns.push_back(name);
@@ -177,6 +178,16 @@ std::optional<std::pair<std::size_t, std::size_t>> FitOf(const Family& family,
   return std::pair(*best, words.size());
 }
 
+/// The pattern of --map that names a family.
+std::string PatternOf(const Family& family) {
+  std::string pattern = family.key;
+  const std::string inside =
+      family.joints.empty()
+          ? fmt::format("{{{}..{}}}", family.first, family.first + family.columns.size() - 1)
+          : "{name}";
+  return pattern.replace(pattern.find("{}"), 2, inside);
+}
+
 /// The best of the families that speak of `what`.
 Family Choose(const std::vector<Family>& families, const Words& wanted, const char* what,
               const Words& names, const Place& place) {
@@ -193,8 +204,11 @@ Family Choose(const std::vector<Family>& families, const Words& wanted, const ch
   const std::vector<const Family*>& best = ranked.begin()->second;
   if (best.size() > 1) {
     Refuse(place,
-           "has several columns that may be the joints' {}s: {} and {}. Choose: --map '{}={}'",
-           what, best[0]->columns[0], best[1]->columns[0], what, best[0]->columns[0]);
+           "has several columns that may be the joints' {}s: {} and {}. Choose: --map '{}={}'{}",
+           what, best[0]->columns[0], best[1]->columns[0], what, PatternOf(*best[0]),
+           best[0]->joints.empty() ? fmt::format(", and --joints with the names of their {} joints",
+                                                 best[0]->columns.size())
+                                   : "");
   }
   return *best.front();
 }
@@ -212,7 +226,7 @@ Family Mapped(const std::string& pattern, const Words& joints, const Words& name
   const Words own = columns(joints), shorter = columns(ShortNames(joints));
   const bool by_short =
       std::ranges::none_of(own, is_there) && std::ranges::all_of(shorter, is_there);
-  return {pattern, by_short ? shorter : own, joints};
+  return {pattern, by_short ? shorter : own, joints, 0};
 }
 
 /// Which joints both families are of, with a notice where that was taken to be so.

@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/names.h"
-#include "models/foundation/xml_tags.h"
 #include "sim/model/load_model.h"
 #include "sim/robot/urdf_spec.h"
 
@@ -31,11 +29,6 @@ void DeleteMeshes(mjSpec& spec) {
   for (const mjtObj kind : {mjOBJ_MESH, mjOBJ_SKIN, mjOBJ_MATERIAL, mjOBJ_TEXTURE}) {
     for (mjsElement* element : SpecElements(spec, kind)) mjs_delete(&spec, element);
   }
-}
-
-bool IsUrdfText(const std::string& text) {
-  const auto root = XmlTagReader(text).Next();
-  return root && root->name == "robot";
 }
 
 ModelPtr CompileMjcf(const std::filesystem::path& file, std::vector<std::string>& notices) {
@@ -212,7 +205,7 @@ ReadModel ReadRobotModel(const std::filesystem::path& file) {
   ReadModel read{file.string(), nullptr, {}, {}};
   if (file.extension() == ".mjb") {
     read.model = LoadCompiled(file);
-  } else if (IsUrdfText(ReadDescription(file).text)) {
+  } else if (IsUrdf(file)) {
     const SpecPtr spec = SpecOfUrdf(file, read.notices);
     read.model = CompileModel(*spec, {file.string()});
   } else {

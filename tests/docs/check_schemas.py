@@ -88,7 +88,7 @@ def validators():
 def kind_of(value):
     """Which schema is for a block of a page, if any is."""
     keys = {"identifiers": "suite", "compensators": "suite", "motion": "scenario", "identifier": "estimate", "status": "answer",
-            "law": "friction", "friction": "friction"}
+            "law": "friction", "friction": "friction", "summary": "robot"}
     return next((kind for key, kind in keys.items() if key in value), "map" if isinstance(value, list) else None)
 
 
@@ -128,6 +128,9 @@ def main():
             status, words, estimate = call(f"identify {log}/recording.csv --identifier {options} -o {{out}}")
             assert status in (0, 3), words
             check("estimate", json.loads(estimate.read_text()), f"identify {options}")
+        status, words, robot = call(f"identify-robot rotary {log}/recording.csv --map position=position,torque=torque,time=time -o {{out}}")
+        assert status in (0, 3), words
+        check("robot", json.loads(robot.read_text()), "identify-robot")
 
         # blocks of pages; the examples of the page of keys run
         for page in pages.pages(ROOT):

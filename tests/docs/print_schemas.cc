@@ -1,9 +1,10 @@
 // Prints what each file may hold as JSON Schemas (draft 2020-12), by what the structs themselves say: one object,
-//   {"friction": SCHEMA, "estimate": SCHEMA, "scenario": SCHEMA, "suite": SCHEMA, "attributes": SCHEMA}
+//   {"friction": SCHEMA, "estimate": SCHEMA, "robot": SCHEMA, "scenario": SCHEMA, "suite": SCHEMA, "attributes": SCHEMA}
 // tools/docs/tables makes files and tables of it. A number's unit stands there as "unit", beside its "description".
 #include <fmt/core.h>
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
+#include <warmjoint/robot_estimate.h>
 
 #include <nlohmann/json.hpp>
 
@@ -268,6 +269,44 @@ Tree SuiteFile() {
   return suite;
 }
 
+/// Members of a struct, or null.
+template <class T>
+Tree OrNothing(const T& value) {
+  return AnyOf({SchemaWriter({.written = true}).Members(value), {{"type", "null"}}});
+}
+
+Tree RobotFile() {
+  const auto each = [](const Tree& schema) {
+    return Tree{{"type", "object"}, {"additionalProperties", schema}};
+  };
+  const auto described = [](Tree schema, const char* meaning) {
+    schema["description"] = meaning;
+    return schema;
+  };
+  const Tree texts = ListOf({{"type", "string"}});
+  Tree robot = MapOf({
+      {"joints", described(each(Reference("estimate.schema.json")),
+                           "by their names, each as estimate.json; friction is null or in "
+                           "torque_unit where that is A")},
+      {"summary", described(each(SchemaWriter({}).Members(RobotJointSummary())),
+                            "of each joint, torques in its torque_unit")},
+      {"robot", described({{"type", "string"}}, "file of the description")},
+      {"log", described(texts, "files")},
+      {"notices", described(texts, "how description and log were understood, one sentence each")},
+      {"payload", described(OrNothing(EstimatedParameter()),
+                            "mass of a load that the description lacks, where one is shown or "
+                            "asked for")},
+      {"gravity", described(OrNothing(BaseGravity()),
+                            "of a base that does not stand as the description says")},
+      {"gravity_taken_off",
+       described({{"type", "boolean"}}, "whether the torques were logged without gravity")},
+      {"delay", described(OrNothing(EstimatedParameter()),
+                          "of all torques against the positions, where the log shows one")},
+  });
+  robot["required"] = {"joints", "summary"};
+  return robot;
+}
+
 }  // namespace
 }  // namespace warmjoint
 
@@ -277,6 +316,7 @@ int main() {
   const Tree all{{"friction", File("friction", "Friction of one joint", FrictionFile())},
                  {"estimate", File("estimate", "estimate.json of `warmjoint identify`",
                                    written.Members(Estimate()))},
+                 {"robot", File("robot", "robot.json of `warmjoint identify-robot`", RobotFile())},
                  {"scenario", File("scenario", "A scenario", ScenarioFile())},
                  {"suite", File("suite", "A suite", SuiteFile())},
                  {"attributes", plain.Members(PluginAttributes())}};

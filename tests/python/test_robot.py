@@ -164,6 +164,17 @@ def test_a_base_that_is_tilted_is_found_and_said(wrong, log, gravity):
     assert said.data["gravity"] is None
 
 
+def test_a_friction_that_falls_with_speed_is_told(wrong, log):
+    v = np.gradient(log["position"], log["time"], axis=0)
+    robot = wj.identify_robot(wrong, log | {"torque": log["torque"] - (VISCOUS + .1 * UP) * v})
+    for j, (name, estimate) in enumerate(robot.items()):
+        assert estimate.ok, f"{name}: {estimate.message}"
+        assert estimate["viscous"].value == 0
+        for one in estimate.data["friction_at_speeds"]:
+            truth = (UP if one["speed"] > 0 else DOWN)[j] - .1 * UP[j] * abs(one["speed"])
+            assert abs(one["value"] - truth) < 4 * one["std"], name
+
+
 def test_gravity_that_was_taken_off_is_said_and_no_load_is_named(wrong, log):
     robot = wj.identify_robot(wrong, log | {"torque": torque_of((0, 0, 0), log)})
     assert robot.data["gravity_taken_off"]

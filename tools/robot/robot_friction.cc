@@ -9,6 +9,8 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/friction/parameter_rows.h"
+#include "sim/model/load_model.h"
+#include "sim/robot/urdf_spec.h"
 #include "tools/identify/carried_heat.h"
 
 namespace warmjoint {
@@ -32,6 +34,27 @@ std::vector<double> EnergiesOf(const Estimate& estimate, const Friction& frictio
     if (one.name == "energy") return {one.value};
   }
   return {};
+}
+
+/// The model for `out`: of the description as MuJoCo reads it, else of a URDF as the fit has mended it.
+AttachedText ModelWith(const std::vector<FrictionForJoint>& frictions,
+                       const std::filesystem::path& robot, const std::filesystem::path& out,
+                       const AttachOptions& options) {
+  std::string why;
+  try {
+    return AttachFrictionAsText(robot, frictions, out, options);
+  } catch (const BadInput& refused) {
+    if (!IsUrdf(robot)) throw;
+    why = refused.what();
+  }
+  std::vector<std::string> mended;  // the fit has said it
+  const SpecPtr spec = SpecOfUrdf(robot, mended);
+  AttachedText made{AttachFriction(*spec, frictions, options, robot.string()), {}};
+  made.xml = ModelToXml(*spec, {robot.string()});
+  made.attached.notices.push_back(fmt::format(
+      "{} has the description as the fit mended it, without shapes, since MuJoCo refuses it ({})",
+      out.string(), why));
+  return made;
 }
 
 }  // namespace
@@ -101,7 +124,7 @@ AttachedText WarmModel(const std::filesystem::path& robot, const RobotEstimate& 
     std::ranges::copy(estimate.gravity->value, options.gravity->begin());
   }
   if (frictions.empty()) Refuse({"--mjcf"}, "no joint has a friction that MuJoCo can use");
-  AttachedText made = AttachFrictionAsText(robot, frictions, out, options);
+  AttachedText made = ModelWith(frictions, robot, out, options);
   std::vector<std::string>& notices = made.attached.notices;
   notices.insert(notices.begin(), said.begin(), said.end());
   return made;

@@ -65,6 +65,30 @@ TEST(FitWithFields, GivesTheRippleAsAMap) {
   }
 }
 
+TEST(FitWithFields, HoldsAFrictionThatFallsWithSpeed) {
+  Measurements m = test::Excited(test::Cold(), 4000, 1);
+  const double level = test::Cold().parameters.at("coulomb"),
+               slope = test::Cold().parameters.at("viscous"),
+               fall = .2 * level / m.velocity.cwiseAbs().maxCoeff();
+  m.torque -= (slope + fall) * m.velocity;
+  const Estimate estimate = test::Answer("nominal-ls", m, kFields);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
+  EXPECT_EQ(estimate.Find("viscous")->value, 0);
+  EXPECT_FALSE(estimate.Find("viscous")->interval95);
+  ASSERT_GE(estimate.friction_at_speeds.size(), 3U);
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    const double speed = std::abs(one.speed), truth = level - fall * speed;
+    EXPECT_NEAR(one.value, truth, 4 * one.std) << speed;
+    EXPECT_LT(one.std, .03 * truth);
+    // the file brakes as the answer says
+    Measurements at = test::Excited(test::Cold(), 2, 1);
+    at.velocity.setConstant(speed);
+    at.position.setZero();
+    const double force = PredictFriction(*estimate.friction, LogSamples(at)).force[0];
+    EXPECT_NEAR(force, truth, .03 * truth) << speed;
+  }
+}
+
 TEST(FitWithFields, IsWithoutARippleAboutLeastSquares) {
   const Estimate with = test::Answer("nominal-ls", Rippled(0, 3), kFields);
   auto options = kFields;

@@ -243,8 +243,8 @@ TEST(RobotJoint, IsReportedWithBothDirectionsAndTheirMean) {
 }
 
 TEST(RobotJoint, JointsTogetherTellADelay) {
-  // three joints whose torques come late by a third of a step, and three that do not
-  constexpr double late = .033;  // s
+  // three joints whose torques come late by two thirds of a step, and three that do not
+  constexpr double late = .066;  // s
   Eigen::VectorXd off(10);
   for (const double delay : {0.0, late}) {
     int shown = 0;

@@ -4,7 +4,7 @@
 //   settings.minutes = 12;
 //   settings.aim = AimFrom("thermal_time_constant=5%");
 //   const Design design = DesignMotion(settings);
-//   for (const auto& [name, text] : FilesOf(design)) std::ofstream(name) << text;
+//   for (const auto& [name, text] : FilesOf(design)) std::printf("%s: %zu bytes\n", name.c_str(), text.size());
 #pragma once
 
 #include <warmjoint/estimate.h>
