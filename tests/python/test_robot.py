@@ -212,7 +212,7 @@ def test_a_zero_that_is_off_is_named_and_undone(wrong, log):
     off = log | {"position": log["position"] + [0, np.pi / 2, 0]}
     refused = wj.identify_robot(wrong, off)
     assert not any(estimate.ok for estimate in refused.values())
-    assert "zero elbow=1.5" in refused["elbow"].message
+    assert 'zero={"elbow": 1.5' in refused["elbow"].message
     assert_true(wj.identify_robot(wrong, off, zero={"elbow": np.pi / 2}))
 
 
