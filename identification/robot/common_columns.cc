@@ -102,13 +102,14 @@ Said SaidBy(std::size_t joint, const JointColumns& c, double gain, const CommonC
 
 }  // namespace
 
-CommonFit FitCommon(const std::vector<JointColumns>& joints, const std::vector<GainGuess>& guesses,
-                    double middle_gain, const CommonColumns& columns) {
+CommonFit FitCommon(const std::vector<const JointColumns*>& joints,
+                    const std::vector<GainGuess>& guesses, double middle_gain,
+                    const CommonColumns& columns) {
   CommonFit fit;
   std::vector<Said> all;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double gain = guesses[j].IsSure() ? std::abs(guesses[j].value) : middle_gain;
-    all.push_back(SaidBy(j, joints[j], gain, columns));
+    all.push_back(SaidBy(j, *joints[j], gain, columns));
   }
   if (all.size() < 2) return fit;
   const Index k = all.front().columns.cols();
@@ -135,11 +136,11 @@ CommonFit FitCommon(const std::vector<JointColumns>& joints, const std::vector<G
   return fit;
 }
 
-CommonFit FitDelay(const std::vector<JointColumns>& joints, const std::vector<GainGuess>& guesses,
-                   double middle_gain) {
+CommonFit FitDelay(const std::vector<const JointColumns*>& joints,
+                   const std::vector<GainGuess>& guesses, double middle_gain) {
   return FitCommon(joints, guesses, middle_gain,
                    [&](std::size_t joint, const VectorXd& fitted) -> MatrixXd {
-                     return -RateOf(fitted, joints[joint]);
+                     return -RateOf(fitted, *joints[joint]);
                    });
 }
 

@@ -26,11 +26,12 @@ using CommonColumns =
 
 /// Each joint's least squares (rigid torque with the description's errors as wide as their prior, friction, rotor) with these columns further; the value is the mean over the
 /// joints, weighed by their information. Its error is by blocks of 5 s, or by the joints' scatter where that is larger. joints, guesses: [n] of those that move
-CommonFit FitCommon(const std::vector<JointColumns>& joints, const std::vector<GainGuess>& guesses,
-                    double middle_gain, const CommonColumns& columns);
+CommonFit FitCommon(const std::vector<const JointColumns*>& joints,
+                    const std::vector<GainGuess>& guesses, double middle_gain,
+                    const CommonColumns& columns);
 
 /// A delay d of all torques against the positions, s; below 0 the positions are late. tau(t - d) = tau(t) - d dtau/dt.
-CommonFit FitDelay(const std::vector<JointColumns>& joints, const std::vector<GainGuess>& guesses,
-                   double middle_gain);
+CommonFit FitDelay(const std::vector<const JointColumns*>& joints,
+                   const std::vector<GainGuess>& guesses, double middle_gain);
 
 }  // namespace warmjoint

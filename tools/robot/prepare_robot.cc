@@ -94,7 +94,7 @@ void TurnTorques(PreparedRobot& robot) {
 
 /// The joints that move, as fits of what they have in common get them.
 struct Together {
-  std::vector<JointColumns> columns;
+  std::vector<const JointColumns*> columns;
   std::vector<GainGuess> guesses;
   double middle = 1;
 };
@@ -102,7 +102,7 @@ struct Together {
 Together TogetherOf(const PreparedRobot& robot) {
   Together all;
   for (const Index j : robot.Moving()) {
-    all.columns.push_back(robot.joints[static_cast<std::size_t>(j)].columns);
+    all.columns.push_back(&robot.joints[static_cast<std::size_t>(j)].columns);
     all.guesses.push_back(robot.joints[static_cast<std::size_t>(j)].guess);
   }
   all.middle = MiddleGain(robot.joints);

@@ -261,7 +261,7 @@ TEST(RobotJoint, JointsTogetherTellADelay) {
         guesses.push_back(GuessGain(c));
         joints.push_back(std::move(c));
       }
-      const CommonFit fit = FitDelay(joints, guesses, 1);
+      const CommonFit fit = FitDelay({&joints[0], &joints[1], &joints[2]}, guesses, 1);
       off[seed] = (fit.value[0] - delay) / std::sqrt(fit.covariance(0, 0));
       shown += fit.is_shown ? 1 : 0;
     }
