@@ -297,6 +297,25 @@ def test_a_joint_of_a_robot_is_drawn_and_has_residuals(wrong, log):
         elbow.plot("friction_curve")
 
 
+def test_two_answers_are_compared_joint_by_joint(wrong, log):
+    worn = wj.identify_robot(wrong, log | {"torque": log["torque"] + [1, 0, 0] * np.sign(np.gradient(log["position"], axis=0))})
+    rows = wj.identify_robot(wrong, log).compare(worn)
+    assert {row["joint"] for row in rows} == {"shoulder", "elbow", "wrist"}
+    apart = {row["joint"]: abs(row["apart"]) for row in rows if row["name"] == "coulomb"}
+    assert apart["shoulder"] > 1 and max(apart["elbow"], apart["wrist"]) < 1
+    with pytest.raises(wj.BadInput, match="give a RobotEstimate"):
+        worn.compare(worn["elbow"])
+
+
+def test_all_joints_are_drawn_on_one_sheet(wrong, log):
+    series = wj.identify_robot(wrong, log, fields="none").plot().series()
+    for j, joint in enumerate(("shoulder", "elbow", "wrist")):
+        drawn = series[f"{joint}: forwards"]
+        assert np.abs(drawn["y"] - UP[j] - VISCOUS[j] * drawn["x"]).max() < .1 * UP[j]
+    with pytest.raises(wj.BadInput):
+        wj.load_robot("library:panda").plot()
+
+
 def test_what_cannot_be_used_is_refused(wrong, log):
     with pytest.raises(wj.BadInput, match="position"):
         wj.identify_robot(wrong, {"time": log["time"], "torque": log["torque"]})

@@ -14,13 +14,13 @@ import numpy as np
 
 from warmjoint import _core, mujoco_library, other_formats
 from warmjoint.answers import Parameter, Residuals
-from warmjoint.engine import _engine
+from warmjoint.engine import Board, _engine, compare
 from warmjoint.estimate import Estimate, Rejected
 from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 from warmjoint.tables import Asked, Table, numbers_of, tables_of, with_objects
-from warmjoint.values import Array, named, number, numbers, path_of, shown, text, texts
+from warmjoint.values import Array, kind_of, named, number, numbers, path_of, shown, text, texts
 
 Numbers = float | Mapping[str, float]
 
@@ -126,14 +126,38 @@ class RobotEstimate(Mapping[str, Estimate]):
         found = {name: one.get("friction") for name, one in self.data["joints"].items()}
         return {name: Friction.from_dict(one) for name, one in found.items() if one and one.get("torque_unit") != "A"}
 
-    def plot(self, joint: str, style: str | dict[str, Any] = "screen") -> Any:
-        """Draws friction over velocity, along the log, and what is left of one joint; returns the matplotlib Figure."""
+    @property
+    def gravity(self) -> tuple[float, ...] | None:
+        """Gravity in the description's axes, m/s^2, of a base that does not stand as described; None where it does."""
+        one = self.data.get("gravity")
+        return tuple(one["value"]) if one else None
+
+    @property
+    def delay(self) -> Parameter | None:
+        """Time by which all torques come after the positions, s; None where the log shows none."""
+        one = self.data.get("delay")
+        return Parameter("delay", one["value"], one["unit"], one["std"], tuple(one["interval95"])) if one else None
+
+    def compare(self, other: RobotEstimate) -> Board:
+        """Two answers of one robot, of two days or of two like arms: for each joint that both answer the rows of `compare`, with its name as
+        `joint`. Which joint has changed: rows with |apart| above 1. Raises BadInput, also for answers without a joint in common.
+        """
+        if not isinstance(other, RobotEstimate):
+            raise _core.BadInput(f"other: is {kind_of(other)}; give a RobotEstimate, of identify_robot or load_robot")
+        both = [name for name in self if name in other.data["joints"] and self[name].ok and other[name].ok]
+        if not both:
+            raise _core.BadInput("other: no joint is answered in both; compare answers of one robot")
+        return Board({"joint": name} | row for name in both for row in compare(self[name], other[name]))
+
+    def plot(self, joint: str = "", style: str | dict[str, Any] = "screen") -> Any:
+        """Draws friction over velocity, along the log, and what is left of one joint; without a name the friction of all joints over
+        speed, a panel each. Returns the matplotlib Figure."""
         from warmjoint.figures import robots
         from warmjoint.figures.style import use
 
-        drawn = self._drawn_of(joint, "plot")
+        drawn = self._drawn_of(joint, "plot") if joint or not self._drawn else None
         with use(style):
-            return robots.joint(drawn)
+            return robots.joint(drawn) if drawn else robots.all_joints(list(self._drawn.values()))
 
     def _drawn_of(self, joint: str, what: str) -> dict[str, Any]:
         """The series of a joint along its log."""

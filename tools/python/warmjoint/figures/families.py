@@ -92,7 +92,12 @@ def _of_design(one: Source) -> Family:
 
 
 def _of_robot(one: Source) -> Family:
-    return {joint["file"]: (functools.partial(robots.joint, joint), "a fit") for joint in one.facts["joints"]}
+    joints = one.facts["joints"]
+    drawn: Family = {joint["file"]: (functools.partial(robots.joint, joint), "a fit") for joint in joints}
+    # one sheet of all, unless a joint has its name
+    if len(joints) > 1 and "all_joints" not in drawn:
+        drawn["all_joints"] = (functools.partial(robots.all_joints, joints), "fits")
+    return drawn
 
 
 # those of one panel, which can be drawn into axes of another figure

@@ -46,6 +46,45 @@ def joint(facts: dict[str, Any]) -> Sheet:
     return fig
 
 
+def _means(speed: np.ndarray, values: np.ndarray, count: int = 12) -> tuple[np.ndarray, np.ndarray]:
+    """Means of values over equal parts of the speeds that hold ten samples or more. Returns speeds and means."""
+    part = np.minimum((speed / max(speed.max(), 1e-12) * count).astype(int), count - 1)
+    held = [part == k for k in range(count) if np.sum(part == k) >= 10]
+    return np.array([speed[one].mean() for one in held]), np.array([values[one].mean() for one in held])
+
+
+def all_joints(joints: list[dict[str, Any]]) -> Sheet:
+    """The friction of all joints of identify-robot over speed, a panel each: means of the log and of the fit in both directions."""
+    ok = sum(one["status"] == "ok" for one in joints)
+    fig = Sheet("all_joints", "Friction of all joints", f"{ok} of {len(joints)} fits ok; points: means of the log, lines: of the fit",
+                "Torque against the motion that is left of the log without rigid-body torque, and what is fitted of it.")
+    columns = min(3, len(joints))
+    rows = -(-len(joints) // columns)
+    panels = fig.panels(*[(230, [1.0] * columns)] * rows)
+    for ax, facts in zip(panels, joints, strict=False):
+        keep, unit = facts["keep"] > 0, unit_text(facts["torque_unit"])
+        velocity, top = facts["velocity"][keep], 0.0
+        for way, label, hue in ((1, "forwards", "blue"), (-1, "backwards", "vermilion")):
+            one = velocity * way > 0
+            if not one.any():
+                continue
+            speed = np.abs(velocity[one])
+            for key, draw_one in (("measured", draw.dots), ("fitted", draw.line)):
+                x, y = _means(speed, way * facts[key][keep][one])
+                top = max(top, y.max(initial=0))
+                if key == "measured":
+                    draw_one(ax, x, y, label, hue, 3)
+                else:
+                    draw_one(ax, x, y, "", hue, 1.5)
+        ax.set_xlim(0, None)
+        ax.set_ylim(0, 1.15 * top or None)
+        title = facts["joint"] if facts["status"] == "ok" else f"{facts['joint']}: {facts['status']}"
+        draw.finish(ax, f"speed ({'m/s' if unit == 'N' else 'rad/s'})", f"friction ({unit})", title)
+    for ax in panels[len(joints):]:
+        ax.set_axis_off()
+    return fig
+
+
 def warm_robot(view: View, scene: dict[str, Any], name: str) -> Sheet:
     """The robot cold and at its warmest, E over time in the colours of the link, and the friction as it is and as it were without warming."""
     from matplotlib.colors import LinearSegmentedColormap
