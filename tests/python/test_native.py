@@ -67,7 +67,7 @@ def test_the_driver_s_heat_is_that_of_the_golden_recordings(law):
         worst = max(worst, abs(native.heat[0] - energy))
         data.qvel[0] = v
         # as a step that slid at this speed leaves the spring: at the yield of the speed
-        native._set_yields(data.qvel)
+        native.warm(data, 0)
         data.plastic[0] = data.qpos[0] - np.sign(v) * native.model.jnt_springyield[0]
         native.warm(data)
     print(f"\n{law}: E apart by {worst:.1e} N.m")

@@ -56,6 +56,10 @@ def _load() -> ctypes.CDLL:
     ):
         getattr(library, function).argtypes = takes
         getattr(library, function).restype = ctypes.c_char_p
+    pointer = ctypes.c_void_p
+    library.warmjoint_warm_springs.argtypes = [pointer, pointer, pointer, ctypes.c_int, pointer, ctypes.c_int]
+    library.warmjoint_relax_springs.argtypes = [pointer, pointer, pointer, ctypes.c_int]
+    library.warmjoint_warm_springs.restype = library.warmjoint_relax_springs.restype = None
     return library
 
 
@@ -101,6 +105,11 @@ def attach_to_spec(spec: mujoco.MjSpec, request: dict[str, Any]) -> Any:
 def remove_from_spec(spec: mujoco.MjSpec) -> None:
     """Takes all friction of the plugin out of a spec."""
     _call("warmjoint_remove", spec._address)
+
+
+warm_springs = _library.warmjoint_warm_springs
+"""Heat and yields of springs that hold friction, by addresses (sim/library/drive_springs.cc)."""
+relax_springs = _library.warmjoint_relax_springs
 
 
 def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:

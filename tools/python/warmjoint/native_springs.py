@@ -17,14 +17,16 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from warmjoint import mujoco_plugin
 from warmjoint._core import BadInput
 from warmjoint.engine_checks import settled_energies_of
-from warmjoint.friction_arrays import Bools, FloatArray, FrictionArrays, arrays_of
+from warmjoint.friction_arrays import FloatArray, FrictionArrays, arrays_of
 from warmjoint.mujoco_attach import Attached, FrictionLike, Integrator, attach_form, text_of_spec
 from warmjoint.values import of_kind, text, whole
 
-# a stretch in double precision is a difference of angles, worth 1e-15 of some rad, and a yield is 1e-6 rad at least where it matters
-_AT_YIELD = 1 - 1e-6
+# a joint's spring and its friction, as sim/library/drive_springs.cc reads it
+_SPRING = np.dtype([("joint", "i4"), ("position", "i4"), ("dof", "i4"), ("plastic", "i4"), ("stiffness", "f8"), ("level", "f8"), ("rise", "f8"),
+                    ("velocity", "f8"), ("exponent", "f8"), ("gain", "f8", 2), ("ratio", "f8", 2)], align=True)
 
 
 def native(model: mujoco.MjSpec | str | os.PathLike[str], frictions: Mapping[str, FrictionLike], *, approximate: bool = False,
@@ -78,19 +80,24 @@ class Native:
         self.stiffness: FloatArray = np.array([spring["stiffness"] for spring in self._springs.values()])
         """k, N.m/rad or N/m."""
         number, h = self.friction.numbers, self.friction.timestep
+        gains = np.array([number["thermal_gain"], number["second_thermal_gain"]])
         ratios = h / np.array([number["thermal_time_constant"], number["second_thermal_time_constant"]])
-        self._ratios = np.maximum(ratios, np.finfo(float).tiny)  # h / tau, of what does not warm 0
         self.pole: FloatArray = np.exp(-ratios)
         """[2 x joints] What stays of each stage's heat after a step."""
-        self.gain: FloatArray = np.array([number["thermal_gain"], number["second_thermal_gain"]]) * -np.expm1(-ratios)
+        self.gain: FloatArray = gains * -np.expm1(-ratios)
         """[2 x joints] What a loss of 1 W adds to it, N.m or N."""
         self.energy: FloatArray = self.friction.initial_energy.copy()
         """[2 x joints] E1 and E2, N.m or N; with qpos, qvel and plastic of the data the state of a run."""
-        self._levels = self.friction.levels()
-        self._falls = bool((self._levels.rise != 0).any())
+        of = self.friction.levels()
+        self._falls = bool((of.rise != 0).any())
+        self._table = np.zeros(len(ids), dtype=_SPRING)
+        for name, values in (("joint", ids), ("position", self.friction.positions), ("dof", self.friction.dofs), ("plastic", self.places),
+                             ("stiffness", self.stiffness), ("level", of.positive), ("rise", of.rise), ("velocity", of.velocity), ("exponent", of.exponent),
+                             ("gain", gains.T), ("ratio", ratios.T)):
+            self._table[name] = values
         self._start_energy, self._time = self.energy.copy(), -np.inf
         self._worlds: Any = None  # of Warp
-        self._set_yields(np.zeros(len(ids)))
+        self.warm(mujoco.MjData(model), 0)
 
     def __repr__(self) -> str:
         return "\n".join([f"friction on {', '.join(self.joints)} as springs with a yield, without a plugin", *self.notices])
@@ -125,43 +132,41 @@ class Native:
         self.energy = self._start_energy.copy()
         self._time = float(data.time)
         data.plastic[self.places] = data.qpos[self.friction.positions]
-        self._set_yields(data.qvel[self.friction.dofs])
+        self.warm(data, 0)
 
     def step(self, data: mujoco.MjData, nstep: int = 1, every: int = 1) -> None:
         """Steps the model by MuJoCo, and after each step, or after `every` so many, sets the yields from the heat. data: of `model`, one at a time. A pose
         that was set anew begins with relaxed springs, and a run whose time went back with the heat of the last `start`.
 
-        every: of nstep; heat takes seconds to minutes, so that 10 steps of 1 ms lose little and cost a tenth of the driver's time. Levels that fall with
-        speed need each step."""
+        every: of nstep; heat takes seconds to minutes, so that 10 steps of 1 ms lose little, and their driver costs nearly nothing. Levels that fall
+        with speed need each step."""
         self._check(data)
         if data.time < self._time:
             self.energy = self._start_energy.copy()
-            self._set_yields(data.qvel[self.friction.dofs])
-        stretch = self._stretch(data)
-        moved = ~(np.abs(stretch) <= 2 * self._yields())
-        if moved.any():
-            data.plastic[self.places[moved]] = data.qpos[self.friction.positions[moved]]
+            self.warm(data, 0)
         count, together = whole("nstep", nstep), whole("every", every)
         if together < 1 or (together > 1 and self._falls):
             raise BadInput(f"every: is {together}; it must be 1 or more, and 1 for the law stribeck, whose level follows the speed")
+        driven, energy = self._addresses(data)
+        mujoco_plugin.relax_springs(*driven)
         for done in range(0, count, together):
-            mujoco.mj_step(self.model, data, min(together, count - done))
-            self.warm(data, min(together, count - done))
+            steps = min(together, count - done)
+            mujoco.mj_step(self.model, data, steps)
+            mujoco_plugin.warm_springs(*driven, energy, steps)
         self._time = float(data.time)
 
     def warm(self, data: mujoco.MjData, steps: int = 1) -> None:
-        """The driver by itself, after so many steps by other means: heat and yields. What is no finite number counts as 0."""
+        """The driver by itself, after so many steps by other means: heat and yields; after none, yields alone. What is no finite number counts as 0."""
         self._check(data)
-        count = float(whole("steps", steps))
-        v, stretch, yields = data.qvel[self.friction.dofs], self._stretch(data), self._yields()
-        slides: Bools = (np.abs(stretch) >= _AT_YIELD * yields) & (stretch * v > 0)
-        with np.errstate(invalid="ignore"):
-            loss = self.model.dof_damping[self.friction.dofs] * v * v + slides * self.stiffness * yields * np.abs(v)
-        pole, gain = self.pole, self.gain
-        if count > 1:
-            pole, gain = pole**count, gain * -np.expm1(-count * self._ratios) / -np.expm1(-self._ratios)
-        self.energy = pole * np.where(np.isfinite(self.energy), self.energy, 0.0) + gain * np.where(np.isfinite(loss), loss, 0.0)
-        self._set_yields(v)
+        driven, energy = self._addresses(data)
+        mujoco_plugin.warm_springs(*driven, energy, whole("steps", steps))
+
+    def _addresses(self, data: mujoco.MjData) -> tuple[tuple[int, int, int, int], int]:
+        """Of model, data and springs, with their count, and of the heat."""
+        self.energy = np.ascontiguousarray(self.energy, dtype=np.float64)
+        if self.energy.shape != self.pole.shape:
+            raise BadInput(f"energy: has shape {self.energy.shape}; give [2 x {len(self.joints)}]")
+        return (self.model._address, data._address, self._table.ctypes.data, len(self.joints)), self.energy.ctypes.data
 
     def update(self, m: Any, d: Any) -> Any:
         """The driver for the worlds of mujoco_warp, on the device: call it after each mjw.step(m, d). m: mjw.put_model(native.model), whose
@@ -177,20 +182,3 @@ class Native:
         of_kind("data", data, mujoco.MjData)
         if len(data.plastic) != self.model.nplastic or len(data.qvel) != self.model.nv:
             raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
-
-    def _stretch(self, data: mujoco.MjData) -> FloatArray:
-        with np.errstate(invalid="ignore"):
-            stretch: FloatArray = data.qpos[self.friction.positions] - data.plastic[self.places]
-        return stretch
-
-    def _yields(self) -> FloatArray:
-        yields: FloatArray = self.model.jnt_springyield[self.ids]
-        return yields
-
-    def _set_yields(self, v: FloatArray) -> None:
-        """(g(|v|) + E) / k, not below 0."""
-        of = self._levels
-        level = of.positive + self.heat
-        if self._falls:
-            level = level + of.rise * np.exp(-((np.where(np.isfinite(v), np.abs(v), 0.0) / of.velocity) ** of.exponent))
-        self.model.jnt_springyield[self.ids] = np.maximum(0.0, level) / self.stiffness
