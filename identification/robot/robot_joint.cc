@@ -345,26 +345,33 @@ GainPrior PriorOfGain(const JointColumns& c, const GainGuess& guess, double midd
   return {middle, std::log(kAlikeGains) / kNormal95};
 }
 
-GainGuess GuessGain(const JointColumns& c) {
-  // least squares with the description as it is
+GainGuess GuessGain(const JointColumns& c, Description description) {
+  // least squares with the description as it is, or with its errors by their prior
   const Selection used{c.samples.keep, {}};
-  MatrixXd columns(c.velocity.size(), 5);
-  columns << c.rigid.force, c.velocity, c.forwards, -c.backwards, c.acceleration;
+  const Index r = description == Description::as_prior ? c.rigid.directions.cols() : 0;
+  MatrixXd columns(c.velocity.size(), 5 + r);
+  columns << c.rigid.force, c.velocity, c.forwards, -c.backwards, c.acceleration,
+      c.rigid.directions.leftCols(r);
   columns = Kept(columns, used);
   const VectorXd y = Kept(c.samples.torque, used);
-  const MatrixXd h = GramOf(columns);
-  const VectorXd x = SolveScaled(h, columns.transpose() * y);
-  const NoiseScale noise = NoiseScaleOf(y - columns * x);
+  MatrixXd h = GramOf(columns);
+  VectorXd x = SolveScaled(h, columns.transpose() * y);
+  NoiseScale noise = NoiseScaleOf(y - columns * x);
+  if (r > 0) {
+    h.diagonal().tail(r).array() += noise.scale();
+    x = SolveScaled(h, columns.transpose() * y);
+    noise = NoiseScaleOf(y - columns * x);
+  }
   const MatrixXd covariance = InverseScaled(h) * noise.scale();
   // friction at the mean speed, the mean of both directions
-  VectorXd mean = VectorXd::Zero(5);
+  VectorXd mean = VectorXd::Zero(5 + r);
   mean[1] = columns.col(1).cwiseAbs().mean();
   mean[2] = mean[3] = .5;
   const auto over_deviation = [&](const VectorXd& weights) {
     const double deviation = std::sqrt(weights.dot(covariance * weights));
     return deviation > 0 ? weights.dot(x) / deviation : 0;
   };
-  return {x[0], std::abs(over_deviation(VectorXd::Unit(5, 0))), over_deviation(mean)};
+  return {x[0], std::abs(over_deviation(VectorXd::Unit(5 + r, 0))), over_deviation(mean)};
 }
 
 JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {

@@ -78,7 +78,9 @@ struct GainGuess {
   bool Brakes() const { return braking > 5; }
 };
 
-GainGuess GuessGain(const JointColumns& columns);
+/// How a guess takes the description: as true, or as wrong as its prior allows at a gain of 1.
+enum class Description { as_true, as_prior };
+GainGuess GuessGain(const JointColumns& columns, Description description = Description::as_true);
 
 /// What is known of a joint's gain before its log is fitted: its logarithm is normal.
 struct GainPrior {

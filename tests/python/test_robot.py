@@ -130,6 +130,11 @@ def test_swapped_columns_and_a_turned_position_are_named(wrong, log):
     assert "position of elbow is turned" in wj.identify_robot(wrong, turned)["elbow"].message
 
 
+def plain(model, log, **settings):
+    """Without fields, which take most of the time."""
+    return wj.identify_robot(model, log, fields="none", **settings)
+
+
 def torque_of(gravity, log):
     """The log's torques with another gravity in them."""
     model = mujoco.MjModel.from_xml_string(ARM)
@@ -153,13 +158,13 @@ def assert_true(robot):
 
 @pytest.mark.parametrize("gravity", [(9.81, 0, 0), (0, 0, 9.81), (2.54, 0, -9.48)])
 def test_a_base_that_is_tilted_is_found_and_said(wrong, log, gravity):
-    robot = wj.identify_robot(wrong, log | {"torque": torque_of(gravity, log)})
+    robot = plain(wrong, log | {"torque": torque_of(gravity, log)})
     assert_true(robot)
     found = robot.data["gravity"]
     # in the plane in which both joints swing
     off = [(found["value"][k] - gravity[k]) / found["std"][k] for k in (0, 2) if found["std"][k] > 1e-3]
     assert np.max(np.abs(off)) < 4
-    said = wj.identify_robot(wrong, log | {"torque": torque_of(gravity, log)}, gravity=gravity)
+    said = plain(wrong, log | {"torque": torque_of(gravity, log)}, gravity=gravity)
     assert_true(said)
     assert said.data["gravity"] is None
 
@@ -176,7 +181,7 @@ def test_a_friction_that_falls_with_speed_is_told(wrong, log):
 
 
 def test_gravity_that_was_taken_off_is_said_and_no_load_is_named(wrong, log):
-    robot = wj.identify_robot(wrong, log | {"torque": torque_of((0, 0, 0), log)})
+    robot = plain(wrong, log | {"torque": torque_of((0, 0, 0), log)})
     assert robot.data["gravity_taken_off"]
     assert robot.data["payload"] is None
     assert_true(robot)
@@ -184,36 +189,36 @@ def test_gravity_that_was_taken_off_is_said_and_no_load_is_named(wrong, log):
 
 def test_torques_that_come_late_are_fitted_with_their_delay(wrong, log):
     late = 3  # samples of 10 ms
-    robot = wj.identify_robot(wrong, log | {"torque": np.roll(log["torque"], late, axis=0)})
+    robot = plain(wrong, log | {"torque": np.roll(log["torque"], late, axis=0)})
     delay = robot.data["delay"]
     assert abs(delay["value"] - .01 * late) < 4 * delay["std"]
     assert_true(robot)
-    assert wj.identify_robot(wrong, log).data["delay"] is None
+    assert plain(wrong, log).data["delay"] is None
 
 
 def test_torques_of_the_motors_side_are_refused_by_their_gain(wrong, log):
-    robot = wj.identify_robot(wrong, log | {"torque": log["torque"] / 100})
+    robot = plain(wrong, log | {"torque": log["torque"] / 100})
     assert not any(estimate.ok for estimate in robot.values())
-    one = wj.identify_robot(wrong, log | {"torque": log["torque"] / [100, 1, 1]})
+    one = plain(wrong, log | {"torque": log["torque"] / [100, 1, 1]})
     assert not one["shoulder"].ok
     assert "scale shoulder.torque=" in one["shoulder"].message
     assert one["elbow"].ok
     # the description may be as wrong as that
-    assert wj.identify_robot(wrong, log | {"torque": log["torque"] / 100}, inertials=1)["elbow"].ok
+    assert plain(wrong, log | {"torque": log["torque"] / 100}, inertials=1)["elbow"].ok
 
 
 def test_all_torques_turned_are_one_sentence(wrong, log):
-    robot = wj.identify_robot(wrong, log | {"torque": -log["torque"]})
+    robot = plain(wrong, log | {"torque": -log["torque"]})
     assert len([one for one in robot.notices if "turned" in one]) == 1
     assert_true(robot)
 
 
 def test_a_zero_that_is_off_is_named_and_undone(wrong, log):
     off = log | {"position": log["position"] + [0, np.pi / 2, 0]}
-    refused = wj.identify_robot(wrong, off)
+    refused = plain(wrong, off)
     assert not any(estimate.ok for estimate in refused.values())
     assert 'zero={"elbow": 1.5' in refused["elbow"].message
-    assert_true(wj.identify_robot(wrong, off, zero={"elbow": np.pi / 2}))
+    assert_true(plain(wrong, off, zero={"elbow": np.pi / 2}))
 
 
 def test_a_joint_that_the_log_lacks_stands_where_it_is_said():
@@ -233,7 +238,7 @@ def test_a_joint_that_the_log_lacks_stands_where_it_is_said():
         torque[i] = data.qfrc_inverse[[0, 2, 3]]
     friction = VISCOUS * v + UP * (v > 0) - DOWN * (v < 0)
     table = source | {"torque": torque + friction + .1 * np.random.default_rng(5).standard_normal(v.shape)}
-    robot = wj.identify_robot(model, table, joints=["shoulder", "elbow", "wrist"], at={"held": 1})
+    robot = plain(model, table, joints=["shoulder", "elbow", "wrist"], at={"held": 1})
     assert_true(robot)
 
 
@@ -298,8 +303,8 @@ def test_a_joint_of_a_robot_is_drawn_and_has_residuals(wrong, log):
 
 
 def test_two_answers_are_compared_joint_by_joint(wrong, log):
-    worn = wj.identify_robot(wrong, log | {"torque": log["torque"] + [1, 0, 0] * np.sign(np.gradient(log["position"], axis=0))})
-    rows = wj.identify_robot(wrong, log).compare(worn)
+    worn = plain(wrong, log | {"torque": log["torque"] + [1, 0, 0] * np.sign(np.gradient(log["position"], axis=0))})
+    rows = plain(wrong, log).compare(worn)
     assert {row["joint"] for row in rows} == {"shoulder", "elbow", "wrist"}
     apart = {row["joint"]: abs(row["apart"]) for row in rows if row["name"] == "coulomb"}
     assert apart["shoulder"] > 1 and max(apart["elbow"], apart["wrist"]) < 1

@@ -21,6 +21,14 @@ struct KnownGain {
 
 bool IsBeyond(double gain, double factor) { return std::abs(std::log(gain)) > std::log(factor); }
 
+/// Whether a gain is too small with all of its error, however little is known of it besides. A light joint whose description is wrong by a
+/// tenth of its size may show one of any size.
+bool IsBelowAThird(const GainGuess& guess) {
+  constexpr double reach = 3;  // deviations
+  const double gain = std::abs(guess.value), deviation = gain / std::max(guess.deviations, 1e-9);
+  return gain + reach * deviation < 1 / kOtherUnit;
+}
+
 std::vector<KnownGain> KnownGains(const RobotSettings& settings, const PreparedRobot& robot) {
   std::vector<KnownGain> known;
   if (settings.inertials > kWrongByHalf) return known;
@@ -42,20 +50,24 @@ void RefuseJoint(PreparedJoint& joint, std::string sentence) {
 
 void JudgeSmallGains(const RobotSettings& settings, PreparedRobot& robot) {
   const std::vector<KnownGain> known = KnownGains(settings, robot);
-  if (known.empty()) return;
+  if (settings.inertials > kWrongByHalf) return;
   // one scale for all joints
-  const double middle = known[known.size() / 2].value;
-  const bool alike = known.size() > 1 && !IsBeyond(known.front().value / middle, kAlikeGains) &&
-                     !IsBeyond(known.back().value / middle, kAlikeGains);
-  if (alike && IsBeyond(middle, kOtherUnit)) {
-    for (const Index j : robot.Moving()) {
-      RefuseJoint(robot.joints[static_cast<std::size_t>(j)], ExplainScaleOfAll(middle));
+  if (known.size() > 1) {
+    const double middle = known[known.size() / 2].value;
+    const bool alike = !IsBeyond(known.front().value / middle, kAlikeGains) &&
+                       !IsBeyond(known.back().value / middle, kAlikeGains);
+    if (alike && IsBeyond(middle, kOtherUnit)) {
+      for (const Index j : robot.Moving()) {
+        RefuseJoint(robot.joints[static_cast<std::size_t>(j)], ExplainScaleOfAll(middle));
+      }
+      return;
     }
-    return;
   }
-  for (const auto& [j, gain] : known) {
+  for (const Index j : robot.Moving()) {
     PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
-    if (gain < 1 / kOtherUnit) RefuseJoint(joint, ExplainScale(joint.columns.joint, gain));
+    if (!IsTorque(joint.columns) || !IsBelowAThird(joint.guess)) continue;
+    if (!IsBelowAThird(GuessGain(joint.columns, Description::as_prior))) continue;
+    RefuseJoint(joint, ExplainScale(joint.columns.joint, std::abs(joint.guess.value)));
   }
 }
 

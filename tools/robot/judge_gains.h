@@ -5,7 +5,7 @@
 
 namespace warmjoint {
 
-/// Refuses joints whose gain is known (to 5 %, with 95 %) and below a third, since a load that the description lacks makes no gain so small: a torque of
+/// Refuses joints whose gain is below a third with all of its error, since a load that the description lacks makes no gain so small: a torque of
 /// the motor's side, or of another unit. Where all known gains agree on such a factor, one sentence refuses all. Not with a description that may be
 /// wrong by more than half (`inertials`).
 void JudgeSmallGains(const RobotSettings& settings, PreparedRobot& robot);

@@ -22,6 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kGravityRounds = 2;   // why: the first is within a degree
+constexpr double kLeastDelay = .1;  // of a step of the log; why: a log's own clock is no finer
 constexpr int kDelayRounds = 4;     // why: each leaves a tenth of the last one's error or less
 constexpr double kDelayShare = .1;  // of its deviation, below which a further step is none
 
@@ -203,7 +204,8 @@ void AddOpenDelay(PreparedRobot& robot) {
 /// Undoes a delay of all torques, where the log shows one and is explained better without it.
 void UndoDelay(const RobotSettings& settings, PreparedRobot& robot) {
   const CommonFit first = DelayOf(robot);
-  if (!first.is_shown) return;
+  const double least = kLeastDelay * robot.data.logs.front().step;
+  if (!first.is_shown || std::abs(first.value[0]) < least) return;
   PreparedRobot undone = robot;
   CommonFit last = first;
   double delay = 0;
