@@ -25,7 +25,7 @@ struct DrivenSpring {
 double FiniteOr0(double x) { return std::isfinite(x) ? x : 0; }
 
 /// What a joint loses, W: always by its damping, by its level where the spring is at its yield and gives way.
-double Loss(const mjModel* m, const mjData* d, const DrivenSpring& of) {
+double LossOfSpring(const mjModel* m, const mjData* d, const DrivenSpring& of) {
   const double v = d->qvel[of.dof], yield = m->jnt_springyield[of.joint];
   const double stretch = d->qpos[of.position] - d->plastic[of.plastic];
   const bool slides = std::abs(stretch) >= kAtYield * yield && stretch * v > 0;
@@ -58,7 +58,7 @@ extern "C" {
   using warmjoint::FiniteOr0;
   for (int i = 0; i < count; ++i) {
     const warmjoint::DrivenSpring& of = springs[i];
-    const double loss = warmjoint::Loss(m, d, of);
+    const double loss = warmjoint::LossOfSpring(m, d, of);
     double sum = 0;
     for (const int stage : {0, 1}) {
       double& stored = energy[stage * count + i];
