@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Index;
 
-RobotJointEstimate Answer(const PreparedJoint& joint, const JointQuestion& question,
+RobotJointEstimate Answer(const PreparedRobotJoint& joint, const JointQuestion& question,
                           double holdout) {
   if (!joint.nothing.empty()) {
     return ReportNothing(joint.columns, joint.summary, joint.status, joint.nothing);
@@ -37,7 +37,7 @@ std::optional<EstimatedParameter> TakeLoad(const RobotSettings& settings, const 
   }
   if (watch) watch("looking for a load");
   std::vector<GainGuess> guesses;
-  for (const PreparedJoint& joint : robot.joints) guesses.push_back(joint.guess);
+  for (const PreparedRobotJoint& joint : robot.joints) guesses.push_back(joint.guess);
   const JointQuestion question{.middle_gain = robot.middle_gain,
                                .joints = static_cast<int>(robot.Moving().size())};
   const Payload payload =

@@ -33,7 +33,7 @@ std::vector<KnownGain> KnownGains(const RobotSettings& settings, const PreparedR
   std::vector<KnownGain> known;
   if (settings.inertials > kWrongByHalf) return known;
   for (const Index j : robot.Moving()) {
-    const PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+    const PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
     if (!IsTorque(joint.columns) || joint.guess.deviations < kKnownDeviations) continue;
     known.push_back({j, std::abs(joint.guess.value)});
   }
@@ -41,7 +41,7 @@ std::vector<KnownGain> KnownGains(const RobotSettings& settings, const PreparedR
   return known;
 }
 
-void RefuseJoint(PreparedJoint& joint, std::string sentence) {
+void RefuseJoint(PreparedRobotJoint& joint, std::string sentence) {
   joint.status = Status::bad_data;
   joint.nothing = std::move(sentence);
 }
@@ -64,7 +64,7 @@ void JudgeSmallGains(const RobotSettings& settings, PreparedRobot& robot) {
     }
   }
   for (const Index j : robot.Moving()) {
-    PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+    PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
     if (!IsTorque(joint.columns) || !IsBelowAThird(joint.guess)) continue;
     if (!IsBelowAThird(GuessGain(joint.columns, Description::as_prior))) continue;
     RefuseJoint(joint, ExplainScale(joint.columns.joint, std::abs(joint.guess.value)));
@@ -74,7 +74,7 @@ void JudgeSmallGains(const RobotSettings& settings, PreparedRobot& robot) {
 void JudgeGains(const RobotSettings& settings, PreparedRobot& robot) {
   const std::vector<KnownGain> known = KnownGains(settings, robot);
   for (const auto& [j, gain] : known) {
-    PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+    PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
     const std::string& name = joint.columns.joint;
     if (IsBeyond(gain, kOtherUnit)) {
       RefuseJoint(joint, ExplainScale(name, gain));

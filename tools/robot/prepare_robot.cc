@@ -27,9 +27,9 @@ constexpr int kDelayRounds = 4;     // why: each leaves a tenth of the last one'
 constexpr double kDelayShare = .1;  // of its deviation, below which a further step is none
 
 /// The middle gain of the joints that know theirs; 1 where none does.
-double MiddleGain(const std::vector<PreparedJoint>& joints) {
+double MiddleGain(const std::vector<PreparedRobotJoint>& joints) {
   std::vector<double> sure;
-  for (const PreparedJoint& one : joints) {
+  for (const PreparedRobotJoint& one : joints) {
     if (one.guess.IsSure()) sure.push_back(std::abs(one.guess.value));
   }
   if (sure.empty()) return 1;
@@ -38,8 +38,8 @@ double MiddleGain(const std::vector<PreparedJoint>& joints) {
   return sure.size() % 2 == 1 ? sure[half] : (sure[half - 1] + sure[half]) / 2;
 }
 
-PreparedJoint JointOf(const RobotData& data, const RobotRows& rows, Index j) {
-  PreparedJoint joint;
+PreparedRobotJoint JointOf(const RobotData& data, const RobotRows& rows, Index j) {
+  PreparedRobotJoint joint;
   joint.columns = ColumnsOf(data, rows, j);
   double travel = 0;
   for (const RobotSamples& s : rows.samples) travel = std::max(travel, s.travel[j]);
@@ -83,7 +83,7 @@ void TurnTorques(PreparedRobot& robot) {
   if (all) turned = robot.Moving();
   if (all) robot.notices.emplace_back(kAllTorquesTurned);
   for (const Index j : turned) {
-    PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+    PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
     if (!all) robot.notices.push_back(ExplainTurnedTorque(joint.columns.joint));
     joint.columns.samples.torque *= -1;
     joint.guess.value *= -1;
@@ -194,7 +194,7 @@ void AddOpenDelay(PreparedRobot& robot) {
   const double middle = MiddleGain(robot.joints);
   std::size_t at = 0;
   for (const Index j : robot.Moving()) {
-    PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+    PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
     const double gain = joint.guess.IsSure() ? joint.guess.value : middle;
     const MatrixXd open = robot.delay->columns[at++] * (deviation / gain);
     joint.columns.AddDirections(open, MatrixXd::Zero(open.rows(), 1));
@@ -259,7 +259,7 @@ PreparedRobot Prepare(RobotData data, const RobotSettings& settings, const Robot
     const RobotFault& fault = faults.front();
     const auto worst = static_cast<std::size_t>(fault.joints.front());
     for (const Index j : robot.Moving()) {
-      PreparedJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+      PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
       joint.status = Status::bad_data;
       joint.nothing = fmt::format("{}: with that undone the residual of {} falls by more than half",
                                   fault.sentence, robot.data.robot.joints[worst].name);
@@ -283,7 +283,7 @@ void FreeLoad(PreparedRobot& robot) {
   AddOpenDelay(robot);
   std::vector<const JointColumns*> columns;
   std::vector<GainGuess> guesses;
-  for (const PreparedJoint& joint : robot.joints) {
+  for (const PreparedRobotJoint& joint : robot.joints) {
     columns.push_back(&joint.columns);
     guesses.push_back(joint.guess);
   }

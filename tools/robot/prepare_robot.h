@@ -16,7 +16,7 @@
 namespace warmjoint {
 
 /// A joint from its columns to its fit.
-struct PreparedJoint {
+struct PreparedRobotJoint {
   JointColumns columns;
   RobotJointSummary summary;
   std::string nothing;                       // why its log tells nothing
@@ -28,7 +28,7 @@ struct PreparedJoint {
 struct PreparedRobot {
   RobotData data;  // with signs and times as they are fitted
   RobotRows rows;
-  std::vector<PreparedJoint> joints;
+  std::vector<PreparedRobotJoint> joints;
   double middle_gain = 1;
   GravityFound gravity;
   std::optional<CommonFit> delay;  // s; its value is the whole
