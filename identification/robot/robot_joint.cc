@@ -96,7 +96,7 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
                     .unit = c.torque_unit + "/(" + std::string(kTorqueUnit.For(c.kind)) + ")",
                     .coordinate = Coordinate::logarithm,
                     .start = std::log(start),
-                    .prior = Normal{std::log(prior.middle), prior.spread},
+                    .prior = Normal{std::log(prior.middle), q.gain_spread.value_or(prior.spread)},
                     .largest_step = kGainStep}})
           .begin;
   const Unknown direction = Nuisance(1);

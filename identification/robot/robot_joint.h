@@ -56,8 +56,9 @@ struct JointColumns {
 
 /// The settings of the fit of a joint.
 struct JointQuestion {
-  double middle_gain = 1;  // of the robot's joints, torque_unit for N.m or N
-  bool warms = true;       // whether warming is looked for
+  std::optional<double> gain_spread{};  // deviation of the log gain, in place of PriorOfGain's
+  double middle_gain = 1;               // of the robot's joints, torque_unit for N.m or N
+  bool warms = true;                    // whether warming is looked for
   bool slows =
       true;  // whether a rise of friction at low speed is looked for, where viscous friction is not below 0
   double error_level = .01;  // of the claim that one of all joints warms

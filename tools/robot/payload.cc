@@ -23,6 +23,7 @@ using Eigen::VectorXd;
 
 constexpr double kShare =
     .2;  // of the mass that moves, and of the reach: what arms are built to carry
+constexpr double kHeldGain = .1;    // of its spread, at the start of what all joints say together
 constexpr double kHelps = 2.0 / 3;  // of the residual
 constexpr double kHeldOut = .4;
 constexpr Index kMostRows =
@@ -73,9 +74,9 @@ LoadedGains GainsUnderLoad(std::vector<GainGuess> guesses,
       value = std::copysign(loaded.middle, value);
       continue;
     }
-    // an axis that is turned against the description has a gain of about -1; what is farther off is the load's
-    const bool is_turned = value < 0 && std::abs(std::log(-value)) < std::log(kAlikeGains);
-    value = is_turned ? -1 : 1;
+    // an axis that is turned against the description is so with any load
+    const GainGuess with_any = GuessGain(*free[j], Description::as_prior);
+    value = with_any.IsSure() && with_any.value < 0 ? -1 : 1;
   }
   return loaded;
 }
@@ -133,7 +134,13 @@ SharedDirections SharedOf(const RobotData& data, const RobotRows& free,
   ForEachAtOnce(std::ssize(joints), [&](Index i) {
     const auto at = static_cast<std::size_t>(i);
     columns[at] = ColumnsOf(data, free, joints[at], Directions::all);
-    fits[at] = FitJoint(columns[at], guesses[at], question);
+    // where the unit tells the gains, all begin with them held, since a gain of each stands for the load as well
+    const GainPrior prior = PriorOfGain(columns[at], guesses[at], question.middle_gain);
+    JointQuestion held = question;
+    if (IsTorque(columns[at])) held.gain_spread = kHeldGain * prior.spread;
+    JointFit& fit = fits[at] = FitJoint(columns[at], guesses[at], held);
+    const auto gain = static_cast<std::size_t>(fit.at.given.log_gain);
+    fit.model.table[gain].prior->deviation = prior.spread;
   });
   return FitShared(fits, columns);
 }
