@@ -108,7 +108,7 @@ CommonFit FitCommon(const std::vector<const JointColumns*>& joints,
   CommonFit fit;
   std::vector<Said> all;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const double gain = guesses[j].IsSure() ? std::abs(guesses[j].value) : middle_gain;
+    const double gain = std::abs(guesses[j].Or(middle_gain));
     all.push_back(SaidBy(j, *joints[j], gain, columns));
   }
   if (all.size() < 2) return fit;

@@ -74,6 +74,8 @@ struct GainGuess {
 
   /// Why 5: noise alone does not reach it, and errors of the description change the gain by a tenth.
   bool IsSure() const { return deviations > 5; }
+  /// The gain, or another where it is not sure.
+  double Or(double otherwise) const { return IsSure() ? value : otherwise; }
   /// Whether friction drives the joint: the sign of its torque is turned.
   bool IsTurned() const { return braking < -5; }
   bool Brakes() const { return braking > 5; }

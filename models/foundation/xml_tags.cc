@@ -109,6 +109,11 @@ std::string_view XmlTagReader::Take(std::size_t size) {
   return taken;
 }
 
+bool IsUrdf(std::string_view text) {
+  const auto root = XmlTagReader(text).Next();
+  return root && root->name == "robot";
+}
+
 std::string EscapeXml(std::string_view text) {
   constexpr std::pair<char, std::string_view> entities[]{
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};

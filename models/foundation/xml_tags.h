@@ -43,6 +43,9 @@ class XmlTagReader {
   int line_ = 1;
 };
 
+/// Whether the root element of a text is a URDF's.
+bool IsUrdf(std::string_view text);
+
 /// The text as a value of XML: &, <, > and " as entities, and characters that XML 1.0 has not by their codes, as Printable has them.
 std::string EscapeXml(std::string_view text);
 

@@ -23,11 +23,12 @@ const Words kTorques{"torque", "tau",        "trq",   "effort", "eff",     "mome
                      "force",  "drehmoment", "mom",   "load",   "current", "currents",
                      "iq",     "cur",        "strom", "i"};
 const Words kCurrents{"current", "currents", "iq", "cur", "strom", "i"};
-/// What was asked for and not measured, or of another place.
-const Words kNotMeasured{"target",   "desired",   "des",    "ref",      "reference", "cmd",
-                         "command",  "commanded", "goal",   "setpoint", "soll",      "control",
-                         "external", "ext",       "limit",  "max",      "min",       "error",
-                         "err",      "friction",  "gravity"};
+/// What a controller asked for, which no friction of the joint is in but that of its own model.
+const Words kAskedFor{"target",  "desired",   "des",  "ref",      "reference", "cmd",
+                      "command", "commanded", "goal", "setpoint", "soll"};
+/// Of another place, or what is made of both.
+const Words kElsewhere{"control", "external", "ext", "limit",    "max",
+                       "min",     "error",    "err", "friction", "gravity"};
 const Words kTimes{"time", "timestamp", "t", "stamp", "zeit"};
 
 bool Holds(const Words& words, const std::string& word) {
@@ -100,10 +101,6 @@ std::size_t PlaceOfWords(const std::string& joint, const std::string& column) {
   return at;
 }
 
-/// What a controller asked for, which no friction of the joint is in but that of its own model.
-const Words kAskedFor{"target",  "desired",   "des",  "ref",      "reference", "cmd",
-                      "command", "commanded", "goal", "setpoint", "soll"};
-
 /// By the joints' names, in columns that hold none by their short ones.
 std::vector<Family> NamedFamilies(const Words& names, const Words& joints) {
   std::map<std::string, std::map<std::size_t, std::string>> found;
@@ -168,7 +165,7 @@ std::optional<std::pair<std::size_t, std::size_t>> FitOf(const Family& family,
   const Words words = WordsIn(family.key);
   std::optional<std::size_t> best;
   for (const std::string& word : words) {
-    if (Holds(kNotMeasured, word)) return std::nullopt;
+    if (Holds(kAskedFor, word) || Holds(kElsewhere, word)) return std::nullopt;
     const auto at = std::ranges::find(wanted, word);
     if (at == wanted.end()) continue;
     const auto place = static_cast<std::size_t>(at - wanted.begin());

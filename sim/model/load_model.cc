@@ -76,11 +76,6 @@ int LineOf(const std::string& message) {
 }
 
 /// The root element of a URDF is <robot>, of an MJCF <mujoco>; the former may hold the latter.
-bool IsUrdf(const std::string& text) {
-  const auto root = XmlTagReader(text).Next();
-  return root && root->name == "robot";
-}
-
 /// Refuses descriptions of robots in formats that are neither MJCF nor URDF.
 void RefuseOtherFormats(const std::string& text, const std::filesystem::path& path) {
   const auto root = XmlTagReader(text).Next();

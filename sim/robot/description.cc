@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/names.h"
+#include "models/foundation/xml_tags.h"
 #include "sim/model/load_model.h"
 #include "sim/robot/urdf_spec.h"
 
@@ -205,7 +207,7 @@ ReadModel ReadRobotModel(const std::filesystem::path& file) {
   ReadModel read{file.string(), nullptr, {}, {}};
   if (file.extension() == ".mjb") {
     read.model = LoadCompiled(file);
-  } else if (IsUrdf(file)) {
+  } else if (IsUrdf(ReadDescription(file).text)) {
     const SpecPtr spec = SpecOfUrdf(file, read.notices);
     read.model = CompileModel(*spec, {file.string()});
   } else {

@@ -13,9 +13,7 @@
 #include <utility>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/xml_tags.h"
 #include "models/robots/robot_folder.h"
 
 namespace warmjoint {
@@ -135,12 +133,6 @@ class Builder {
 };
 
 }  // namespace
-
-bool IsUrdf(const std::filesystem::path& file) {
-  const std::string text = ReadDescription(file).text;
-  const auto root = XmlTagReader(text).Next();
-  return root && root->name == "robot";
-}
 
 SpecPtr SpecOfUrdf(const std::filesystem::path& file, std::vector<std::string>& notices) {
   const urdf::ModelInterfaceSharedPtr robot = ReadUrdf(file);

@@ -9,9 +9,6 @@
 
 namespace warmjoint {
 
-/// Whether a file's root is a URDF's. Throws BadInput for a file that cannot be read.
-bool IsUrdf(const std::filesystem::path& file);
-
 /// Links become bodies and joints hinges and slides; those that float or slide in a plane stand still. Of elements that stand twice
 /// the first counts. Inertias that are none of a body (an eigenvalue below 0 or larger than the sum of the others) become
 /// the nearest that are, a moving link without mass gets a very small one; each is said in `notices`. Throws BadInput.

@@ -1,6 +1,6 @@
 """What identify-robot makes of robots' logs that are spoilt in one way. Printed, not tested.
 
-    tests/studies/robot_spoilt.py WARMJOINT ROBOT.xml [SEEDS [KIND...]] [-- OPTION of identify-robot...]      default: 2 seeds, all kinds
+    tests/studies/robot_spoilt.py WARMJOINT ROBOT.xml [SEEDS [KIND,...]] [-- OPTION of identify-robot...]      default: 2 seeds, all kinds
 
 Each log is 150 s at 50 Hz of moves between random places; the description is wrong by 8 % in masses, their places and inertias. Kinds: positions, torques
 or both of two joints swapped; the torque of one joint or of all turned; a zero 90 degrees off; the torque of one joint or of all on the motor's side of a gear;
@@ -18,6 +18,7 @@ import tempfile
 
 import mujoco
 import numpy as np
+import robot_wrong_inertials as robots
 
 RATE, LENGTH, GEAR = 100, 150, 80
 WRONG = 0.08  # of the description
@@ -78,12 +79,7 @@ def motion(random, centre):
 def rigid(spec, q, v, a):
     model = spec.compile()
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    data, torque = mujoco.MjData(model), np.empty_like(q)
-    for i in range(len(q)):
-        data.qpos[:], data.qvel[:], data.qacc[:] = q[i], v[i], a[i]
-        mujoco.mj_inverse(model, data)
-        torque[i] = data.qfrc_inverse
-    return torque
+    return robots.torques(model, q, v, a)[0]
 
 
 class Log:
@@ -107,7 +103,6 @@ class Log:
         friction = np.sign(v) * (np.abs(v) > 1e-4) * self.coulomb + self.viscous * v
         rotor = 0.05 * size * a
         torque = force + rotor + friction + 0.02 * size * random.standard_normal(q.shape)
-        self.kept = np.arange(n)
         if kind == "commanded":
             torque = force + rotor + 0.5 * self.viscous * v + 1.3 * self.coulomb * np.tanh(v / 0.05)
         self.q, self.torque = self.spoil(kind, random, q, torque)
@@ -139,7 +134,6 @@ class Log:
             q[:, max(one, 1)] += np.pi / 2
         if kind == "motor one":
             torque[:, one] /= GEAR
-            self.coulomb[one], self.viscous[one] = self.coulomb[one], self.viscous[one]
         if kind == "motor all":
             torque /= GEAR
         if kind.startswith("late"):
@@ -195,10 +189,10 @@ def judge(program, options, folder, path, kind, seed):
 
 
 def main():
-    own, _, options = " ".join(sys.argv[1:]).partition(" -- ")
-    program, path, seeds, *kinds = (*own.split(), "2")[:3] if len(own.split()) < 3 else own.split()
-    listed = " ".join(kinds)
-    for kind in NAMED if not listed else listed.split(","):
+    words, _, options = " ".join(sys.argv[1:]).partition(" -- ")
+    program, path, *rest = words.split()
+    seeds, kinds = rest[0] if rest else "2", " ".join(rest[1:])
+    for kind in kinds.split(",") if kinds else NAMED:
         total, notes = {}, []
         for seed in range(int(seeds)):
             with tempfile.TemporaryDirectory() as folder:

@@ -38,7 +38,8 @@ struct Seen {
   Matrix3d gram;
   Vector3d product;
   double squares = 0;
-  double scaled = 0;  // sum of squares that one gain of the whole rigid torque leaves
+  bool is_torque = false;  // in N.m or N
+  double scaled = 0;       // sum of squares that one gain of the whole rigid torque leaves
 
   /// Share s >= 0 of a gravity of unit direction u, m/s^2.
   double Share(const Vector3d& u) const {
@@ -64,6 +65,7 @@ Seen SeenBy(const RobotData& data, const RobotRows& rows, Index j) {
   const VectorXd y = Kept(c.samples.torque, used);
   const MatrixXd inverse = InverseScaled(GramOf(x));
   Seen seen;
+  seen.is_torque = IsTorque(c);
   seen.columns = z - x * (inverse * (x.transpose() * z));
   seen.torque = y - x * (inverse * (x.transpose() * y));
   seen.gram = GramOf(seen.columns);
@@ -81,14 +83,6 @@ double LeftOfAll(const std::vector<Seen>& seen, const Vector3d& u) {
   double sum = 0;
   for (const Seen& one : seen) sum += std::log(one.Left(u)) / 2;
   return sum;
-}
-
-/// Two directions across u.
-Eigen::Matrix<double, 3, 2> Across(const Vector3d& u) {
-  const Vector3d first = u.unitOrthogonal();
-  Eigen::Matrix<double, 3, 2> across;
-  across << first, u.cross(first);
-  return across;
 }
 
 /// The direction that leaves least: the best of points spread over the sphere (a golden spiral), and from there by shrinking steps across.
@@ -122,14 +116,11 @@ Vector3d BestDirection(const std::vector<Seen>& seen) {
 
 /// Whether the torques hold none of a gravity along u, g m/s^2, that would stand out of two of them. Of a torque in another unit one gain
 /// explains inertia and gravity alike; where gravity was taken off, that is no better than none.
-bool IsTakenOff(const RobotData& data, const std::vector<Seen>& seen,
-                const std::vector<Index>& joints, const Vector3d& u, double g) {
+bool IsTakenOff(const std::vector<Seen>& seen, const Vector3d& u, double g) {
   std::size_t would_show = 0;
   double explained = 0;  // logarithm
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const std::string& unit = data.torque_units[static_cast<std::size_t>(joints[i])];
-    if (unit != "N.m" && unit != "N") continue;
-    const Seen& one = seen[i];
+  for (const Seen& one : seen) {
+    if (!one.is_torque) continue;
     if (g * g * u.dot(one.gram * u) < kClearFall * kClearFall * one.Left(u)) continue;
     if (one.Share(u) > kTakenOff * g) return false;
     ++would_show;
@@ -140,6 +131,13 @@ bool IsTakenOff(const RobotData& data, const std::vector<Seen>& seen,
 
 }  // namespace
 
+Eigen::Matrix<double, 3, 2> Across(const Vector3d& u) {
+  const Vector3d first = u.unitOrthogonal();
+  Eigen::Matrix<double, 3, 2> across;
+  across << first, u.cross(first);
+  return across;
+}
+
 GravityFound FindGravity(const RobotData& data, const RobotRows& rows,
                          const std::vector<Index>& joints) {
   GravityFound found;
@@ -149,7 +147,7 @@ GravityFound FindGravity(const RobotData& data, const RobotRows& rows,
   const RobotRows thinned = Thinned(data, rows, kGravitySamples);
   std::vector<Seen> seen;
   for (const Index j : joints) seen.push_back(SeenBy(data, thinned, j));
-  if (IsTakenOff(data, seen, joints, described, g)) {
+  if (IsTakenOff(seen, described, g)) {
     found.held = GravityHeld::taken_off;
     return found;
   }

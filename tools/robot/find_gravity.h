@@ -18,6 +18,9 @@ struct GravityFound {
   double falls = 0;  // sum over the joints of the logarithms by which their residuals fall
 };
 
+/// Two directions across a unit vector and each other.
+Eigen::Matrix<double, 3, 2> Across(const Eigen::Vector3d& u);
+
 /// Y phi is linear in gravity. Each joint's torque is the least squares of friction, rotor, rigid torque without gravity, and s_j times the torque
 /// of a gravity of the direction u, s_j >= 0. Over all joints, u makes the sum of the logarithms of their residuals least. It is
 /// `turned` where the residuals of two joints fall by a factor of 2 at least, against the description's direction; `taken_off` where gravity would

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -110,14 +109,6 @@ Together TogetherOf(const PreparedRobot& robot) {
   return all;
 }
 
-/// Two directions across a vector. [3 x 2]
-MatrixXd Across(const Eigen::Vector3d& vector) {
-  const Eigen::Vector3d u = vector.normalized(), first = u.unitOrthogonal();
-  MatrixXd across(3, 2);
-  across << first, u.cross(first);
-  return across;
-}
-
 /// A turned gravity found more finely, with a description that may be wrong, and what stays open of it.
 void RefineGravity(GravityFound& found, PreparedRobot& robot) {
   RobotGravity& gravity = robot.rows.gravity;
@@ -126,13 +117,12 @@ void RefineGravity(GravityFound& found, PreparedRobot& robot) {
     gravity.in_torque = gravity.at_joints = found.vector;
     gravity.open.resize(3, 0);
     MakeJoints(robot);
-    const MatrixXd across = Across(found.vector);
+    const MatrixXd across = Across(found.vector.normalized());
     const Together all = TogetherOf(robot);
     const std::vector<Index> moving = robot.Moving();
     const CommonFit turn = FitCommon(
         all.columns, all.guesses, all.middle, [&](std::size_t at, const VectorXd&) -> MatrixXd {
-          const GainGuess& guess = all.guesses[at];
-          return (guess.IsSure() ? guess.value : all.middle) *
+          return all.guesses[at].Or(all.middle) *
                  GravityColumns(robot.data, robot.rows, moving[at]) * across;
         });
     if (turn.value.size() == 0) return;
@@ -187,17 +177,23 @@ void MakeRowsAnew(const RobotSettings& settings, PreparedRobot& robot) {
   MakeJoints(robot);
 }
 
-/// What stays open of a delay, for all joints the same.
-void AddOpenDelay(PreparedRobot& robot) {
-  if (!robot.delay) return;
-  const double deviation = std::sqrt(robot.delay->covariance(0, 0));
+/// The columns of a joint, with what stays open of a delay.
+JointColumns ColumnsOf(const PreparedRobot& robot, Index j) {
+  JointColumns columns = ColumnsOf(robot.data, robot.rows, j);
+  const MatrixXd& late = robot.joints[static_cast<std::size_t>(j)].late;
+  if (late.size() > 0) columns.AddDirections(late, MatrixXd::Zero(late.rows(), late.cols()));
+  return columns;
+}
+
+/// Keeps what stays open of a delay, for all joints the same.
+void KeepOpenDelay(const CommonFit& delay, PreparedRobot& robot) {
+  const double deviation = std::sqrt(delay.covariance(0, 0));
   const double middle = MiddleGain(robot.joints);
   std::size_t at = 0;
   for (const Index j : robot.Moving()) {
     PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
-    const double gain = joint.guess.IsSure() ? joint.guess.value : middle;
-    const MatrixXd open = robot.delay->columns[at++] * (deviation / gain);
-    joint.columns.AddDirections(open, MatrixXd::Zero(open.rows(), 1));
+    joint.late = delay.columns[at++] * (deviation / joint.guess.Or(middle));
+    joint.columns = ColumnsOf(robot, j);
   }
 }
 
@@ -223,8 +219,8 @@ void UndoDelay(const RobotSettings& settings, PreparedRobot& robot) {
   const double deviation = std::sqrt(last.covariance(0, 0));
   robot.notices.push_back(ExplainDelayOfAll(last.value[0], deviation));
 
+  KeepOpenDelay(last, robot);
   robot.delay = std::move(last);
-  AddOpenDelay(robot);
 }
 
 }  // namespace
@@ -279,17 +275,20 @@ PreparedRobot Prepare(RobotData data, const RobotSettings& settings, const Robot
 
 void FreeLoad(PreparedRobot& robot) {
   robot.rows.deviations = FreeLastLink(robot.data, robot.rows.deviations);
-  MakeJoints(robot);
-  AddOpenDelay(robot);
+  const std::vector<Index> moving = robot.Moving();
   std::vector<const JointColumns*> columns;
   std::vector<GainGuess> guesses;
-  for (const PreparedRobotJoint& joint : robot.joints) {
+  for (const Index j : moving) {
+    PreparedRobotJoint& joint = robot.joints[static_cast<std::size_t>(j)];
+    joint.columns = ColumnsOf(robot, j);
     columns.push_back(&joint.columns);
     guesses.push_back(joint.guess);
   }
   const LoadedGains loaded = GainsUnderLoad(guesses, columns);
   robot.middle_gain = loaded.middle;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) robot.joints[j].guess = loaded.guesses[j];
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    robot.joints[static_cast<std::size_t>(moving[i])].guess = loaded.guesses[i];
+  }
 }
 
 }  // namespace warmjoint

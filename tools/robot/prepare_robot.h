@@ -22,6 +22,7 @@ struct PreparedRobotJoint {
   std::string nothing;                       // why its log tells nothing
   Status status = Status::not_identifiable;  // of that
   GainGuess guess;
+  Eigen::MatrixXd late{};  // [N x 1] what stays open of a delay of all torques; or empty
 };
 
 /// All joints of a robot along all logs.

@@ -7,7 +7,9 @@
 #include <iterator>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/description_text.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/xml_tags.h"
 #include "models/friction/parameter_rows.h"
 #include "sim/model/load_model.h"
 #include "sim/robot/urdf_spec.h"
@@ -44,7 +46,7 @@ AttachedText ModelWith(const std::vector<FrictionForJoint>& frictions,
   try {
     return AttachFrictionAsText(robot, frictions, out, options);
   } catch (const BadInput& refused) {
-    if (!IsUrdf(robot)) throw;
+    if (!IsUrdf(ReadDescription(robot).text)) throw;
     why = refused.what();
   }
   std::vector<std::string> mended;  // the fit has said it
