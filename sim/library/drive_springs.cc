@@ -1,8 +1,20 @@
-// What Python calls while joint springs with a yield hold friction: heat, and from it the yields (warmjoint.native).
+// What Python calls while joint springs with a yield hold friction: steps, heat, and from it the yields (warmjoint.native).
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <csetjmp>
+#include <cstdio>
+#include <vector>
+
+#if mjVERSION_HEADER >= 4000000
+extern "C" {
+// the handler of a thread's messages, as MuJoCo's own Python sets it while it steps
+[[gnu::weak]] mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // NOLINT
+[[gnu::weak]] mjfLogHandler _mjPRIVATE_getGlobalLogHandler();                    // NOLINT
+}
+#endif
 
 namespace warmjoint {
 namespace {
@@ -42,6 +54,50 @@ double Yield(const DrivenSpring& of, double energy, double speed) {
   return std::max(0.0, level) / of.stiffness;
 }
 
+/// 1 - te of each stage over so many steps.
+std::array<double, 2> Gone(const DrivenSpring& of, int steps) {
+  return {-std::expm1(-steps * of.ratio[0]), -std::expm1(-steps * of.ratio[1])};
+}
+
+/// A joint's heat after the time in which `gone` of each stage's goes, and its spring's yield. energy: of the first stage; the second's is `count` on.
+void Warm(mjModel* m, const mjData* d, const DrivenSpring& of, const std::array<double, 2>& gone,
+          double* energy, int count) {
+  const double loss = LossOfSpring(m, d, of);
+  double sum = 0;
+  for (const int stage : {0, 1}) {
+    double& stored = energy[stage * count];
+    stored = FiniteOr0(stored);
+    // E' = E + (1 - te) (k W - E)
+    stored += gone[static_cast<size_t>(stage)] * (of.gain[stage] * loss - stored);
+    sum += stored;
+  }
+  m->jnt_springyield[of.joint] = Yield(of, sum, FiniteOr0(d->qvel[of.dof]));
+}
+
+/// Where an error of the engine leaves to, and what it said.
+thread_local std::jmp_buf at_error;
+thread_local std::array<char, 4096> error_text;
+
+void TakeMessage(const mjLogMessage* message) {
+  if (message->level == mjLOG_ERROR) {
+    std::snprintf(error_text.data(), error_text.size(), "%s%s%s", message->subject,
+                  message->body ? "\n" : "", message->body ? message->body : "");
+    std::longjmp(at_error, 1);
+  }
+  if (_mjPRIVATE_getGlobalLogHandler) {
+    if (const mjfLogHandler shared = _mjPRIVATE_getGlobalLogHandler()) shared(message);
+  }
+}
+
+/// Steps with the driver after each. An error of the engine leaves it by longjmp, so that nothing here may wait for its end.
+void Step(mjModel* m, mjData* d, const DrivenSpring* springs, int count, double* energy,
+          const std::array<double, 2>* gone, int steps) {
+  for (int step = 0; step < steps; ++step) {
+    mj_step(m, d);
+    for (int i = 0; i < count; ++i) Warm(m, d, springs[i], gone[i], energy + i, count);
+  }
+}
+
 #endif
 
 }  // namespace
@@ -55,34 +111,38 @@ extern "C" {
     [[maybe_unused]] const warmjoint::DrivenSpring* springs, [[maybe_unused]] int count,
     [[maybe_unused]] double* energy, [[maybe_unused]] int steps) {
 #if mjVERSION_HEADER >= 4000000
-  using warmjoint::FiniteOr0;
   for (int i = 0; i < count; ++i) {
-    const warmjoint::DrivenSpring& of = springs[i];
-    const double loss = warmjoint::LossOfSpring(m, d, of);
-    double sum = 0;
-    for (const int stage : {0, 1}) {
-      double& stored = energy[stage * count + i];
-      stored = FiniteOr0(stored);
-      // E' = E + (1 - te) (k W - E)
-      stored += -std::expm1(-steps * of.ratio[stage]) * (of.gain[stage] * loss - stored);
-      sum += stored;
-    }
-    m->jnt_springyield[of.joint] = warmjoint::Yield(of, sum, FiniteOr0(d->qvel[of.dof]));
+    warmjoint::Warm(m, d, springs[i], warmjoint::Gone(springs[i], steps), energy + i, count);
   }
 #endif
 }
 
-/// Relaxes springs that are stretched beyond twice their yields, where a pose was set anew.
-[[gnu::visibility("default")]] void warmjoint_relax_springs(
-    [[maybe_unused]] const mjModel* m, [[maybe_unused]] mjData* d,
-    [[maybe_unused]] const warmjoint::DrivenSpring* springs, [[maybe_unused]] int count) {
+/// Relaxes springs that are stretched beyond twice their yields, where a pose was set anew; then steps, with heat and yields after each. Returns
+/// what the engine's error said, until the thread's next call; nullptr where there was none.
+[[gnu::visibility("default")]] const char* warmjoint_step_springs(
+    [[maybe_unused]] mjModel* m, [[maybe_unused]] mjData* d,
+    [[maybe_unused]] const warmjoint::DrivenSpring* springs, [[maybe_unused]] int count,
+    [[maybe_unused]] double* energy, [[maybe_unused]] int steps) {
 #if mjVERSION_HEADER >= 4000000
+  std::vector<std::array<double, 2>> gone(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
     const warmjoint::DrivenSpring& of = springs[i];
     double& plastic = d->plastic[of.plastic];
     const double stretch = d->qpos[of.position] - plastic;
     if (!(std::abs(stretch) <= 2 * m->jnt_springyield[of.joint])) plastic = d->qpos[of.position];
+    gone[static_cast<size_t>(i)] = warmjoint::Gone(of, 1);
   }
+  if (!_mjPRIVATE_setTlsLogHandler) {
+    warmjoint::Step(m, d, springs, count, energy, gone.data(), steps);
+    return nullptr;
+  }
+  const mjfLogHandler before = _mjPRIVATE_setTlsLogHandler(warmjoint::TakeMessage);
+  const bool failed = setjmp(warmjoint::at_error) != 0;
+  if (!failed) warmjoint::Step(m, d, springs, count, energy, gone.data(), steps);
+  _mjPRIVATE_setTlsLogHandler(before);
+  return failed ? warmjoint::error_text.data() : nullptr;
+#else
+  return nullptr;
 #endif
 }
 }

@@ -1,5 +1,6 @@
 """Joint springs with a yield beside the plugin. They came with MuJoCo 4.0."""
 
+import copy
 import json
 import pathlib
 import shutil
@@ -88,21 +89,50 @@ def test_what_is_held_rests():
     assert data.qvel[0] > 0.05
 
 
-def test_a_driver_that_comes_every_tenth_step_has_the_same_heat():
-    both = []
-    for every in (1, 10):
-        native = wj.native(hinge(), {"hinge": WARM})
+def test_steps_together_are_the_same_steps_and_the_heat_can_be_put_back():
+    both, native = [], wj.native(hinge(), {"hinge": WARM})
+    for together in (1, 20):
         data = mujoco.MjData(native.model)
         native.start(data)
-        for step in range(0, 8000, 20):
+        for step in range(0, 2000, 20):
             data.qfrc_applied[0] = 25 * np.sin(np.pi * step * 1e-3)
-            native.step(data, 20, every)
+            for _ in range(20 // together):
+                native.step(data, together)
         both.append((native.heat[0], data.qpos[0]))
-    assert both[0] == pytest.approx(both[1], rel=2e-3) and both[0][0] < -0.3
-    stribeck = wj.Friction("stribeck", viscous=5, coulomb=12, static=15, stribeck_velocity=0.2)
-    native = wj.native(hinge(), {"hinge": stribeck})
-    with pytest.raises(wj.BadInput, match="every"):
-        native.step(mujoco.MjData(native.model), 20, every=10)
+    assert both[0] == both[1] and both[0][0] < -0.1
+    # a snapshot, put back into a copy of the driver
+    driver, copied = copy.copy(native.bind(native.model)), copy.copy(data)
+    driver.energy = native.energy.copy()
+    for one, its in ((native, data), (driver, copied)):
+        one.step(its, 100)
+    assert driver.heat[0] == native.heat[0] != both[1][0] and copied.qpos[0] == data.qpos[0]
+    with pytest.raises(wj.BadInput, match=r"^energy: has shape .*2 x 1"):
+        native.energy = [1.0, 2.0, 3.0]
+
+
+def test_errors_of_the_engine_and_of_its_callbacks_are_raised(capfd):
+    crowd = "".join(f'<body pos="0 0 {0.01 * k}"><freejoint/><geom size=".1"/></body>' for k in range(8))
+    native = wj.native(hinge().replace("<worldbody>", f'<size memory="5K"/><worldbody>{crowd}'), {"hinge": WARM})
+    with pytest.raises(mujoco.FatalError, match="stack overflow"):
+        native.step(mujoco.MjData(native.model), 3)
+    assert "arena memory is full" in capfd.readouterr().err  # warnings go where they always do
+    times = []
+
+    def control(model, data):
+        times.append(data.time)
+        if len(times) == 3:
+            raise ValueError("of mine")
+
+    native = wj.native(hinge(), {"hinge": WARM})
+    data = mujoco.MjData(native.model)
+    mujoco.set_mjcb_control(control)
+    try:
+        with pytest.raises(ValueError, match="of mine"):
+            native.step(data, 5)
+    finally:
+        mujoco.set_mjcb_control(None)
+    native.step(data, 5)
+    assert len(times) == 3 and data.time == pytest.approx(7e-3)
 
 
 @pytest.mark.parametrize("angle", ["degree", "radian"])

@@ -118,7 +118,7 @@ def springs(robot):
 
 
 class Driven(Stepped):
-    """Springs, each step with the driver in Python."""
+    """Springs, with the driver after each step."""
 
     def __init__(self, robot):
         self.native = wj.native(robot.spec.copy(), robot.frictions)
@@ -396,7 +396,7 @@ def main(folder, what="held", seconds="600"):
             continue
         bare = Stepped(robot, robot.model)
         if "native" in made:
-            made["native, driver in Python"] = Driven(robot)
+            made["native, driven"] = Driven(robot)
         for form, one in made.items():
             rows.setdefault(form, []).append(f"{ratio(one, bare, robot):.2f}")
         for form, (make, without) in batches(robot, 64).items():

@@ -58,8 +58,9 @@ def _load() -> ctypes.CDLL:
         getattr(library, function).restype = ctypes.c_char_p
     pointer = ctypes.c_void_p
     library.warmjoint_warm_springs.argtypes = [pointer, pointer, pointer, ctypes.c_int, pointer, ctypes.c_int]
-    library.warmjoint_relax_springs.argtypes = [pointer, pointer, pointer, ctypes.c_int]
-    library.warmjoint_warm_springs.restype = library.warmjoint_relax_springs.restype = None
+    library.warmjoint_warm_springs.restype = None
+    library.warmjoint_step_springs.argtypes = library.warmjoint_warm_springs.argtypes
+    library.warmjoint_step_springs.restype = ctypes.c_char_p
     return library
 
 
@@ -109,7 +110,8 @@ def remove_from_spec(spec: mujoco.MjSpec) -> None:
 
 warm_springs = _library.warmjoint_warm_springs
 """Heat and yields of springs that hold friction, by addresses (sim/library/drive_springs.cc)."""
-relax_springs = _library.warmjoint_relax_springs
+step_springs = _library.warmjoint_step_springs
+"""Steps of MuJoCo with these after each; an error of the engine, or None."""
 
 
 def joints_of(model: mujoco.MjModel) -> list[dict[str, Any]]:

@@ -22,7 +22,7 @@ from warmjoint._core import BadInput
 from warmjoint.engine_checks import settled_energies_of
 from warmjoint.friction_arrays import FloatArray, FrictionArrays, arrays_of
 from warmjoint.mujoco_attach import Attached, FrictionLike, Integrator, attach_form, text_of_spec
-from warmjoint.values import of_kind, text, whole
+from warmjoint.values import numbers, of_kind, text, whole
 
 # a joint's spring and its friction, as sim/library/drive_springs.cc reads it
 _SPRING = np.dtype([("joint", "i4"), ("position", "i4"), ("dof", "i4"), ("plastic", "i4"), ("stiffness", "f8"), ("level", "f8"), ("rise", "f8"),
@@ -86,21 +86,25 @@ class Native:
         """[2 x joints] What stays of each stage's heat after a step."""
         self.gain: FloatArray = gains * -np.expm1(-ratios)
         """[2 x joints] What a loss of 1 W adds to it, N.m or N."""
-        self.energy: FloatArray = self.friction.initial_energy.copy()
-        """[2 x joints] E1 and E2, N.m or N; with qpos, qvel and plastic of the data the state of a run."""
+        self._energy: FloatArray = np.ascontiguousarray(self.friction.initial_energy, dtype=np.float64).copy()
         of = self.friction.levels()
-        self._falls = bool((of.rise != 0).any())
         self._table = np.zeros(len(ids), dtype=_SPRING)
         for name, values in (("joint", ids), ("position", self.friction.positions), ("dof", self.friction.dofs), ("plastic", self.places),
                              ("stiffness", self.stiffness), ("level", of.positive), ("rise", of.rise), ("velocity", of.velocity), ("exponent", of.exponent),
                              ("gain", gains.T), ("ratio", ratios.T)):
             self._table[name] = values
-        self._start_energy, self._time = self.energy.copy(), -np.inf
+        self._start_energy, self._time = self._energy.copy(), -np.inf
+        # addresses for the compiled driver: of the model; of the data that was driven last; of springs and heat
+        self._data: mujoco.MjData | None = None
+        self._driven: tuple[int, int, int, int, int] = (0, 0, 0, 0, 0)
         self._worlds: Any = None  # of Warp
         self.warm(mujoco.MjData(model), 0)
 
     def __repr__(self) -> str:
         return "\n".join([f"friction on {', '.join(self.joints)} as springs with a yield, without a plugin", *self.notices])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_data": None}  # a copy has addresses of its own
 
     @property
     def xml(self) -> str:
@@ -108,9 +112,21 @@ class Native:
         return text_of_spec(self.spec)
 
     @property
+    def energy(self) -> FloatArray:
+        """[2 x joints] E1 and E2, N.m or N; with qpos, qvel and plastic of the data the state of a run. It can be set."""
+        return self._energy
+
+    @energy.setter
+    def energy(self, energy: npt.ArrayLike) -> None:
+        given = numbers("energy", energy)
+        if given.shape != self._energy.shape:
+            raise BadInput(f"energy: has shape {given.shape}; give [2 x {len(self.joints)}]")
+        self._energy[:] = given
+
+    @property
     def heat(self) -> FloatArray:
         """E, by which the level has changed, N.m or N; below 0 where the joint is warm."""
-        heat: FloatArray = self.energy.sum(axis=0)
+        heat: FloatArray = self._energy.sum(axis=0)
         return heat
 
     def bind(self, model: mujoco.MjModel, prefix: str = "") -> Native:
@@ -129,44 +145,31 @@ class Native:
         self._start_energy = self.friction.initial_energy.copy()
         if warm is not None:
             self._start_energy = settled_energies_of(self.friction, 1, warm, speed)[0].T.copy()
-        self.energy = self._start_energy.copy()
-        self._time = float(data.time)
+        self._energy[:] = self._start_energy
+        self._time = data.time
         data.plastic[self.places] = data.qpos[self.friction.positions]
         self.warm(data, 0)
 
-    def step(self, data: mujoco.MjData, nstep: int = 1, every: int = 1) -> None:
-        """Steps the model by MuJoCo, and after each step, or after `every` so many, sets the yields from the heat. data: of `model`, one at a time. A pose
-        that was set anew begins with relaxed springs, and a run whose time went back with the heat of the last `start`.
-
-        every: of nstep; heat takes seconds to minutes, so that 10 steps of 1 ms lose little, and their driver costs nearly nothing. Levels that fall
-        with speed need each step."""
+    def step(self, data: mujoco.MjData, nstep: int = 1) -> None:
+        """Steps the model by MuJoCo, and after each step sets the yields from the heat. data: of `model`, one at a time. A pose that was set anew begins
+        with relaxed springs, and a run whose time went back with the heat of the last `start`."""
         self._check(data)
         if data.time < self._time:
-            self.energy = self._start_energy.copy()
+            self._energy[:] = self._start_energy
             self.warm(data, 0)
-        count, together = whole("nstep", nstep), whole("every", every)
-        if together < 1 or (together > 1 and self._falls):
-            raise BadInput(f"every: is {together}; it must be 1 or more, and 1 for the law stribeck, whose level follows the speed")
-        driven, energy = self._addresses(data)
-        mujoco_plugin.relax_springs(*driven)
-        for done in range(0, count, together):
-            steps = min(together, count - done)
-            mujoco.mj_step(self.model, data, steps)
-            mujoco_plugin.warm_springs(*driven, energy, steps)
-        self._time = float(data.time)
+        count = whole("nstep", nstep)
+        try:
+            error = mujoco_plugin.step_springs(*self._driven, count)
+        except SystemError as found:  # of a callback in Python
+            raise (found.__cause__ or found) from None
+        if error:
+            raise mujoco.FatalError(error.decode(errors="replace"))
+        self._time = data.time
 
     def warm(self, data: mujoco.MjData, steps: int = 1) -> None:
         """The driver by itself, after so many steps by other means: heat and yields; after none, yields alone. What is no finite number counts as 0."""
         self._check(data)
-        driven, energy = self._addresses(data)
-        mujoco_plugin.warm_springs(*driven, energy, whole("steps", steps))
-
-    def _addresses(self, data: mujoco.MjData) -> tuple[tuple[int, int, int, int], int]:
-        """Of model, data and springs, with their count, and of the heat."""
-        self.energy = np.ascontiguousarray(self.energy, dtype=np.float64)
-        if self.energy.shape != self.pole.shape:
-            raise BadInput(f"energy: has shape {self.energy.shape}; give [2 x {len(self.joints)}]")
-        return (self.model._address, data._address, self._table.ctypes.data, len(self.joints)), self.energy.ctypes.data
+        mujoco_plugin.warm_springs(*self._driven, whole("steps", steps))
 
     def update(self, m: Any, d: Any) -> Any:
         """The driver for the worlds of mujoco_warp, on the device: call it after each mjw.step(m, d). m: mjw.put_model(native.model), whose
@@ -179,6 +182,11 @@ class Native:
         return self._worlds
 
     def _check(self, data: mujoco.MjData) -> None:
+        """Makes `data` the one that is driven."""
+        if data is self._data:
+            return
         of_kind("data", data, mujoco.MjData)
         if len(data.plastic) != self.model.nplastic or len(data.qvel) != self.model.nv:
             raise BadInput("data: is of another model; make it by mujoco.MjData(native.model)")
+        self._data = data
+        self._driven = (self.model._address, data._address, self._table.ctypes.data, len(self.joints), self._energy.ctypes.data)
