@@ -25,8 +25,8 @@ constexpr double kAfterStart = 600;  // s
 constexpr double kAlarmWindow = 0.2;  // s
 constexpr double kAlarmBlock = 10;    // s: an alarm that lasts counts once
 
-/// Samples at a steady speed.
-SampleMask Steady(const VectorXd& velocity, double step) {
+/// Samples at a steady speed. velocity: the true one; logged: 0 at rest
+SampleMask Steady(const VectorXd& velocity, const VectorXd& logged, double step) {
   const auto reach = std::max<Index>(1, std::llround(kBesideChange / step));
   SampleMask steady(velocity.size());
   const auto alike = [&](Index i, Index j) {
@@ -34,7 +34,7 @@ SampleMask Steady(const VectorXd& velocity, double step) {
     return std::abs(velocity[i] - velocity[j]) <= kSteady * std::abs(velocity[i]);
   };
   for (Index i = 0; i < velocity.size(); ++i) {
-    steady[i] = velocity[i] != 0 && alike(i, i - reach) && alike(i, i + reach) && alike(i, i - 1) &&
+    steady[i] = logged[i] != 0 && alike(i, i - reach) && alike(i, i + reach) && alike(i, i - 1) &&
                 alike(i, i + 1);
   }
   return steady;
@@ -128,7 +128,7 @@ CompensationScore ScoreCompensation(const VectorXd& found, const LogSamples& log
   CompensationScore score;
   if (found.size() < 3) return score;
   const double step = MedianStep(log.time);
-  const SampleMask steady = Steady(truth.velocity, step);
+  const SampleMask steady = Steady(truth.velocity, log.velocity, step);
   if (!steady.any()) return score;
   const VectorXd squares = (truth.force - found).array().square();
   const double percent = 100 / RmsOf(truth.force.array().square(), steady);
@@ -146,7 +146,7 @@ CompensationScore ScoreCompensation(const VectorXd& found, const LogSamples& log
     score.median_minute = Quantile(minutes, 0.5);
     score.worst_minute = minutes.back();
   }
-  score.after_starts = percent * RmsOf(squares, steady && AfterStarts(log.time, truth.velocity));
+  score.after_starts = percent * RmsOf(squares, steady && AfterStarts(log.time, log.velocity));
 
   // what is felt of the outside: while nothing leans on the joint, and while something does
   const VectorXd error = log.torque - found;

@@ -45,7 +45,7 @@ inline constexpr std::array<CompensationMeasure, 7> kCompensationMeasures{{
     {"contact_width", "its 95 %", false, &CompensationScore::contact_width},
 }};
 
-/// found: [N] friction, N.m or N. contact: [N] what leans on the joint, N.m or N. Throws BadInput for another length.
+/// found: [N] friction, N.m or N. log: its velocity is 0 at rest. contact: [N] what leans on the joint, N.m or N. Throws BadInput for another length.
 CompensationScore ScoreCompensation(const Eigen::VectorXd& found, const LogSamples& log,
                                     const Truth& truth, const Eigen::VectorXd& contact);
 

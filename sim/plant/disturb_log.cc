@@ -117,7 +117,8 @@ void Leave(const std::vector<Index>& left, Simulation& recording) {
   };
   ForEachColumn(recording.measurements, keep);
   Truth& truth = recording.truth;
-  for (VectorXd* column : {&truth.velocity, &truth.force, &truth.loss, &truth.energy}) {
+  for (VectorXd* column :
+       {&truth.velocity, &truth.force, &truth.loss, &truth.energy, &recording.rigid}) {
     keep(*column);
   }
 }

@@ -90,7 +90,7 @@ class MujocoPlant : public Plant {
     bandwidth_ = recording.following.bandwidth;
     SensorLog log(scenario_, key, recording.truth.velocity.size());
     const Eigen::VectorXd position = Move(MakeReference(plan), start, log, recording, watch);
-    log.WriteTo(recording.measurements);
+    log.WriteTo(recording);
     DisturbLog(scenario_, realization, recording, position);
     return recording;
   }
@@ -218,11 +218,18 @@ class MujocoPlant : public Plant {
         truth.energy[sample] = EnergyIn(state);
       }
       mj_step(m, d);
-      if (reads) log.Read(position, velocity, torque, d->qfrc_bias[0]);
+      const double friction = -d->actuator_force[joint_.friction_actuator];
+      if (reads) {
+        log.Read({.position = position,
+                  .velocity = velocity,
+                  .torque = torque,
+                  .rigid = torque - friction,
+                  .load = d->qfrc_bias[0]});
+      }
       RefusePush(time);
       if (watch && step % kStepsBetweenLooks == 0) watch(std::max(time, 0.0) / scenario_.duration);
       if (stores) {
-        truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
+        truth.force[sample] = friction;
         truth.loss[sample] = Loss(truth.velocity[sample], truth.force[sample]);
         ++sample;
       }

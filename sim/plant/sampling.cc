@@ -97,26 +97,30 @@ SensorLog::SensorLog(const Scenario& scenario, RandomKey key, Eigen::Index store
       left_(SensorReadings(scenario.sampling, stored)),
       position_(scenario.sampling, scenario.noise.position, {key, Stream::position_noise}, stored),
       velocity_(scenario.sampling, scenario.noise.velocity, {key, Stream::velocity_noise}, stored),
-      torque_(scenario.sampling, scenario.noise.torque, {key, Stream::torque_noise}, stored) {
+      torque_(scenario.sampling, scenario.noise.torque, {key, Stream::torque_noise}, stored),
+      rigid_(scenario.sampling, 0, {key, Stream::torque_noise}, stored) {
   if (!NeedsLoad(scenario.friction)) return;
   load_.emplace(scenario.sampling, 0, RandomStream({key, Stream::torque_noise}), stored);
 }
 
-void SensorLog::Read(double position, double velocity, double torque, double load) {
-  position_.Read(position);
-  velocity_.Read(velocity);
-  torque_.Read(torque);
-  if (load_) load_->Read(load);
+void SensorLog::Read(const Reading& reading) {
+  position_.Read(reading.position);
+  velocity_.Read(reading.velocity);
+  torque_.Read(reading.torque);
+  rigid_.Read(reading.rigid);
+  if (load_) load_->Read(reading.load);
   --left_;
 }
 
-void SensorLog::WriteTo(Measurements& measurements) const {
+void SensorLog::WriteTo(Simulation& recording) const {
+  Measurements& measurements = recording.measurements;
   const Eigen::Index n = position_.samples().size();
   measurements.time.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) measurements.time[k] = static_cast<double>(k) / rate_;
   measurements.position = position_.samples();
   measurements.velocity = velocity_.samples();
   measurements.torque = torque_.samples();
+  recording.rigid = rigid_.samples();
   if (load_) measurements.load = load_->samples();
 }
 

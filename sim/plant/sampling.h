@@ -1,7 +1,7 @@
 // How a signal gets into the log: sensor noise, low-pass, storage.
 #pragma once
 
-#include <warmjoint/recording.h>
+#include <warmjoint/simulation.h>
 
 #include <Eigen/Core>
 #include <optional>
@@ -52,7 +52,16 @@ class LoggedSignal {
   Eigen::VectorXd samples_;
 };
 
-/// The signals of a joint, each with the noise of the scenario from a stream of its own; the load,
+/// What sensors read of a joint at once.
+struct Reading {
+  double position = 0;  // rad or m
+  double velocity = 0;  // rad/s or m/s
+  double torque = 0;    // N.m or N
+  double rigid = 0;     // of the torque: weight and inertia, N.m or N
+  double load = 0;      // that the joint transmits, N.m or N
+};
+
+/// The signals of a joint, each with the noise of the scenario from a stream of its own; the rigid part and the load,
 /// which is logged where friction depends on it, without noise.
 class SensorLog {
  public:
@@ -61,10 +70,10 @@ class SensorLog {
 
   /// Whether all readings have been made.
   bool Full() const { return left_ == 0; }
-  /// The next reading: rad or m, rad/s or m/s, N.m or N, N.m or N. Must not be full.
-  void Read(double position, double velocity, double torque, double load);
-  /// Time, position, velocity, torque and, where it is logged, load of the stored samples.
-  void WriteTo(Measurements& measurements) const;
+  /// The next reading. Must not be full.
+  void Read(const Reading& reading);
+  /// Time, position, velocity, torque and, where it is logged, load of the stored samples; their rigid part.
+  void WriteTo(Simulation& recording) const;
 
  private:
   double rate_;        // Hz, stored
@@ -72,6 +81,7 @@ class SensorLog {
   LoggedSignal position_;
   LoggedSignal velocity_;
   LoggedSignal torque_;
+  LoggedSignal rigid_;
   std::optional<LoggedSignal> load_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "identification/score/compensation_score.h"
 #include "models/foundation/bad_input.h"
-#include "models/foundation/low_pass.h"
 #include "models/foundation/robust_noise.h"
 #include "models/foundation/sha256.h"
 #include "models/friction/thermal.h"
+#include "tools/suite/run_compensator.h"
+#include "tools/suite/stopwatch.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
@@ -56,19 +55,6 @@ double Npe(std::vector<ParameterScore>& scores, const Values& values) {
   return ParameterError(scores);
 }
 
-/// Realizations from here on are the days before. why: no suite has as many.
-constexpr std::uint64_t kDayBefore = std::uint64_t{1} << 40;
-
-class Stopwatch {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 void Fill(Result& result, const Estimate& estimate, const Simulation& recording,
           const LogView& view) {
   result.status = StatusName(estimate.status);
@@ -104,87 +90,6 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Simulation& recor
     throw;  // no fault of the identifier's
   } catch (const std::exception& error) {
     result.seconds = watch.Seconds();
-    result.status = "crashed";
-    result.message = error.what();
-  }
-  return result;
-}
-
-/// What compensators are run on.
-struct Days {
-  LogSamples today, before;
-  const Simulation& truth;  // of today
-  Friction known;           // as a friction file has it
-  Eigen::VectorXd contact;  // [N] today, N.m or N
-};
-
-/// why: a gear warms by tens of kelvins in a day of work, and a sensor on its housing is late by minutes.
-constexpr double kLargestRise = 30;    // K
-constexpr double kHousingLag = 300;    // s
-constexpr double kReadingNoise = 0.2;  // K
-
-/// What falls with the temperature of what rubs: its heat and what the room does. [N] N.m or N
-Eigen::VectorXd WarmLevel(const Simulation& recording, const AmbientDrift& drift) {
-  if (drift.amplitude == 0) return recording.truth.energy;
-  return recording.truth.energy + drift.LevelAlong(recording.measurements.time);
-}
-
-/// The log with what a sensor on the housing reads, K over the cold joint. level: as WarmLevel; warm: what of it is kLargestRise.
-LogSamples WithTemperature(const PreparedLog& prepared, const Eigen::VectorXd& level, double warm,
-                           RandomStream random) {
-  LogSamples log = prepared.raw().measurements;
-  if (warm == 0 || level.size() != log.size()) return log;
-  Eigen::VectorXd reading = LowPass(log.time, kLargestRise / warm * level, kHousingLag);
-  for (double& one : reading) one += kReadingNoise * random.Normal();
-  log.temperature = std::move(reading);
-  return log;
-}
-
-/// The log of the same joint on the day before, on which nothing leaned on it.
-Simulation DayBefore(Scenario scenario, std::uint64_t realization) {
-  scenario.disturbances.contact = {};
-  return MakePlant(scenario)->Run(kDayBefore + realization);
-}
-
-/// The friction as a file has it: one stage of heat, no surroundings, and how it grows with the load.
-Friction KnownOf(Friction friction, const Disturbances& disturbances) {
-  friction.second_thermal.reset();
-  friction.level_per_temperature = 0;
-  friction.load_gain += disturbances.load_change.gain;
-  return friction;
-}
-
-/// The residual by minute, for pictures.
-TraceTable ByMinute(const CompensationScore& score) {
-  TraceTable table{{"minute", "residual"}, {}};
-  for (Eigen::Index i = 0; i < score.by_minute.size(); ++i) {
-    table.values.push_back(static_cast<float>(i));
-    table.values.push_back(static_cast<float>(score.by_minute[i]));
-  }
-  return table;
-}
-
-Result RunCompensator(const PreparedCompensator& compensate, const Days& days) {
-  Result result;
-  const Stopwatch watch;
-  const LogSamples& log = days.today;
-  const bool sees = compensate.arm.sees == Sees::truth;
-  try {
-    const Eigen::VectorXd found =
-        compensate.arm.along({log, days.before, days.known, compensate.arm.options,
-                              sees ? &days.truth.truth.force : nullptr});
-    result.seconds = watch.Seconds();
-    if (!found.allFinite()) throw NoAnswer("bad_answer", "a torque is not a finite number");
-    const CompensationScore score = ScoreCompensation(found, log, days.truth.truth, days.contact);
-    for (const CompensationMeasure& measure : kCompensationMeasures) {
-      result.measures.emplace_back(measure.name, score.*measure.value);
-    }
-    result.trace = ByMinute(score);
-    result.status = StatusName(Status::ok);
-  } catch (const NoAnswer& failure) {
-    result.status = failure.status;
-    result.message = failure.what();
-  } catch (const std::exception& error) {
     result.status = "crashed";
     result.message = error.what();
   }
@@ -245,11 +150,16 @@ RealizationResult RunRealization(const Bench& bench, const Contestants& contesta
   Realization& realization = done.realization;
   realization.unit = unit;
   const Stopwatch watch;
-  std::optional<Simulation> recording, before;
+  std::optional<Simulation> recording;
+  std::optional<PreparedLog> log;
+  std::optional<CompensationDays> days;
   // a log that cannot be simulated is nobody's to identify: the same failure for every identifier
   try {
     recording = bench.plant->Run(realized);
-    if (!contestants.compensators.empty()) before = DayBefore(bench.scenario, realized);
+    log = Prepare(recording->measurements);
+    if (!contestants.compensators.empty()) {
+      days.emplace(MakeDays(bench.scenario, realized, *recording, *log));
+    }
   } catch (const std::exception& error) {
     recording.reset();
     Result failed;
@@ -262,29 +172,12 @@ RealizationResult RunRealization(const Bench& bench, const Contestants& contesta
   if (recording) {
     done.following = recording->following;
     // all identifiers see the same log, and draw starts from the same key
-    const PreparedLog log = Prepare(recording->measurements);
     const StartKey start = StartKeyOf(bench.scenario.seed, realized);
     for (const PreparedIdentifier& identify : contestants.identifiers) {
-      realization.results.push_back(RunIdentifier(identify, *recording, log, start));
+      realization.results.push_back(RunIdentifier(identify, *recording, *log, start));
     }
-    if (before) {
-      const Disturbances& disturbances = bench.scenario.disturbances;
-      // both days by one sensor
-      const Eigen::VectorXd level = WarmLevel(*recording, disturbances.ambient_drift);
-      Eigen::Index warmest = 0;
-      level.cwiseAbs().maxCoeff(&warmest);
-      const double warm = level[warmest];
-      const RandomKey key{bench.scenario.seed, realized};
-      const RandomKey earlier{bench.scenario.seed, kDayBefore + realized};
-      const Days days{WithTemperature(log, level, warm, {key, Stream::temperature_noise}),
-                      WithTemperature(Prepare(before->measurements),
-                                      WarmLevel(*before, disturbances.ambient_drift), warm,
-                                      {earlier, Stream::temperature_noise}),
-                      *recording, KnownOf(recording->truth.friction, disturbances),
-                      disturbances.contact.TorqueAlong(recording->measurements.time)};
-      for (const PreparedCompensator& compensate : contestants.compensators) {
-        realization.results.push_back(RunCompensator(compensate, days));
-      }
+    for (const PreparedCompensator& compensate : contestants.compensators) {
+      realization.results.push_back(RunCompensator(compensate, *days));
     }
     // the truth is on disk only once the answers are in
     if (!recordings.empty()) KeepRecording(*recording, unit, recordings);

@@ -78,6 +78,9 @@ struct Simulation {
   Measurements measurements;
   Truth truth;
   Following following{};
+  /// [N] What weight and inertia are of the logged torque, N.m or N: what a robot's description takes off. Empty where the plant
+  /// has neither.
+  Eigen::VectorXd rigid{};
 };
 
 /// What changes of a scenario, and what is told of its progress.

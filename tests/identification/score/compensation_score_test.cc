@@ -77,6 +77,24 @@ TEST(ScoreCompensation, FindsWhenItIsWrong) {
   EXPECT_NEAR(score.by_minute[77], 50, 1e-6);
 }
 
+TEST(ScoreCompensation, LeavesOutAJointThatCreepsWhileItIsHeld) {
+  // a drive holds it against a load, and its log has it at rest
+  Case one;
+  for (Eigen::Index i = 0; i < one.truth.velocity.size(); ++i) {
+    if (one.log.velocity[i] != 0) continue;
+    one.truth.velocity[i] = 1e-7;
+    one.truth.force[i] = 9;
+    one.log.torque[i] += 9;
+  }
+  VectorXd found = one.truth.force;
+  found = (one.log.velocity.array() == 0).select(0, found);
+  const CompensationScore score = one.Of(found);
+  EXPECT_EQ(score.residual, 0);
+  EXPECT_EQ(score.after_starts, 0);
+  EXPECT_TRUE(std::isnan(score.by_minute[65]));
+  EXPECT_LT(score.push, 1.2);
+}
+
 TEST(ScoreCompensation, TellsTheBiasOfAContact) {
   // 2 N.m for ten minutes, of which the compensator takes up 0.5
   Case one;

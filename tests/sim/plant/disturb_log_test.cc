@@ -95,7 +95,9 @@ TEST(Disturbances, OutliersHitTheirShareOfTheSamples) {
 }
 
 TEST(Disturbances, GravityFollowsThePosition) {
-  const auto [log, truth, drive] = Disturbed([](auto& set) { set.gravity = {5, -2}; });
+  const Simulation disturbed = Disturbed([](auto& set) { set.gravity = {5, -2}; });
+  const Measurements& log = disturbed.measurements;
+  const Truth& truth = disturbed.truth;
   for (Eigen::Index i = 0; i < log.size(); ++i) {
     const double gravity = 5 * std::sin(log.position[i]) - 2 * std::cos(log.position[i]);
     EXPECT_NEAR(log.torque[i], truth.force[i] + gravity, 1e-12);
@@ -136,7 +138,9 @@ TEST(Disturbances, TwoEqualHeatsAreOneOfTwiceTheGain) {
 }
 
 TEST(Disturbances, ALagFollowsTheFrictionByItsTimeConstant) {
-  const auto [log, truth, drive] = Disturbed([](Disturbances& set) { set.torque_lag = {2}; });
+  const Simulation disturbed = Disturbed([](Disturbances& set) { set.torque_lag = {2}; });
+  const Measurements& log = disturbed.measurements;
+  const Truth& truth = disturbed.truth;
   EXPECT_EQ(log.torque[0], truth.force[0]);
   for (Eigen::Index i = 1; i < log.size(); ++i) {
     const double share = -std::expm1(-0.5);

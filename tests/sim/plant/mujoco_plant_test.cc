@@ -56,6 +56,19 @@ TEST(MujocoPlant, DrivesWithTheTorqueOfFrictionAndRecordsItsLossAndEnergy) {
   EXPECT_LT(energy, -2);
 }
 
+TEST(MujocoPlant, KnowsWhatWeightAndInertiaAreOfTheTorque) {
+  Scenario scenario = Table1();
+  scenario.robot = "pendulum";
+  scenario.motion.hold = 0;
+  scenario.motion.travel.limits = {0.5, 2.5};
+  scenario.sampling = {.rate = 10, .sensor_rate = 50};
+  const Simulation r = Record(scenario);
+  ASSERT_EQ(r.rigid.size(), r.measurements.size());
+  EXPECT_LT((r.measurements.torque - r.rigid - r.truth.force).cwiseAbs().maxCoeff(), 1e-9);
+  // 4.9 N.m when level, where the speed is steady
+  EXPECT_GT(r.rigid.maxCoeff(), 4.5);
+}
+
 TEST(MujocoPlant, RepeatsItselfBitForBit) {
   Scenario scenario = Table1();
   scenario.duration = 30;

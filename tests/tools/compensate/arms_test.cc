@@ -95,6 +95,40 @@ TEST(CompensatorArms, AContactIsNotTakenForFriction) {
   EXPECT_GT(Measure(reached.at("heat"), "contact_width"), 0.1);
 }
 
+TEST(CompensatorArms, KnowTheFrictionOfAJointThatLiftsItsWeightAndIsHeld) {
+  // half an hour in the engine with rests, of which the drive holds the pendulum at an angle
+  std::string text = kSuite;
+  const auto replace = [&](const std::string& old, const std::string& with) {
+    text.replace(text.find(old), old.size(), with);
+  };
+  replace("scenario:\n", "scenario:\n  plant: mujoco\n  robot: pendulum\n  joint: hinge\n");
+  replace("hold: 5}", "travel: [0.5, 2.5], rests: {run: 700, rest: 200}}");
+  replace("  duration: 3600", "  timestep: 0.002\n  duration: 1800");
+  replace("{rate: 20}", "{rate: 20, sensor_rate: 100}");
+  replace(
+      "  disturbances:\n    second_heat: {thermal_gain: -0.25, thermal_time_constant: 3600}\n    "
+      "CONTACT\n",
+      "");
+  text +=
+      "  - {name: none}\n  - {name: level, options: {begin: \"900\"}}\n  - {name: heat}\n  - "
+      "{name: truth}\n";
+  const Suite suite = ParseSuite(text, "little.yaml");
+  const RealizationResult done = RunRealization(
+      MakeBench(suite.scenario), PrepareContestants(suite, {"little.yaml"}), {0, 0}, "");
+  const auto measured = [&](std::size_t i, const char* name) {
+    const Result& result = done.realization.results[i];
+    EXPECT_EQ(result.status, "ok") << result.message;
+    return Measure(result, name);
+  };
+  // weight and inertia are no friction: what is left without any is all of it
+  EXPECT_NEAR(measured(0, "residual"), 100, 1e-6);
+  EXPECT_LT(measured(1, "residual"), 3);
+  EXPECT_LT(measured(2, "residual"), 0.3);
+  EXPECT_EQ(measured(3, "residual"), 0);
+  // four samples of white noise, as for a joint without weight
+  EXPECT_LT(measured(3, "push"), 1.2);
+}
+
 TEST(CompensatorArms, AreFoundByNameAndOption) {
   EXPECT_THROW(FindCompensator("haet"), BadInput);
   EXPECT_THROW(Reached("  - {name: heat, options: {gian: \"1\"}}\n"), BadInput);
