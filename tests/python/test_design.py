@@ -71,3 +71,74 @@ def test_a_motion_is_drawn_with_what_is_foretold(program):
     last = design["foretold"][-1]["parameters"]["coulomb"]
     half = (last["interval95"][1] - last["interval95"][0]) / 2 / last["value"]
     assert float(coulomb[-1][4]) == pytest.approx(100 * half, rel=1e-3)
+
+
+ARM = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="2 2 .1"/><body name="base" pos="0 0 .3">
+<geom type="cylinder" size=".08 .3" mass="5"/><body name="upper" pos="0 0 .38"><joint name="shoulder" axis="0 1 0" range="-2.5 2.5"/>
+<geom type="capsule" fromto="0 0 0 0 0 .4" size=".04" mass="2"/><body name="fore" pos="0 0 .4">
+<joint name="elbow" axis="0 1 0" range="-2.8 2.8" actuatorfrcrange="-9 9"/><geom type="capsule" fromto="0 0 .02 0 0 .4" size=".04" mass="1"/>
+<body name="hand" pos="0 0 .4"><joint name="wrist" axis="0 1 0" range="-2.8 2.8"/><geom type="capsule" fromto="0 0 .02 0 0 .15" size=".03" mass=".3"/>
+</body></body></body></body></worldbody><actuator><motor joint="shoulder" gear="10" ctrllimited="true" ctrlrange="-3 3"/></actuator></mujoco>"""
+
+
+def test_a_robot_s_motion_keeps_links_apart_and_torques_within_efforts(program):
+    mujoco = pytest.importorskip("mujoco")
+    (program.folder / "arm.xml").write_text(ARM)
+    prior = wj.Friction(viscous=1, coulomb=2, thermal_gain=-0.3, thermal_time_constant=300)
+    made = wj.design_robot(program.folder / "arm.xml", [".*"], 6, prior=prior, method="energy-ml", noise=0.05, clearance=0.02)
+    assert list(made.joints) == ["shoulder", "elbow", "wrist"]
+    assert any("exchanged" in notice for notice in made.data["notices"])
+    # the shoulder feels the elbow, and all of them the others
+    assert {"joint": "shoulder", "by": "elbow"} in [{name: one[name] for name in ("joint", "by")} for one in made.data["coupling"]]
+
+    # the same files as the program's
+    prior.save(program.folder / "prior.json")
+    program("design", "arm.xml", "--joint", ".*", "--minutes", 6, "--prior", "prior.json", "--identifier", "energy-ml", "--noise", 0.05,
+            "--clearance", 0.02, "-o", "arm")
+    assert (program.folder / "arm/motion.csv").read_text() == made.files["motion.csv"]
+    assert (program.folder / "arm/trajectory.yaml").read_text().startswith('joint_names: ["shoulder", "elbow", "wrist"]')
+
+    # walked through by MuJoCo's own Python, between the program's looks as well
+    model = mujoco.MjModel.from_xml_string(ARM)
+    data, torque, nearest, most = mujoco.MjData(model), np.zeros(3), 1.0, np.zeros(3)
+    model.geom_margin[:] = 0.1
+    for time in np.arange(0, 360, 0.0073):
+        for j, one in enumerate(made.joints.values()):
+            k = min(int(np.searchsorted(one.time, time, side="right")), len(one.time) - 1)
+            slope = (one.velocity[k] - one.velocity[k - 1]) / (one.time[k] - one.time[k - 1])
+            after = time - one.time[k - 1]
+            data.qpos[j] = one.position[k - 1] + after * (one.velocity[k - 1] + slope * after / 2)
+            data.qvel[j], data.qacc[j] = one.velocity[k - 1] + slope * after, slope
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_collision(model, data)
+        for contact in data.contact[: data.ncon]:
+            bodies = model.geom_bodyid[contact.geom]
+            if set(bodies) != {1, 2}:
+                nearest = min(nearest, contact.dist)
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 1, torque)
+        most = np.maximum(most, np.abs(torque + np.sign(data.qvel) * (2 + np.abs(data.qvel)) * (np.abs(data.qvel) > 1e-9)))
+    print(f"\nnearest {nearest:.4f} m, torques {most} N.m")
+    assert 0.02 <= nearest < 0.1
+    assert most[0] <= 30 and most[1] <= 9
+
+
+def test_limits_of_a_urdf_count_and_what_cannot_begin_is_refused(tmp_path):
+    arm = """<robot name="arm"><link name="base"/><link name="l"><inertial><mass value="2"/><origin xyz="0 0 .2"/>
+    <inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="lift" type="revolute">
+    <parent link="base"/><child link="l"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="{effort}" velocity=".3"/></joint></robot>"""
+    (tmp_path / "arm.urdf").write_text(arm.format(effort=20))
+    made = wj.design_robot(tmp_path / "arm.urdf", ["lift"], 4, method="energy-ml", limits={"position": (-0.5, 2)})
+    lift = made.joints["lift"]
+    limits = lift.data["settings"]["limits"]
+    assert limits["position"] == [-0.5, 1] and limits["velocity"][1] == 0.3 and limits["torque"] == 20
+    assert np.abs(lift.velocity).max() <= 0.3 and lift.position.max() <= 1 + 1e-9
+    # of one joint the files of one
+    assert made.files["motion.csv"].startswith("time,position,velocity\n") and "motion.script" in made.files
+    (tmp_path / "weak.urdf").write_text(arm.format(effort=1))
+    with pytest.raises(wj.BadInput, match=r"lift.*beyond its 1.*--at"):
+        wj.design_robot(tmp_path / "weak.urdf", ["lift"], 4, method="energy-ml", at={"lift": 1.0})
+    for wrong, words in (({"joints": ["lever"]}, "lever"), ({"at": {"lever": 0}}, "lever"), ({"priors": {"lever": PRIOR}}, "lever"), ({"clearance": -1}, "clearance")):
+        with pytest.raises(wj.BadInput, match=words):
+            wj.design_robot(tmp_path / "arm.urdf", **({"joints": ["lift"]} | wrong), minutes=4, method="energy-ml")

@@ -392,7 +392,7 @@ def main(folder, what="held", seconds="600"):
             for form, one in made.items():
                 rows.setdefault(form, []).append(f"{creep(one, robot):.0e}")
             for form, (make, _) in batches(robot, 1).items():
-                rows.setdefault(form, []).append(f"{creep(make(), robot, 1):.0e}")
+                rows.setdefault(form, []).append(f"{creep(make(), robot):.0e}")
             continue
         bare = Stepped(robot, robot.model)
         if "native" in made:

@@ -5,18 +5,17 @@
 #include <warmjoint/prepared_log.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "identification/preparation/check.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/serialize.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/backend.h"
+#include "tools/cli/check_until.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/typed_options.h"
@@ -32,9 +31,7 @@ struct CheckArguments {
   std::string format = "text";
   std::string segments;
   std::string plot;
-  std::string until;
-  IdentifySettings identify;
-  bool watch = false;
+  UntilArguments until;
 };
 
 /// The kept segments of a recording, a line for each. number: of the recording, from 1.
@@ -183,85 +180,6 @@ ExitStatus Check(const CheckArguments& arguments) {
   return all_read ? ExitStatus::done : ExitStatus::bad_input;
 }
 
-/// What is known after some minutes, in a line.
-std::string Words(const Sufficiency& found, const DesignAim& aim) {
-  const std::string goal = TextOf(aim);
-  if (found.reached) {
-    return fmt::format("{} is there after {:.3g} min: the 95 % interval is {:.2g} % to either side",
-                       goal, found.minutes, 100 * *found.half_width);
-  }
-  if (!found.half_width) {
-    return fmt::format(
-        "{} is not there after {:.3g} min: {}", goal, found.minutes,
-        found.status == Status::ok ? "the answer has no such interval" : found.message);
-  }
-  const std::string more =
-      found.minutes_more
-          ? fmt::format("about {:.3g} min more of this motion", *found.minutes_more)
-          : fmt::format("this motion will take too long: `warmjoint design --for {}` finds another",
-                        goal);
-  return fmt::format("{} is not there after {:.3g} min: {:.2g} %, {}", goal, found.minutes,
-                     100 * *found.half_width, more);
-}
-
-/// How a file that is written to while it is read grows.
-class GrowingFile {
- public:
-  explicit GrowingFile(const std::string& file) : file_(file) {}
-
-  /// Waits until it has grown; false where it has not for a while.
-  bool Waits() {
-    constexpr int kPatience = 60;  // s, why: longer than a recorder keeps lines to itself
-    for (int second = 0; second < kPatience; ++second) {
-      const std::uintmax_t now = std::filesystem::file_size(file_);
-      if (now != size_) {
-        size_ = now;
-        return true;
-      }
-      std::this_thread::sleep_for(std::chrono::seconds(1));
-    }
-    return false;
-  }
-
- private:
-  const std::string file_;
-  std::uintmax_t size_ = 0;
-};
-
-/// --until: 0 where the interval is there.
-ExitStatus CheckUntil(const CheckArguments& arguments) {
-  const DesignAim aim = GoalFrom(arguments.until);
-  if (!arguments.segments.empty() || !arguments.plot.empty()) {
-    Refuse({"--until"}, "makes neither --segments nor --plot; leave them out");
-  }
-  Activity activity("reading the recording");
-  Sufficiency found;
-  if (arguments.watch) {
-    if (arguments.recording.files.size() != 1) Refuse({"--watch"}, "is for one recording");
-    GrowingFile file(arguments.recording.files.front());
-    // each time that it has grown, as a whole
-    while (!found.reached && file.Waits()) {
-      found = LookWhether(ReadAndPrepare(arguments.recording), aim, arguments.identify);
-      if (arguments.format == "text") {
-        activity.Aside([&] { Say(stdout, "{}\n", Words(found, aim)); });
-        std::fflush(stdout);
-      }
-    }
-  } else {
-    found = LookUntil(ReadAndPrepare(arguments.recording), aim, arguments.identify,
-                      [&](const Sufficiency& part) {
-                        activity.Is(fmt::format("looking at the first {:.3g} min", part.minutes));
-                      });
-    if (arguments.format == "text") {
-      activity.Aside([&] { Say(stdout, "{}\n", Words(found, aim)); });
-    }
-  }
-  if (arguments.format == "json") {
-    activity.Aside([&] { fmt::print("{}\n", WriteFields(found).dump(2)); });
-  }
-  return found.reached ? ExitStatus::done : ExitStatus::nothing_trustworthy;
-}
-
 }  // namespace
 
 Command AddCheckCommand(CLI::App& program) {
@@ -276,17 +194,18 @@ Command AddCheckCommand(CLI::App& program) {
            "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   CLI::Option* const until = AddValue(
-      *parser, "--until", "NAME=SHARE", arguments->until,
+      *parser, "--until", "NAME=SHARE", arguments->until.goal,
       "whether, and after how many minutes, the half width of a 95 % interval is there, as "
       "friction=5% or thermal_time_constant=5%; status 3: not yet, with the minutes that "
       "are missing");
   parser
       ->add_flag(
-          "--watch", arguments->watch,
-          "with --until: reads a file that is being recorded, until the interval is there or "
-          "it grows no more")
+          "--watch", arguments->until.watch,
+          "with --until: reads a CSV file that is being recorded, or standard input (-), until "
+          "the interval is there or it grows no more")
       ->needs(until);
-  AddValue(*parser, "--identifier", "NAME", arguments->identify.identifier, "that --until asks")
+  AddValue(*parser, "--identifier", "NAME", arguments->until.identify.identifier,
+           "that --until asks")
       ->capture_default_str()
       ->needs(until);
   AddRecordingOptions(*parser, arguments->recording);
@@ -294,8 +213,11 @@ Command AddCheckCommand(CLI::App& program) {
   // the project file counts before anything is read
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
-            if (!arguments->until.empty()) return CheckUntil(*arguments);
-            return Check(*arguments);
+            if (arguments->until.goal.empty()) return Check(*arguments);
+            if (!arguments->segments.empty() || !arguments->plot.empty()) {
+              Refuse({"--until"}, "makes neither --segments nor --plot; leave them out");
+            }
+            return CheckUntil(arguments->until, arguments->recording, arguments->format);
           }};
 }
 

@@ -5,9 +5,11 @@
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "models/foundation/atomic_file.h"
@@ -15,8 +17,6 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/names.h"
 #include "models/foundation/parse_number.h"
-#include "models/robots/robot_folder.h"
-#include "sim/plant/single_joint_model.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
 #include "tools/identify/recording_source.h"
@@ -32,9 +32,10 @@ struct DesignArguments {
   std::string aim = "D";
   std::string noise;
   std::optional<std::uint64_t> seed;
-  RecordingSource after;  // an earlier log, or none
-  std::string robot;
-  std::string joint;
+  RecordingSource after;            // an earlier log, or none
+  RobotDesignSettings robot;        // or none
+  std::vector<std::string> joints;  // of it; one where there is no robot
+  std::vector<std::string> priors, at;
   std::string format = "text";
   std::string output;
 };
@@ -121,7 +122,8 @@ std::string TableOf(const Design& design, const Page& page) {
   return TableToText(table, 1, page);
 }
 
-std::string TextOf(const Design& design, const DesignArguments& arguments, const Page& page) {
+/// What is foretold of one joint.
+std::string TextOf(const Design& design, const Page& page) {
   const ForetoldAnswer& whole = design.foretold.back();
   std::string text = TableOf(design, page);
   if (whole.status != Status::ok) {
@@ -139,25 +141,75 @@ std::string TextOf(const Design& design, const DesignArguments& arguments, const
                           : fmt::format("{} is not reached in {:g} min: give more --minutes\n",
                                         TextOf(design.settings.aim), design.settings.minutes);
   }
-  std::vector<std::string> files;
-  for (const auto& [name, bytes] : FilesOf(design)) files.push_back(name);
-  return text + fmt::format("{}: {}\n", arguments.output, fmt::join(files, ", "));
+  return text;
 }
 
-/// The joint's kind and limits, as the robot's file has them; what the command line says goes before.
-void TakeRobot(const std::string& robot, const std::string& joint, DesignSettings& settings) {
-  if (joint.empty()) Refuse({"--joint"}, "is not given; name the joint of {} that moves", robot);
-  const std::string file = FindRobot(robot, "design");
-  constexpr double kStep = 0.001;
-  Friction none;
-  none.law = "coulomb";
-  none.parameters = {{"coulomb", 0}};
-  const SingleJointModel model = LoadSingleJoint(file, joint, none, kStep, "design");
-  settings.joint = model.kind;
-  const auto [lower, upper] = model.limits;
-  if (!settings.limits.position && std::isfinite(lower) && std::isfinite(upper)) {
-    settings.limits.position = {lower, upper};
+/// The same of all joints of a robot, and what they do to each other.
+std::string TextOf(const RobotDesign& design, const Page& page) {
+  std::string text;
+  for (const JointDesign& joint : design.joints) {
+    text += fmt::format("{}\n{}\n", joint.name, TextOf(static_cast<const Design&>(joint), page));
   }
+  if (design.joints.size() > 1) {
+    text += design.coupling.empty()
+                ? "No joint's torque shows that others move: each can be identified by itself.\n"
+                : "These torques show that others move; `warmjoint identify-robot` takes that into "
+                  "account, and `identify` of one joint does not:\n";
+  }
+  for (const DesignCoupling& one : design.coupling) {
+    text += fmt::format("  {} by {}: up to {:.3g}\n", one.joint, one.by, one.torque);
+  }
+  for (const std::string& notice : design.notices) text += notice + "\n";
+  return text;
+}
+
+/// Settings of a robot's joints.
+RobotDesignSettings RobotOf(const DesignArguments& arguments) {
+  RobotDesignSettings robot = arguments.robot;
+  if (arguments.joints.empty()) {
+    Refuse({"--joint"}, "is not given; name the joints of {} that move, or give '.*' for all",
+           robot.robot);
+  }
+  robot.joints = arguments.joints;
+  robot.each = arguments.settings;
+  for (const auto& [joint, value] : ReadPairs(arguments.at, "--at")) {
+    const auto number = ParseFinite(value);
+    if (!number) Refuse({"--at"}, "'{}={}' is no number", Excerpt(joint), Excerpt(value));
+    robot.at[joint] = *number;
+  }
+  // for all joints, or of one
+  for (const std::string& prior : arguments.priors) {
+    const size_t equals = prior.find('=');
+    if (equals == std::string::npos) {
+      robot.each.prior = prior;
+    } else {
+      robot.priors[prior.substr(0, equals)] = prior.substr(equals + 1);
+    }
+  }
+  return robot;
+}
+
+/// The files of a design, and what is said of it.
+struct Made {
+  std::vector<std::pair<std::string, std::string>> files;
+  std::function<std::string(const Page&)> words;
+};
+
+Made MakeMotion(const DesignArguments& arguments, const std::optional<PreparedLog>& after,
+                const std::function<void(const std::string&)>& watch) {
+  if (!arguments.robot.robot.empty()) {
+    const auto design =
+        std::make_shared<RobotDesign>(DesignRobotMotion(RobotOf(arguments), after, watch));
+    return {FilesOf(*design), [design](const Page& page) { return TextOf(*design, page); }};
+  }
+  if (arguments.joints.size() > 1 || arguments.priors.size() > 1 || !arguments.at.empty()) {
+    Refuse({"design"}, "several joints, --prior of each and --at are for a robot; give its file");
+  }
+  DesignSettings settings = arguments.settings;
+  if (!arguments.priors.empty()) settings.prior = arguments.priors.front();
+  const auto design = std::make_shared<Design>(DesignMotion(settings, after, watch));
+  const std::string joint = arguments.joints.empty() ? "joint" : arguments.joints.front();
+  return {FilesOf(*design, joint), [design](const Page& page) { return TextOf(*design, page); }};
 }
 
 ExitStatus MakeDesign(DesignArguments arguments) {
@@ -166,25 +218,26 @@ ExitStatus MakeDesign(DesignArguments arguments) {
   for (const std::string& entry : arguments.limits) TakeLimit(entry, settings.limits);
   TakeNoise(arguments.noise, arguments.after.read, settings);
   if (arguments.seed) settings.seed = *arguments.seed;
-  const std::vector<std::string> names{"design.json", "motion.csv", "setpoints.csv",
-                                       "trajectory.yaml", "motion.script"};
-  if (!arguments.robot.empty()) TakeRobot(arguments.robot, arguments.joint, settings);
-  AtomicDirectory directory(arguments.output, names);
+  AtomicDirectory directory(arguments.output, {"design.json", "motion.csv", "setpoints.csv",
+                                               "trajectory.yaml", "motion.script"});
 
   Activity activity("reading what is known");
   std::optional<PreparedLog> after;
   if (!arguments.after.files.empty()) after = ReadAndPrepare(arguments.after);
-  const Design design =
-      DesignMotion(settings, after, [&](const std::string& words) { activity.Is(words); });
-  const auto files =
-      FilesOf(design, arguments.joint.empty() ? std::string("joint") : arguments.joint);
-  for (const auto& [name, text] : files) WriteWholeFile(directory.temporary() / name, text);
+  const Made made =
+      MakeMotion(arguments, after, [&](const std::string& words) { activity.Is(words); });
+  std::vector<std::string> names;
+  for (const auto& [name, text] : made.files) {
+    WriteWholeFile(directory.temporary() / name, text);
+    names.push_back(name);
+  }
   directory.Commit();
   activity.Aside([&] {
     if (arguments.format == "json") {
-      fmt::print(stdout, "{}", files.front().second);
+      fmt::print(stdout, "{}", made.files.front().second);
     } else {
-      Say(stdout, "{}", TextOf(design, arguments, PageOf(stdout)));
+      Say(stdout, "{}{}: {}\n", made.words(PageOf(stdout)), arguments.output,
+          fmt::join(names, ", "));
     }
   });
   return ExitStatus::done;
@@ -200,9 +253,9 @@ Command AddDesignCommand(CLI::App& program) {
   GiveExample(
       *parser,
       "warmjoint design --limits position=-1.5..1.5,velocity=0.05..1 --minutes 20 -o motion");
-  AddValue(*parser, "ROBOT", "ROBOT", arguments->robot,
-           "a robot of `list robots`, or an MJCF or URDF file, whose --joint has its limits of "
-           "position there");
+  AddValue(*parser, "ROBOT", "ROBOT", arguments->robot.robot,
+           "a robot of `list robots`, or an MJCF or URDF file, whose limits of position, velocity "
+           "and effort count, and whose links stay apart");
   AddValue(*parser, "-o,--output", "DIR", arguments->output,
            "directory for the files, made as a whole")
       ->required();
@@ -220,9 +273,9 @@ Command AddDesignCommand(CLI::App& program) {
       ->capture_default_str();
 
   BeginGroup(*parser, "What is expected");
-  AddValue(*parser, "--prior", "FILE", settings.prior,
-           "friction that is expected: an estimate.json, or a friction file whose numbers may be "
-           "ranges; else broad ranges");
+  AddValue(*parser, "--prior", "[JOINT=]FILE", arguments->priors,
+           "friction that is expected, of all joints or of one: an estimate.json, or a friction "
+           "file whose numbers may be ranges; else broad ranges");
   AddValue(*parser, "--noise", "NUMBER|LOG", arguments->noise,
            "standard deviation of a torque sample, N.m or N, or a log of these sensors, whose rate "
            "is taken, too; else 2 % of the friction");
@@ -234,7 +287,13 @@ Command AddDesignCommand(CLI::App& program) {
       ->capture_default_str();
   AddChoice(*parser, "--joint-kind", settings.joint,
             "rotary, with rad and N.m, or linear, with m and N");
-  AddValue(*parser, "--joint", "NAME", arguments->joint, "of the robot, and in the files");
+  AddValue(*parser, "--joint", "NAME", arguments->joints,
+           "of the robot, a name or a pattern of names; joints that are given move at once");
+  AddValue(*parser, "--at", "JOINT=VALUE", arguments->at,
+           "where a joint of the robot begins, or stands: rad or m");
+  AddNumber(*parser, "--clearance", arguments->robot.clearance, {0, 1, "from 0 to 1"},
+            "that the robot's links keep from each other and from what stands around, m")
+      ->capture_default_str();
   AddValue(*parser, "--identifier", "NAME", settings.identifier, "that will read the log")
       ->capture_default_str();
   AddChoice(*parser, "--start", settings.start, "what will be known of the heat at the start");

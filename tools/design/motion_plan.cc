@@ -5,89 +5,75 @@
 #include <limits>
 
 namespace warmjoint {
-namespace {
+MotionPath::MotionPath(const MotionLimits& limits, std::optional<double> start) : limits_(limits) {
+  const double middle = limits.position ? ((*limits.position)[0] + (*limits.position)[1]) / 2 : 0;
+  knots_.push_back({0, start.value_or(middle), 0});
+}
 
-/// Lays strokes one after the other.
-class Path {
- public:
-  Path(const MotionLimits& limits, double hold) : limits_(limits), hold_(hold) {
-    const double start = limits.position ? ((*limits.position)[0] + (*limits.position)[1]) / 2 : 0;
-    knots_.push_back({0, start, 0});
-  }
-
-  void Add(const SpeedBlock& block) {
-    if (block.speed == 0) return Rest(block.duration);
-    // as short as asked, and as long as their ramps need; between limits an odd number ends at another place
-    const double most = std::floor(block.duration / Shortest(block.speed));
-    auto strokes = static_cast<int>(
-        std::clamp(std::ceil(block.duration / hold_ - 1e-9), 1.0, std::max(most, 1.0)));
-    if (limits_.position && strokes % 2 == 0) strokes += strokes < most ? 1 : -1;
-    const double whole = block.duration / strokes;
-    double left = block.duration;
-    int direction = walk_;
-    while (left > Shortest(block.speed)) {
-      if (Longest(direction, block.speed) < std::min(whole, left)) {
-        // to where there is more room
-        if (Longest(-direction, block.speed) > Longest(direction, block.speed)) {
-          direction = -direction;
-          walk_ = -walk_;
-        }
+void MotionPath::Add(const SpeedBlock& block, double hold) {
+  if (block.speed == 0) return Ramp(block.duration, 0);
+  // as short as asked, and as long as their ramps need; between limits an odd number ends at another place
+  const double most = std::floor(block.duration / Shortest(block.speed));
+  auto strokes = static_cast<int>(
+      std::clamp(std::ceil(block.duration / hold - 1e-9), 1.0, std::max(most, 1.0)));
+  if (limits_.position && strokes % 2 == 0) strokes += strokes < most ? 1 : -1;
+  const double whole = block.duration / strokes;
+  double left = block.duration;
+  int direction = walk_;
+  while (left > Shortest(block.speed)) {
+    if (Longest(direction, block.speed) < std::min(whole, left)) {
+      // to where there is more room
+      if (Longest(-direction, block.speed) > Longest(direction, block.speed)) {
+        direction = -direction;
+        walk_ = -walk_;
       }
-      const double duration = std::min(left - whole < Shortest(block.speed) ? left : whole,
-                                       Longest(direction, block.speed));
-      if (duration < Shortest(block.speed)) break;
-      Stroke(direction * block.speed, duration);
-      left -= duration;
-      direction = -direction;
     }
-    if (left > 1e-9) Rest(left);
-    if (!limits_.position) walk_ = direction;
+    const double duration = std::min(left - whole < Shortest(block.speed) ? left : whole,
+                                     Longest(direction, block.speed));
+    if (duration < Shortest(block.speed)) break;
+    Stroke(direction * block.speed, duration);
+    left -= duration;
+    direction = -direction;
   }
+  if (left > 1e-9) Ramp(left, 0);
+  if (!limits_.position) walk_ = direction;
+}
 
-  std::vector<MotionKnot> Take() { return std::move(knots_); }
+/// The stroke that ends at the limit, s.
+double MotionPath::Longest(int direction, double speed) const {
+  if (!limits_.position) return std::numeric_limits<double>::infinity();
+  const auto [lower, upper] = *limits_.position;
+  const double place = knots_.back().position;
+  const double room = direction > 0 ? upper - place : place - lower;
+  return std::max(room, 0.0) / speed + speed / limits_.acceleration;
+}
 
- private:
-  /// A stroke that reaches its speed and holds it as long as its ramps last, s.
-  double Shortest(double speed) const { return 4 * speed / limits_.acceleration; }
+void MotionPath::Stroke(double velocity, double duration) {
+  const double ramp = std::abs(velocity) / limits_.acceleration;
+  Ramp(ramp, velocity);
+  Ramp(duration - 2 * ramp, velocity);
+  Ramp(ramp, 0);
+}
 
-  /// The stroke that ends at the limit, s.
-  double Longest(int direction, double speed) const {
-    if (!limits_.position) return std::numeric_limits<double>::infinity();
-    const auto [lower, upper] = *limits_.position;
-    const double place = knots_.back().position;
-    const double room = direction > 0 ? upper - place : place - lower;
-    return std::max(room, 0.0) / speed + speed / limits_.acceleration;
-  }
-
-  void Stroke(double velocity, double duration) {
-    const double ramp = std::abs(velocity) / limits_.acceleration;
-    Add(ramp, velocity);
-    Add(duration - 2 * ramp, velocity);
-    Add(ramp, 0);
-  }
-
-  void Rest(double duration) { Add(duration, 0); }
-
-  /// A straight line of the velocity.
-  void Add(double duration, double velocity) {
-    const MotionKnot& last = knots_.back();
-    knots_.push_back({last.time + duration,
-                      last.position + duration * (last.velocity + velocity) / 2, velocity});
-  }
-
-  const MotionLimits& limits_;
-  const double hold_;
-  int walk_ = 1;  // direction of a block's first stroke
-  std::vector<MotionKnot> knots_;
-};
-
-}  // namespace
+/// A straight line of the velocity.
+void MotionPath::Ramp(double duration, double velocity) {
+  const MotionKnot& last = knots_.back();
+  knots_.push_back(
+      {last.time + duration, last.position + duration * (last.velocity + velocity) / 2, velocity});
+}
 
 std::vector<MotionKnot> LayOut(const std::vector<SpeedBlock>& blocks, const MotionLimits& limits,
                                double hold) {
-  Path path(limits, hold);
-  for (const SpeedBlock& block : blocks) path.Add(block);
-  return path.Take();
+  MotionPath path(limits);
+  for (const SpeedBlock& block : blocks) path.Add(block, hold);
+  return path.knots();
+}
+
+MotionKnot Between(const MotionKnot& from, const MotionKnot& to, double time) {
+  const double lasts = to.time - from.time, after = time - from.time;
+  const double slope = lasts > 0 ? (to.velocity - from.velocity) / lasts : 0;
+  return {time, from.position + after * (from.velocity + slope * after / 2),
+          from.velocity + slope * after};
 }
 
 MotionCells CellsOf(const std::vector<MotionKnot>& knots, double length) {

@@ -4,6 +4,7 @@
 #include <warmjoint/design.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace warmjoint {
@@ -14,10 +15,37 @@ struct SpeedBlock {
   double speed = 0;     // rad/s or m/s; 0: a rest
 };
 
-/// Strokes of at most `hold` seconds, each from rest to rest by ramps of the limits' acceleration. Directions alternate; between
-/// limits a block leads from one place to another, so that all speeds come to all places. It begins in the middle of the limits.
+/// A motion that grows block by block from rest to rest, by strokes of at most `hold` seconds with ramps of the limits' acceleration. Directions
+/// alternate; between limits a block leads from one place to another, so that all speeds come to all places.
+class MotionPath {
+ public:
+  /// start: where it begins; none: in the middle of the limits
+  explicit MotionPath(const MotionLimits& limits, std::optional<double> start = {});
+
+  void Add(const SpeedBlock& block, double hold);
+  /// The next block begins in the other direction.
+  void Turn() { walk_ = -walk_; }
+  /// A stroke that reaches its speed and holds it as long as its ramps last, s.
+  double Shortest(double speed) const { return 4 * speed / limits_.acceleration; }
+
+  const std::vector<MotionKnot>& knots() const { return knots_; }
+
+ private:
+  double Longest(int direction, double speed) const;
+  void Stroke(double velocity, double duration);
+  void Ramp(double duration, double velocity);
+
+  MotionLimits limits_;
+  int walk_ = 1;  // direction of a block's first stroke
+  std::vector<MotionKnot> knots_;
+};
+
+/// All blocks one after the other, from the middle of the limits.
 std::vector<MotionKnot> LayOut(const std::vector<SpeedBlock>& blocks, const MotionLimits& limits,
                                double hold);
+
+/// The motion at a time between two knots.
+MotionKnot Between(const MotionKnot& from, const MotionKnot& to, double time);
 
 /// A motion over even cells of time.
 struct MotionCells {

@@ -27,10 +27,12 @@ constexpr double kKnown = 0.01;
 
 constexpr int kDrawn = 64;  // why: of which a handful is kept; more change their spread by little
 
-/// Broad ranges: at the fastest speed friction falls by a quarter to two thirds, within minutes to half an hour, as in the gears
+/// Broad ranges about a fifth of the torque: at the fastest speed friction falls by a quarter to two thirds, within minutes to half an hour, as in the gears
 /// that were measured (models/library).
 DrawnFriction BroadPrior(const MotionLimits& limits) {
-  constexpr double level = 10, fastest_adds = 0.5;
+  constexpr double fastest_adds = 0.5;
+  // why: gears lose a tenth to a third of the effort that their motors are made for; without one any level gives the same motion
+  const double level = limits.torque ? *limits.torque / 5 : 10;
   constexpr double least_gain = -0.3, most_gain = -2, shortest = 200, longest = 1800;
   const double fastest = limits.velocity[1];
   DrawnFriction prior;

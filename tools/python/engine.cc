@@ -80,21 +80,50 @@ nb::object SimulateInPython(const std::string& scenario,
   return nb::make_tuple(LogArguments(simulation.measurements), FieldsToPython(simulation.truth));
 }
 
-/// (design.json, [time, position, velocity] of its knots, {file: text}). settings: as DesignSettings has them
-nb::object DesignInPython(nb::handle given, const std::string& joint) {
-  const auto settings = FieldsFromPython<DesignSettings>(given, "design");
-  const Design design = Interruptibly([=](const auto& stop) {
-    return DesignMotion(settings, {}, [&](const std::string&) { stop(); });
-  });
+/// [time, position, velocity] of a motion's knots.
+nb::list KnotsInPython(const Design& design) {
   nb::list columns;
   for (const auto member : {&MotionKnot::time, &MotionKnot::position, &MotionKnot::velocity}) {
     Eigen::VectorXd column(std::ssize(design.knots));
     std::ranges::transform(design.knots, column.begin(), std::mem_fn(member));
     columns.append(ToPython(column));
   }
+  return columns;
+}
+
+nb::dict FilesInPython(const std::vector<std::pair<std::string, std::string>>& texts) {
   nb::dict files;
-  for (const auto& [name, text] : FilesOf(design, joint)) files[name.c_str()] = text;
-  return nb::make_tuple(FieldsToPython(design), columns, files);
+  for (const auto& [name, text] : texts) files[name.c_str()] = text;
+  return files;
+}
+
+/// (design.json, its knots, {file: text}). settings: as DesignSettings has them
+nb::object DesignInPython(nb::handle given, const std::string& joint) {
+  const auto settings = FieldsFromPython<DesignSettings>(given, "design");
+  const Design design = Interruptibly([=](const auto& stop) {
+    return DesignMotion(settings, {}, [&](const std::string&) { stop(); });
+  });
+  return nb::make_tuple(FieldsToPython(design), KnotsInPython(design),
+                        FilesInPython(FilesOf(design, joint)));
+}
+
+/// The same of a robot: (design.json, {joint: its design and knots}, {file: text}).
+nb::object DesignRobotInPython(nb::handle given, const std::string& robot,
+                               const std::vector<std::string>& joints,
+                               const std::map<std::string, double>& at, double clearance,
+                               const std::map<std::string, std::string>& priors) {
+  const RobotDesignSettings settings{
+      robot, joints, at, clearance, FieldsFromPython<DesignSettings>(given, "design"), priors};
+  const RobotDesign design = Interruptibly([=](const auto& stop) {
+    return DesignRobotMotion(settings, {}, [&](const std::string&) { stop(); });
+  });
+  nb::dict by_joint;
+  for (const JointDesign& one : design.joints) {
+    by_joint[one.name.c_str()] =
+        nb::make_tuple(FieldsToPython(static_cast<const Design&>(one)), KnotsInPython(one),
+                       FilesInPython(FilesOf(one, one.name)));
+  }
+  return nb::make_tuple(FieldsToPython(design), by_joint, FilesInPython(FilesOf(design)));
 }
 
 /// functions: label -> (arguments of Log -> text of estimate.json). watch: (finished, total). Returns {results, refused, ...}.
@@ -246,6 +275,12 @@ NB_MODULE(_engine, module) {
   module.def("design", &python::DesignInPython,
              nb::sig("def design(settings: dict[str, object], joint: str) -> "
                      "tuple[dict[str, typing.Any], list[numpy.typing.NDArray[numpy.float64]], "
+                     "dict[str, str]]"));
+  module.def("design_robot", &python::DesignRobotInPython,
+             nb::sig("def design_robot(settings: dict[str, object], robot: str, joints: list[str], "
+                     "at: dict[str, float], clearance: float, priors: dict[str, str]) -> "
+                     "tuple[dict[str, typing.Any], dict[str, tuple[dict[str, typing.Any], "
+                     "list[numpy.typing.NDArray[numpy.float64]], dict[str, str]]], "
                      "dict[str, str]]"));
   module.def(
       "run", &python::RunInPython,

@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
+#include <thread>
+
 #include "tests/tools/cli/in_a_folder.h"
 #include "tests/tools/cli/little_files.h"
 
@@ -68,6 +72,45 @@ TEST_F(DesignCommand, ChecksWhetherALogIsEnoughAndForetellsWhatItLacks) {
   EXPECT_THAT(Refusal({"check", "log/recording.csv", "--watch"}), HasSubstr("--until"));
 }
 
+TEST_F(DesignCommand, WatchesALogThatIsBeingRecorded) {
+  WriteWholeFile(at("scenario.yaml"), TableOneYaml(1200));
+  Call({"simulate", "scenario.yaml", "--set", "sampling.rate=5", "-o", "log"});
+  const std::string whole = File("log/recording.csv");
+  const std::vector<std::string> watch{
+      "check",   "growing.csv", "--until", "thermal_time_constant=5%", "--identifier", "energy-ml",
+      "--watch", "--format",    "json"};
+
+  // parts that end anywhere in a row; the last would not do without the rest
+  std::ofstream recorder(at("growing.csv"));
+  std::jthread record([&] {
+    size_t written = 0;
+    for (const size_t part : {size_t{7}, size_t{300}, whole.size() / 9 + 5, whole.size()}) {
+      recorder << whole.substr(written, part - written) << std::flush;
+      written = part;
+      std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    }
+  });
+  const ProgramAnswer watched = Program(watch);
+  record.join();
+  EXPECT_EQ(watched.status, 0) << watched.err;
+  const auto found = nlohmann::json::parse(watched.out);
+  EXPECT_NEAR(found.at("minutes").get<double>(), 20, 0.01);
+  EXPECT_LE(found.at("half_width").get<double>(), 0.05);
+
+  // what comes through a pipe ends with it
+  const auto piped = [&](size_t bytes) {
+    const std::string command = fmt::format(
+        "head -c {} log/recording.csv | {} check - --until thermal_time_constant=5% "
+        "--identifier energy-ml --watch",
+        bytes, (test::BuildFolder() / "warmjoint").string());
+    return RunCommandLine({"sh", "-c", command}, {at(""), {}}).status;
+  };
+  EXPECT_EQ(piped(whole.size()), 0);
+  EXPECT_EQ(piped(whole.size() / 9), 3);
+  EXPECT_EQ(piped(300), 2);
+  EXPECT_THAT(Refusal({"check", "log.h5", "--until", "friction=5%", "--watch"}), HasSubstr(".csv"));
+}
+
 TEST_F(DesignCommand, ShowsWhatWasForetoldBesideWhatIsReached) {
   ASSERT_EQ(Into("motion").status, 0);
   WriteWholeFile(at("scenario.yaml"), TableOneYaml(600));
@@ -105,6 +148,10 @@ TEST_F(DesignCommand, TakesTheLimitsOfARobotsJoint) {
   EXPECT_EQ(settings.at("joint"), "linear");
   EXPECT_EQ(settings.at("limits").at("position"), (nlohmann::json{0, 0.25}));
   EXPECT_THAT(Refusal({"design", "linear_axis", "-o", "x"}), HasSubstr("--joint"));
+  EXPECT_THAT(Refusal({"design", "--joint", "a", "--joint", "b", "-o", "x"}), HasSubstr("robot"));
+  EXPECT_THAT(
+      Refusal({"design", "linear_axis", "--joint", "carriage", "--at", "carriage", "-o", "x"}),
+      HasSubstr("key=value"));
 }
 
 TEST_F(DesignCommand, RefusesLimitsThatAreNone) {

@@ -14,6 +14,7 @@
 #include "models/foundation/names.h"
 #include "scenarios/scenario.h"
 #include "sim/plant/plant.h"
+#include "tools/design/motion/design_joint.h"
 #include "tools/design/search_speeds.h"
 #include "tools/design/until.h"
 
@@ -244,37 +245,61 @@ void TakeNoiseOf(const PreparedLog& log, DesignSettings& settings) {
   settings.rate = std::round(1e6 / Median(StepsOf(log))) / 1e6;
 }
 
-Design DesignMotion(const DesignSettings& asked, const std::optional<PreparedLog>& after,
-                    const std::function<void(const std::string& words)>& watch) {
-  // what is expected of the joint
-  Design design;
-  DesignSettings& settings = design.settings = asked;
+ExpectedJoint Expect(const DesignSettings& asked, const std::optional<PreparedLog>& after) {
+  ExpectedJoint expected{asked, {}, {}, after};
+  DesignSettings& settings = expected.settings;
   const DrawnFriction prior =
       after && asked.prior.empty() ? PriorAfter(*after, settings) : PriorOf(settings);
-  const std::vector<Friction> frictions = Representatives(prior, asked.seed, kDraws);
-  settings = WithinTorque(settings, frictions);
+  expected.frictions = Representatives(prior, asked.seed, kDraws);
+  settings = WithinTorque(settings, expected.frictions);
   CheckRoom(settings);
   if (!settings.noise) {
     settings.noise = kRelativeNoise * Level(prior.friction, settings.limits.velocity[0]);
   }
-  const std::vector<PossibleJoint> joints = JointsOf(settings, frictions, after);
+  expected.joints = JointsOf(settings, expected.frictions, after);
+  return expected;
+}
 
-  // the motion
-  SpeedSearch search{settings, joints};
+double ExpectedJoint::Level(double speed) const {
+  double level = 0;
+  for (const Friction& friction : frictions) {
+    level = std::max(level, warmjoint::Level(friction, speed));
+  }
+  return level;
+}
+
+std::vector<SpeedBlock> BestBlocks(const ExpectedJoint& expected, const WatchDesign& watch) {
+  SpeedSearch search{expected.settings, expected.joints};
   if (watch) {
     search.watch = [&watch](double share) {
       watch(fmt::format("{:.0f} % of the search", 100 * share));
     };
   }
-  design.knots = LayOut(SearchSpeeds(search), settings.limits, settings.hold);
+  return SearchSpeeds(search);
+}
 
-  // what it tells: of the middle by the identifier itself, of all draws by the information
-  const Simulation made = Carried(settings, frictions.front(), *settings.noise, design.knots);
-  design.foretold = Foretell(settings, Prepare(made.measurements), after, watch);
-  design.enough = MinutesUntil(settings.aim, design.foretold);
+Design Foretold(const ExpectedJoint& expected, std::vector<MotionKnot> knots,
+                const WatchDesign& watch) {
+  // of the middle by the identifier itself, of all draws by the information
+  Design design;
+  design.settings = expected.settings;
+  design.knots = std::move(knots);
+  const SpeedSearch search{expected.settings, expected.joints};
+  const Simulation made = Carried(expected.settings, expected.frictions.front(),
+                                  *expected.settings.noise, design.knots);
+  design.foretold = Foretell(expected.settings, Prepare(made.measurements), expected.after, watch);
+  design.enough = MinutesUntil(expected.settings.aim, design.foretold);
   design.ratios = Compare(search, design.knots);
   design.draws = DrawsOf(search, design.knots);
   return design;
+}
+
+Design DesignMotion(const DesignSettings& asked, const std::optional<PreparedLog>& after,
+                    const std::function<void(const std::string& words)>& watch) {
+  const ExpectedJoint expected = Expect(asked, after);
+  const std::vector<SpeedBlock> blocks = BestBlocks(expected, watch);
+  return Foretold(expected, LayOut(blocks, expected.settings.limits, expected.settings.hold),
+                  watch);
 }
 
 }  // namespace warmjoint

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -235,6 +236,59 @@ struct Design {
 Design DesignMotion(const DesignSettings& settings, const std::optional<PreparedLog>& after = {},
                     const std::function<void(const std::string& words)>& watch = {});
 
+/// A motion of several joints of a robot at once.
+struct RobotDesignSettings {
+  std::string robot{};                 // MJCF or URDF file
+  std::vector<std::string> joints{};   // names, or patterns of names
+  std::map<std::string, double> at{};  // rad or m, where joints begin, and where others stand
+  double clearance = 0.01;             // m, between links, and to what stands around
+  DesignSettings each{};               // of every joint; its limits count beside the robot's
+  std::map<std::string, std::string> priors{};  // files by joint, in place of each.prior
+};
+
+/// What a joint's motion does to another one's torque while both move.
+struct DesignCoupling {
+  std::string joint{};
+  std::string by{};
+  double torque = 0;  // N.m or N
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("joint", &joint, {.meaning = "whose torque it is"});
+    a->Field("by", &by, {.meaning = "the joint that moves"});
+    a->Field("torque", &torque,
+             {.unit = "N.m", .meaning = "the most that the other's ramps and places change of it"});
+  }
+};
+
+/// A joint's part of a robot's motion.
+struct JointDesign : Design {
+  std::string name{};
+};
+
+/// Motions of joints that move together.
+struct RobotDesign {
+  std::vector<JointDesign> joints{};       // in the order of the robot
+  std::vector<DesignCoupling> coupling{};  // beyond the noise of a torque sample
+  std::vector<std::string> notices{};
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Named("joints", &joints);
+    a->Field("coupling", &coupling,
+             {.meaning = "of joints whose torque shows that the other moves"});
+    a->Field("notices", &notices);
+  }
+};
+
+/// One motion for all joints: each joint's own as DesignMotion has it, laid out within the limits of position, velocity and effort that the
+/// robot's file has, such that links stay apart and torques, of rigid bodies and friction, below the efforts. A block that would break
+/// that is exchanged for one in the other direction, with shorter strokes, or a rest. What is foretold of each joint is so as if its
+/// rigid torque were known. after: for one joint. Throws BadInput.
+RobotDesign DesignRobotMotion(const RobotDesignSettings& settings,
+                              const std::optional<PreparedLog>& after = {},
+                              const std::function<void(const std::string& words)>& watch = {});
+
 /// Sets noise and rate to those of a log of the same sensors: the rms residual of the identifier's answer. Throws BadInput where it has
 /// none.
 void TakeNoiseOf(const PreparedLog& log, DesignSettings& settings);
@@ -243,5 +297,7 @@ void TakeNoiseOf(const PreparedLog& log, DesignSettings& settings);
 /// setpoints.csv, the same every 1/rate seconds; trajectory.yaml, a JointTrajectory; motion.script, for Universal Robots. joint: its name
 std::vector<std::pair<std::string, std::string>> FilesOf(const Design& design,
                                                          const std::string& joint = "joint");
+/// The same of several joints, each with two columns JOINT_position and JOINT_velocity, without a script.
+std::vector<std::pair<std::string, std::string>> FilesOf(const RobotDesign& design);
 
 }  // namespace warmjoint

@@ -21,7 +21,7 @@ from warmjoint._core import BadInput, OutputFailed
 from warmjoint._core import version as __version__
 from warmjoint.answers import FrictionAtSpeed, Parameter, Prediction, Residuals
 from warmjoint.compensate import Compensated, Compensator
-from warmjoint.design import Design, Enough, design, enough
+from warmjoint.design import Design, Enough, RobotDesign, design, design_robot, enough
 from warmjoint.engine import Board, Run, Simulated, compare, run, score, simulate
 from warmjoint.estimate import Estimate, Rejected, Void, identifiers, identify, load
 from warmjoint.friction import Friction, laws
@@ -65,5 +65,5 @@ with contextlib.suppress(Exception):
 
 
 __all__ = ["BadInput", "Board", "Check", "Compensated", "Compensator", "Design", "Enough", "Estimate", "Friction", "FrictionAtSpeed", "Log", "Machine", "OutputFailed", "Parameter", "Prediction", "Rejected",
-           "Residuals", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "design", "enough", "identifiers", "identify",
+           "Residuals", "RobotDesign", "RobotEstimate", "Run", "Simulated", "Void", "__version__", "attach", "bind", "check", "compare", "design", "design_robot", "enough", "identifiers", "identify",
            "identify_robot", "laws", "library", "load", "load_robot", "native", "read", "reference", "run", "score", "simulate", "split"]

@@ -6,7 +6,7 @@ import dataclasses
 import os
 import pathlib
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -17,9 +17,12 @@ from warmjoint.engine import _engine
 from warmjoint.estimate import Estimate
 from warmjoint.friction import Friction
 from warmjoint.log import Log, log_of
-from warmjoint.values import kind_of, path_of, whole
+from warmjoint.values import kind_of, named, path_of, texts, whole
+from warmjoint.values import number as number_of
 
 Array = npt.NDArray[np.float64]
+Prior = Estimate | Friction | Mapping[str, Any] | str | os.PathLike[str]
+Start = Literal["cold", "unknown", "estimated"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,15 +42,24 @@ class Design:
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Writes the files, as `warmjoint design -o` does."""
-        path = pathlib.Path(path_of(folder, "folder"))
-        path.mkdir(parents=True, exist_ok=True)
-        for name, text in self.files.items():
-            _core.write_text(os.fspath(path / name), text)
+        _save(self.files, folder)
+
+
+@dataclasses.dataclass(frozen=True)
+class RobotDesign:
+    """A motion of several joints of a robot at once, and what its log will tell: what `warmjoint design ROBOT` writes."""
+
+    joints: dict[str, Design]  # by name, in the order of the robot
+    data: dict[str, Any]  # what design.json holds: joints, coupling[], notices[]
+    files: dict[str, str]  # text by name: motion.csv, setpoints.csv, trajectory.yaml, design.json
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the files, as `warmjoint design ROBOT -o` does."""
+        _save(self.files, folder)
 
 
 def design(minutes: float = 20, *, limits: Mapping[str, Any] | None = None, aim: str = "D",
-           prior: Estimate | Friction | Mapping[str, Any] | str | os.PathLike[str] | None = None, method: str = "auto",
-           start: Literal["cold", "unknown", "estimated"] = "cold", noise: float | None = None, rate: float = 20, hold: float = 10,
+           prior: Prior | None = None, method: str = "auto", start: Start = "cold", noise: float | None = None, rate: float = 20, hold: float = 10,
            kind: Literal["rotary", "linear"] = "rotary", joint: str = "joint", seed: int = 1) -> Design:
     """The sequence of speeds, holds and rests whose log tells the most: what `warmjoint design` does.
 
@@ -58,9 +70,7 @@ def design(minutes: float = 20, *, limits: Mapping[str, Any] | None = None, aim:
     sample. rate: samples in a second. hold: longest stroke at one speed, s. joint: its name in the files. Needs MuJoCo 4.0.
     The same arguments give the same motion. Raises BadInput.
     """
-    settings: dict[str, Any] = {"minutes": minutes, "for": aim, "identifier": method, "start": start, "rate": rate, "hold": hold,
-                                "joint": kind, "seed": whole("seed", seed)}
-    settings |= {name: value for name, value in (("noise", noise), ("limits", limits)) if value is not None}
+    settings = _settings(minutes, limits, aim, method, start, noise, rate, hold, seed) | {"joint": kind}
     with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
         settings["prior"] = _file_of(prior, pathlib.Path(folder))
         try:
@@ -68,6 +78,31 @@ def design(minutes: float = 20, *, limits: Mapping[str, Any] | None = None, aim:
         except _core.BadInput as refusal:
             raise _core.BadInput(str(refusal).replace(settings["prior"] or "\0", "prior")) from None
     return Design(time, position, velocity, data, files)
+
+
+def design_robot(robot: str | os.PathLike[str], joints: Sequence[str], minutes: float = 20, *, limits: Mapping[str, Any] | None = None,
+                 at: Mapping[str, float] | None = None, clearance: float = 0.01, aim: str = "D", prior: Prior | None = None,
+                 priors: Mapping[str, Prior] | None = None, method: str = "auto", start: Start = "cold",
+                 noise: float | None = None, rate: float = 20, hold: float = 10, seed: int = 1) -> RobotDesign:
+    """One motion for several joints of a robot: what `warmjoint design ROBOT` does. Each joint keeps to the limits of position, velocity and effort
+    that the robot's file has, and links keep apart; a block that would break that is exchanged for another.
+
+    robot: path of an MJCF or URDF file, or a robot of the project. joints: names, or patterns of names. at: rad or m, where joints begin or
+    stand. clearance: between links, m. prior: of all joints; priors: of single ones. limits (which count beside the robot's), aim, method,
+    start, noise, rate, hold, seed: as of `design`. What is foretold of each joint is so as if its rigid torque were known. Raises BadInput.
+    """
+    settings = _settings(minutes, limits, aim, method, start, noise, rate, hold, seed)
+    with tempfile.TemporaryDirectory(prefix="warmjoint_") as folder:
+        settings["prior"] = _file_of(prior, pathlib.Path(folder))
+        files_of = {}
+        for number, (name, one) in enumerate(named("priors", priors).items()):
+            (own := pathlib.Path(folder) / str(number)).mkdir()
+            files_of[name] = _file_of(one, own)
+        positions = {name: number_of(f"at[{name!r}]", value) for name, value in named("at", at).items()}
+        data, of_joints, files = _engine().design_robot(settings, os.fspath(path_of(robot, "robot")), texts("joints", joints), positions,
+                                                        number_of("clearance", clearance), files_of)
+    made = {name: Design(*knots, one, its) for name, (one, knots, its) in of_joints.items()}
+    return RobotDesign(made, data, files)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,3 +144,18 @@ def _file_of(prior: Any, folder: pathlib.Path) -> str:
     else:
         raise _core.BadInput(f"prior: is {kind_of(prior)}; give an Estimate, a Friction, a dict or a path")
     return os.fspath(path)
+
+
+def _settings(minutes: float, limits: Mapping[str, Any] | None, aim: str, method: str, start: Start, noise: float | None, rate: float,
+              hold: float, seed: int) -> dict[str, Any]:
+    """As DesignSettings has them."""
+    settings: dict[str, Any] = {"minutes": minutes, "for": aim, "identifier": method, "start": start, "rate": rate, "hold": hold,
+                                "seed": whole("seed", seed)}
+    return settings | {name: value for name, value in (("noise", noise), ("limits", limits)) if value is not None}
+
+
+def _save(files: Mapping[str, str], folder: str | os.PathLike[str]) -> None:
+    path = pathlib.Path(path_of(folder, "folder"))
+    path.mkdir(parents=True, exist_ok=True)
+    for name, text in files.items():
+        _core.write_text(os.fspath(path / name), text)
