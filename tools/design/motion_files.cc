@@ -19,7 +19,7 @@ struct Track {
   const std::vector<MotionKnot>* knots;
 };
 
-/// To nine decimals: sums of strokes about 0 leave less.
+/// To nine decimals, of which the texts keep all: sums of strokes about 0 leave less.
 double Rounded(double value) { return std::round(1e9 * value) / 1e9 + 0.0; }
 
 /// Where all joints are at ascending times: a call for each time with its knots, in the order of the tracks.
@@ -65,9 +65,9 @@ std::string Csv(const std::vector<Track>& tracks, const std::vector<double>& tim
   }
   text += '\n';
   Along(tracks, times, [&](double time, const std::vector<MotionKnot>& now) {
-    text += fmt::format("{:.10g}", Rounded(time));
+    text += fmt::format("{:.14g}", Rounded(time));
     for (const MotionKnot& knot : now) {
-      text += fmt::format(",{:.10g},{:.10g}", Rounded(knot.position), Rounded(knot.velocity));
+      text += fmt::format(",{:.14g},{:.14g}", Rounded(knot.position), Rounded(knot.velocity));
     }
     text += '\n';
   });

@@ -107,7 +107,7 @@ TEST_F(DesignCommand, WatchesALogThatIsBeingRecorded) {
   };
   EXPECT_EQ(piped(whole.size()), 0);
   EXPECT_EQ(piped(whole.size() / 9), 3);
-  EXPECT_EQ(piped(300), 2);
+  EXPECT_EQ(piped(60), 2);
   EXPECT_THAT(Refusal({"check", "log.h5", "--until", "friction=5%", "--watch"}), HasSubstr(".csv"));
 }
 

@@ -101,7 +101,7 @@ def design_robot(robot: str | os.PathLike[str], joints: Sequence[str], minutes: 
         positions = {name: number_of(f"at[{name!r}]", value) for name, value in named("at", at).items()}
         data, of_joints, files = _engine().design_robot(settings, os.fspath(path_of(robot, "robot")), texts("joints", joints), positions,
                                                         number_of("clearance", clearance), files_of)
-    made = {name: Design(*knots, one, its) for name, (one, knots, its) in of_joints.items()}
+    made = {name: Design(time, position, velocity, one, its) for name, (one, (time, position, velocity), its) in of_joints.items()}
     return RobotDesign(made, data, files)
 
 
