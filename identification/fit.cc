@@ -33,12 +33,17 @@ std::optional<size_t> Fit::RowOf(Role role, int which) const {
   return std::nullopt;
 }
 
+void ErrorModel::AddFree() {
+  const Eigen::Index p = prior.rows();
+  if (p > 0) prior.conservativeResizeLike(Eigen::MatrixXd::Zero(p + 1, p + 1));
+}
+
 Eigen::MatrixXd CofactorOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
   Eigen::MatrixXd rows = Kept(fit.jacobian(), fit.used);
   if (errors.whitening) rows = errors.whitening->Of(rows);
   Eigen::MatrixXd normal = GramOf(rows);
-  if (errors.prior.size() > 0) normal.diagonal() += errors.prior;
+  if (errors.prior.size() > 0) normal += errors.prior;
   return Cofactor(normal);
 }
 

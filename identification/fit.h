@@ -40,13 +40,16 @@ struct FitParameter : Unknown {
 /// method of the fit.
 struct ErrorModel {
   Eigen::MatrixXd cofactor;  // [p x p] C, the inverse of what the fit solved
-  Eigen::VectorXd prior;     // [p] what is known beforehand (uncertainty.h); or empty
+  Eigen::MatrixXd prior;     // [p x p] what is known beforehand (uncertainty.h); or empty
   Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss or a lag; or empty
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
   /// The whitening of the rows that the fit solved, of which C is; or none.
   std::shared_ptr<const Whitening> whitening;
   /// Covariance of the table's estimated rows, of a fit whose errors follow from more than its table; or not set.
   std::function<Uncertainty()> covariance;
+
+  /// One more estimated value, of which nothing is known beforehand.
+  void AddFree();
 };
 
 /// The state of a fit after an iteration.

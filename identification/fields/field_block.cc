@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -99,11 +100,34 @@ FieldBlock OverPlace(FieldKind kind, double scale, const FieldRows& rows, JointK
   return block;
 }
 
+/// Knots over the time of each recording.
+Knots TimeKnots(const FieldRows& rows) {
+  const std::vector<SampleRange> recordings = CutAt(rows.starts, rows.size());
+  const auto length = [&](const SampleRange& one) {
+    return rows.time[one.end() - 1] - rows.time[one.first];
+  };
+  double all = 0;
+  for (const SampleRange& one : recordings) all += length(one);
+  Knots knots;
+  for (const SampleRange& one : recordings) {
+    const auto count = std::lround(static_cast<double>(kTimeKnots) * length(one) / all);
+    const double first = rows.time[one.first];
+    const double last = std::max(rows.time[one.end() - 1], first + rows.step);
+    const Index m = std::max<Index>(count, 2), begin = knots.size();
+    if (begin > 0) knots.starts.push_back(begin);
+    knots.at.conservativeResize(begin + m);
+    knots.at.tail(m) = VectorXd::LinSpaced(m, first, last);
+  }
+  return knots;
+}
+
 FieldBlock OverTime(FieldKind kind, double scale, const FieldRows& rows) {
-  const double first = rows.time[0], last = rows.time[rows.size() - 1];
-  FieldBlock block{.kind = kind, .knots = Even(first, last, kTimeKnots)};
-  for (const double share : {0.1, 1.0 / 3, 1.0, 4.0})
-    block.lengths.push_back(share * (last - first));
+  FieldBlock block{.kind = kind, .knots = TimeKnots(rows)};
+  double longest = 0;
+  for (const SampleRange& piece : block.knots.Pieces()) {
+    longest = std::max(longest, block.knots.at[piece.end() - 1] - block.knots.at[piece.first]);
+  }
+  for (const double share : {0.1, 1.0 / 3, 1.0, 4.0}) block.lengths.push_back(share * longest);
   for (const double length : block.lengths) {
     block.kernels.push_back(Exponential(block.knots.Distances(), length));
   }
@@ -155,32 +179,41 @@ int OnlyWay(const VectorXd& velocity) {
 }
 
 SparseRows Knots::Columns(const VectorXd& x) const {
-  const Index m = size();
-  const double spacing = at[1] - at[0];
-  SparseRows columns(x.size(), m);
+  const std::vector<SampleRange> pieces = Pieces();
+  SparseRows columns(x.size(), size());
   columns.reserve(Eigen::VectorXi::Constant(x.size(), 2));
   for (Index n = 0; n < x.size(); ++n) {
-    double u = (x[n] - at[0]) / spacing;
+    // the nearest piece
+    std::size_t piece = pieces.size() - 1;
+    const auto begins = [&](const SampleRange& one) {
+      return (at[one.first - 1] + at[one.first]) / 2;
+    };
+    while (piece > 0 && x[n] < begins(pieces[piece])) --piece;
+    const auto [begin, m] = pieces[piece];
+    double u = (x[n] - at[begin]) / (at[begin + 1] - at[begin]);
     if (!period) u = std::clamp(u, 0.0, static_cast<double>(m - 1));
     const double below =
         period ? std::floor(u) : std::min(std::floor(u), static_cast<double>(m - 2));
     const Index i =
         static_cast<Index>(std::fmod(below, static_cast<double>(m))) + (below < 0 ? m : 0);
     const double share = u - below;
-    columns.coeffRef(n, i % m) += 1 - share;
-    columns.coeffRef(n, (i + 1) % m) += share;
+    columns.coeffRef(n, begin + i % m) += 1 - share;
+    columns.coeffRef(n, begin + (i + 1) % m) += share;
   }
   columns.makeCompressed();
   return columns;
 }
 
 MatrixXd Knots::Distances() const {
-  MatrixXd distances(size(), size());
-  for (Index i = 0; i < size(); ++i) {
-    for (Index j = 0; j < size(); ++j) {
-      const double d = std::abs(at[i] - at[j]);
-      distances(i, j) =
-          period ? *period / std::numbers::pi * std::sin(std::numbers::pi * d / *period) : d;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  MatrixXd distances = MatrixXd::Constant(size(), size(), never);
+  for (const SampleRange& piece : Pieces()) {
+    for (Index i = piece.first; i < piece.end(); ++i) {
+      for (Index j = piece.first; j < piece.end(); ++j) {
+        const double d = std::abs(at[i] - at[j]);
+        distances(i, j) =
+            period ? *period / std::numbers::pi * std::sin(std::numbers::pi * d / *period) : d;
+      }
     }
   }
   return distances;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "models/friction/laws.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint {
 
@@ -26,23 +27,29 @@ struct FieldRows {
   Eigen::MatrixXd flat;                      // [n x p] columns without a field's prior
   Eigen::VectorXd torque;                    // [n] N.m or N
   /// [p] of what is known of the unknowns of flat columns beforehand, and its precision, 0 where nothing is; or empty
-  Eigen::VectorXd prior_mean{}, prior_precision{};
-  double step = 0.04;  // s, from a row to the next, median
+  Eigen::VectorXd prior_mean{};
+  Eigen::MatrixXd prior_precision{};  // [p x p]
+  double step = 0.04;                 // s, from a row to the next, median
   Eigen::Array<bool, Eigen::Dynamic, 1>
-      follows;  // [n] whether a row is the next after the one before it
+      follows;                         // [n] whether a row is the next after the one before it
+  std::vector<Eigen::Index> starts{};  // first rows of further recordings
 
   Eigen::Index size() const { return time.size(); }
 };
 
-/// Even knots, between which a field is a straight line.
+/// Knots, between which a field is a straight line, even within each piece.
 struct Knots {
-  Eigen::VectorXd at;            // [m], at least 2
+  Eigen::VectorXd at;            // [m], at least 2 of each piece, ascending
   std::optional<double> period;  // of a circle
+  std::vector<Eigen::Index>
+      starts{};  // first knots of further pieces, each of which has a field of its own
 
   Eigen::Index size() const { return at.size(); }
+  /// The pieces, as ranges of knots.
+  std::vector<SampleRange> Pieces() const { return CutAt(starts, size()); }
   /// The weights of the two knots next to each place; beyond the knots those of the last one. x: [n]; returns [n x m]
   SparseRows Columns(const Eigen::VectorXd& x) const;
-  /// Distances of the knots from each other, chords on a circle. [m x m]
+  /// Distances of the knots from each other, chords on a circle, infinite from one piece to another. [m x m]
   Eigen::MatrixXd Distances() const;
 };
 
@@ -69,7 +76,7 @@ struct FieldBlock {
 bool IsSymmetric(const Law& law);
 
 /// The fields over a log's rows. Knots: 40 over the position (.05 rad apart at least; over one turn where the joint travels more than
-/// two), 24 over time, 10 over the root of the speed. Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths
+/// two), 24 over time, shared by the recordings, of which each has fields over time of its own, 10 over the root of the speed. Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths
 /// over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
 /// ones are what a law, gravity or a curve over the speed does.
 /// Friction over position and over speed is orthogonal, over the rows, to a level and to the law, so that the law's parameters are those of

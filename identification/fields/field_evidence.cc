@@ -72,16 +72,25 @@ struct AllRows {
   MatrixXd dense;     // [n x p + 1] flat, y
   SparseRows sparse;  // [n x m] fields
 
-  /// A^T diag(weight) B of the rows from `a` and from `b` on. weight: [k], one for each pair of rows; returns [p + m + 1]^2
-  MatrixXd Gram(Index a, Index b, const VectorXd& weight) const {
-    const Index k = weight.size(), p = dense.cols() - 1, m = sparse.cols();
-    const auto dense_a = dense.middleRows(a, k);
-    const MatrixXd dense_b = weight.asDiagonal() * dense.middleRows(b, k);
-    const SparseRows sparse_a = sparse.middleRows(a, k);
-    const SparseRows sparse_b = weight.asDiagonal() * sparse.middleRows(b, k);
-    const MatrixXd both = dense_a.transpose() * dense_b;
-    const MatrixXd fields_first = sparse_a.transpose() * dense_b;
-    const MatrixXd fields_last = sparse_b.transpose() * dense_a;
+  /// The rows at these places.
+  AllRows At(const std::vector<Index>& places) const {
+    std::vector<Eigen::Triplet<double>> kept;
+    for (Index i = 0; i < std::ssize(places); ++i) {
+      for (SparseRows::InnerIterator one(sparse, places[static_cast<size_t>(i)]); one; ++one) {
+        kept.emplace_back(i, one.col(), one.value());
+      }
+    }
+    AllRows some{dense(places, Eigen::all), SparseRows(std::ssize(places), sparse.cols())};
+    some.sparse.setFromTriplets(kept.begin(), kept.end());
+    return some;
+  }
+
+  /// A^T B of as many rows of both. [p + m + 1]^2
+  static MatrixXd Product(const AllRows& a, const AllRows& b) {
+    const Index p = a.dense.cols() - 1, m = a.sparse.cols();
+    const MatrixXd both = a.dense.transpose() * b.dense;
+    const MatrixXd fields_first = a.sparse.transpose() * b.dense;
+    const MatrixXd fields_last = b.sparse.transpose() * a.dense;
 
     MatrixXd gram(p + m + 1, p + m + 1);
     gram.topLeftCorner(p, p) = both.topLeftCorner(p, p);
@@ -92,9 +101,10 @@ struct AllRows {
     gram.block(p, p + m, m, 1) = fields_first.col(p);
     gram.block(0, p, p, m) = fields_last.leftCols(p).transpose();
     gram.block(p + m, p, 1, m) = fields_last.col(p).transpose();
-    gram.block(p, p, m, m) = MatrixXd(SparseRows(sparse_a.transpose()) * sparse_b);
+    gram.block(p, p, m, m) = MatrixXd(SparseRows(a.sparse.transpose()) * b.sparse);
     return gram;
   }
+  MatrixXd Gram() const { return Product(*this, *this); }
 };
 
 AllRows AllColumns(const FieldRows& rows, const std::vector<FieldBlock>& blocks, Index fields) {
@@ -139,27 +149,39 @@ FieldEvidence::FieldEvidence(const FieldRows& rows, const std::vector<FieldBlock
     size_ += block.size();
   }
   const AllRows all = AllColumns(rows, blocks, size_ - flat_);
-  VectorXd follows = rows.follows.cast<double>();
-  follows[0] = 0;
-  const Index pairs = rows.size() - 1;
-  runs_ = rows.size() - static_cast<Index>(follows.sum());
-  first_ = all.Gram(0, 0, VectorXd::Ones(rows.size()) - follows);
-  inner_ = all.Gram(0, 0, follows);
-  before_ = all.Gram(0, 0, VectorXd(follows.tail(pairs)));
-  cross_ = all.Gram(1, 0, VectorXd(follows.tail(pairs)));
+  std::vector<Index> firsts, lasts, after, before;
+  for (Index n = 0; n < rows.size(); ++n) {
+    const bool follows = n > 0 && rows.follows[n];
+    if (!follows) {
+      firsts.push_back(n);
+      if (n > 0) lasts.push_back(n - 1);
+      continue;
+    }
+    after.push_back(n);
+    before.push_back(n - 1);
+  }
+  lasts.push_back(rows.size() - 1);
+  runs_ = std::ssize(firsts);
+  const MatrixXd whole = all.Gram();
+  first_ = all.At(firsts).Gram();
+  inner_ = whole - first_;
+  before_ = whole - all.At(lasts).Gram();
+  cross_ = AllRows::Product(all.At(after), all.At(before));
   cross_ = (cross_ + cross_.transpose()).eval();
 
   // a spread of flat columns by which the data alone decide
   const double spread =
       kFlat * std::sqrt((rows.torque.array() - rows.torque.mean()).square().mean());
   const VectorXd square = rows.flat.colwise().squaredNorm() / static_cast<double>(rows.size());
-  flat_precision_ = (square.array() / (spread * spread)).max(std::numeric_limits<double>::min());
+  const VectorXd least =
+      (square.array() / (spread * spread)).max(std::numeric_limits<double>::min());
+  flat_precision_ = least.asDiagonal();
 
   // what is known beforehand, as one more row of each unknown
   flat_product_ = VectorXd::Zero(flat_);
-  const Index given = rows.prior_precision.size();
-  flat_precision_.head(given) += rows.prior_precision;
-  flat_product_.head(given) = rows.prior_precision.cwiseProduct(rows.prior_mean);
+  const Index given = rows.prior_precision.rows();
+  flat_precision_.topLeftCorner(given, given) += rows.prior_precision;
+  flat_product_.head(given) = rows.prior_precision * rows.prior_mean;
 
   for (const FieldBlock& block : blocks) {
     auto& roots = roots_.emplace_back();
@@ -186,7 +208,7 @@ VectorXd FieldEvidence::ProductAt(const MatrixXd& gram, double innovation) const
 
 MatrixXd FieldEvidence::PriorAt(const FieldHyperparameters& at) const {
   MatrixXd prior = MatrixXd::Zero(size_, size_);
-  prior.diagonal().head(flat_) = flat_precision_;
+  prior.topLeftCorner(flat_, flat_) = flat_precision_;
   for (size_t k = 0; k < blocks_.size(); ++k) {
     const double amplitude = std::max(at.amplitudes[k], kNothing) * friction_;
     prior.block(begins_[k], begins_[k], blocks_[k].size(), blocks_[k].size()) =

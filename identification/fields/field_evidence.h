@@ -75,8 +75,8 @@ class FieldEvidence {
   std::vector<double> correlations_;                // that the noise may have, ascending
   std::vector<Eigen::Index> begins_;                // [k]
   Eigen::MatrixXd first_, inner_, before_, cross_;  // [p + m + 1]^2
-  Eigen::VectorXd flat_precision_,
-      flat_product_;  // [p] of the priors, and of these times their means
+  Eigen::MatrixXd flat_precision_;                  // [p x p] of the priors
+  Eigen::VectorXd flat_product_;                    // [p] of these times their means
   std::vector<std::vector<Eigen::MatrixXd>> roots_, inverses_;  // [k][l] of the kernels
   std::vector<std::vector<double>> log_determinants_;
 };

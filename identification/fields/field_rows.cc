@@ -24,6 +24,7 @@ constexpr double kLongest =
 struct Group {
   Index first, count;
   bool follows;
+  Index sample;  // the first of them in the log
 };
 
 constexpr double kFewest = 120;  // rows; why: twice as many as show how noise is correlated
@@ -44,7 +45,8 @@ std::vector<Group> GroupsOf(const Selection& used, const LogSamples& m) {
     const Index count = std::max<Index>(1, std::lround(parts));
     for (Index g = 0; g < count; ++g) {
       const Index first = begin + (end - begin) * g / count;
-      groups.push_back({first, begin + (end - begin) * (g + 1) / count - first, g > 0});
+      groups.push_back({first, begin + (end - begin) * (g + 1) / count - first, g > 0,
+                        kept[static_cast<size_t>(first)]});
     }
   };
   Index begin = 0;
@@ -106,6 +108,12 @@ FieldRows MakeFieldRows(const Fit& fit, const LogSamples& m, const MatrixXd& oth
     if (rows.follows[g]) steps.push_back(rows.time[g] - rows.time[g - 1]);
   }
   if (!steps.empty()) rows.step = MedianOf(steps);
+  for (const Index start : m.further_starts) {
+    const auto row = std::ranges::lower_bound(groups, start, {}, &Group::sample);
+    const Index first = row - groups.begin();
+    const Index before = rows.starts.empty() ? 0 : rows.starts.back();
+    if (first > before && first < rows.size()) rows.starts.push_back(first);
+  }
   return rows;
 }
 

@@ -19,7 +19,8 @@ struct FitForFields {
   /// [N] torque of a fit of this table along a motion, N.m or N: gravity, inertia and friction, maps included
   std::function<Eigen::VectorXd(const Fit&, const LogSamples&)> torque_of{};
   /// [p] of what is known of the estimated rows beforehand, and its precision, 0 where nothing is; or empty
-  Eigen::VectorXd prior_mean{}, prior_precision{};
+  Eigen::VectorXd prior_mean{};
+  Eigen::MatrixXd prior_precision{};  // [p x p]
 };
 
 /// The same fit to what fields leave of the torque; nothing where that has no such fit. held: [N] N.m or N

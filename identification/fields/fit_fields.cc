@@ -29,11 +29,11 @@ std::optional<std::string> WhyNone(const Fit& fit) {
 /// What a fit knew beforehand: its prior has the noise's variance over that of each unknown, about 0 but for E(0).
 void TakePrior(double start, FitForFields& at) {
   const Fit& fit = at.fit;
-  const VectorXd& prior = fit.errors.prior;
+  const Eigen::MatrixXd& prior = fit.errors.prior;
   if (prior.size() == 0) return;
   const double variance = fit.residual().squaredNorm() / static_cast<double>(fit.torque.size());
   at.prior_precision = prior / variance;
-  at.prior_mean = VectorXd::Zero(prior.size());
+  at.prior_mean = VectorXd::Zero(prior.rows());
   Index column = 0;
   for (const FitParameter& row : fit.parameters) {
     if (!row.estimated) continue;

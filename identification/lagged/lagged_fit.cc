@@ -140,10 +140,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
 
   // and the errors of the estimated values; the lag has no prior
   ErrorModel& errors = fit.errors;
-  if (const Index p = errors.prior.size(); p > 0) {
-    errors.prior.conservativeResize(p + 1);
-    errors.prior[p] = 0;
-  }
+  errors.AddFree();
   errors.whitening = rows->whitening();
   errors.cofactor = CofactorOf(fit);
 

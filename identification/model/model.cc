@@ -63,11 +63,18 @@ VectorXd Model::Start() const {
   return x;
 }
 
-VectorXd Model::PriorPrecision() const {
-  VectorXd precision = VectorXd::Zero(size());
+Eigen::MatrixXd Model::PriorPrecision() const {
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(size(), size());
   for (Index i = 0; i < size(); ++i) {
     const auto& prior = table[static_cast<std::size_t>(i)].prior;
-    if (prior) precision[i] = 1 / (prior->deviation * prior->deviation);
+    if (prior) precision(i, i) = 1 / (prior->deviation * prior->deviation);
+  }
+  for (const auto& [first, second, deviation] : alike) {
+    const double one = 1 / (deviation * deviation);
+    precision(first, first) += one;
+    precision(second, second) += one;
+    precision(first, second) -= one;
+    precision(second, first) -= one;
   }
   return precision;
 }

@@ -115,9 +115,16 @@ class LoadBlock : public Block {
   Directions direction_;
 };
 
+/// Two unknowns that are alike: their difference is N(0, deviation^2).
+struct Alike {
+  Eigen::Index first = 0, second = 0;  // places in the table
+  double deviation = 1;
+};
+
 /// A model of a torque.
 struct Model {
   std::vector<Unknown> table;  // [P]
+  std::vector<Alike> alike;    // what is known in addition to the priors of the table
   std::vector<std::shared_ptr<const Block>> blocks;
   std::optional<HeatLoop> heat;
   Eigen::Index samples = 0;  // N
@@ -125,8 +132,8 @@ struct Model {
   Eigen::Index size() const { return std::ssize(table); }
   /// [P] where the fit begins.
   Eigen::VectorXd Start() const;
-  /// [P] 1 / variance of each prior, 0 without one.
-  Eigen::VectorXd PriorPrecision() const;
+  /// [P x P] of what is known beforehand: 1 / variance of each prior, and what is alike.
+  Eigen::MatrixXd PriorPrecision() const;
   /// [P] means of the priors, 0 without one.
   Eigen::VectorXd PriorMean() const;
   /// Appends rows and returns their places.

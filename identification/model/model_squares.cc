@@ -39,10 +39,11 @@ ModelRows::Rows RowsToFit(const ModelAt& model, const ModelSamples& samples) {
 
 void AddPriors(const Model& model, const VectorXd& x, RowSums& sums) {
   const Index p = model.size();
-  const VectorXd precision = model.PriorPrecision(), off = x - model.PriorMean();
-  sums.gram.diagonal().head(p) += precision;
-  sums.product.head(p) -= precision.cwiseProduct(off);
-  sums.squares += off.cwiseAbs2().dot(precision);
+  const MatrixXd precision = model.PriorPrecision();
+  const VectorXd off = x - model.PriorMean(), pull = precision * off;
+  sums.gram.topLeftCorner(p, p) += precision;
+  sums.product.head(p) -= pull;
+  sums.squares += off.dot(pull);
 }
 
 KeptRows::KeptRows(const Model& model, const VectorXd& x,

@@ -122,6 +122,14 @@ std::string ExplainDoubtfulGain(const std::string& joint, double gain) {
       joint, gain, joint, 1 / gain);
 }
 
+std::string ExplainOffset(const std::string& joint, double value, double reach,
+                          const std::string& unit) {
+  return fmt::format(
+      "the torque of {} has an offset of {:.3g} +- {:.2g} {}, since the friction of a gear differs "
+      "less by direction: it is not friction, and the friction file is without it",
+      joint, value, reach, unit);
+}
+
 std::string ExplainUnknownGain(const std::string& joint) {
   return fmt::format(
       "the gain of its current is unknown, so friction is in A; give --torque-constant "

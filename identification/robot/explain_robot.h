@@ -39,6 +39,8 @@ std::string ExplainWrongDescription(const std::string& joint, double times);
 std::string ExplainScaleOfAll(double gain);
 std::string ExplainScale(const std::string& joint, double gain);
 std::string ExplainDoubtfulGain(const std::string& joint, double gain);
+std::string ExplainOffset(const std::string& joint, double value, double reach,
+                          const std::string& unit);
 std::string ExplainUnknownGain(const std::string& joint);
 inline constexpr const char* kNegativeRotor =
     "the rotor's inertia is below 0: the torque may be late against the position, or the links "

@@ -62,7 +62,7 @@ HeatGuess FindHeat(const JointColumns& c, const JointFit& cold, const JointQuest
   const MatrixXd j = Kept(rows.derivatives, used);
   const double scale = cold.solved.noise.scale();
   MatrixXd h = j.transpose() * j / scale;
-  h.diagonal() += cold.model.PriorPrecision();
+  h += cold.model.PriorPrecision();
   const MatrixXd inverse = InverseScaled(h);
   const auto rest_of = [&](const VectorXd& z) -> VectorXd {
     return z - j * (inverse * (j.transpose() * z / scale));

@@ -85,6 +85,13 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const Jo
   };
   if (fit.at.given.sign < 0) say(ExplainTurnedSign(c.joint));
   if (fit.description_error > 1) say(ExplainWrongDescription(c.joint, fit.description_error));
+  if (fit.at.offset) {
+    const Index row = fit.at.offset->begin;
+    const double half = HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), row));
+    if (std::abs(fit.Value(row)) > half) {
+      say(ExplainOffset(c.joint, fit.Value(row), half, c.torque_unit));
+    }
+  }
   const Index rotor = fit.at.rotor.begin;
   VectorXd by_rotor = VectorXd::Zero(fit.model.size());
   by_rotor[rotor] = 1;

@@ -1,5 +1,7 @@
 #include "identification/robot/robot_joint.h"
 
+#include <warmjoint/robot_estimate.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
@@ -29,6 +31,11 @@ constexpr double kGainStep = .5;  // of the log gain in one iteration: a factor 
 constexpr double kLoadSpread = .2;
 /// Ripple against the joint's Coulomb friction: harmonics of good gears reach some per cent of it, of bad ones a fifth.
 constexpr double kRippleShare = .2;
+/// Difference of the Coulomb friction of both directions over its mean, a standard deviation. Why a tenth: of a gear's two flanks, which are cut and
+/// polished alike, as of nine joints of UR5, UR10, TX40 and Tiago whose torque has no offset.
+constexpr double kFlanks = .1;
+/// Deviations of that beyond which a difference is an offset of the torque.
+constexpr double kBeyondFlanks = 3;
 /// A direction of the description of which the log tells: by whose error in the torque its variance falls by a tenth at least.
 constexpr double kTold = .1;
 /// Share of the log, at its end, that a further mechanism has to predict.
@@ -42,6 +49,11 @@ Unknown Nuisance(double deviation) {
   row.role = Role::gravity;
   row.prior = Normal{0, deviation};
   return row;
+}
+
+/// An offset of the torque, which is not friction.
+Unknown OffsetUnknown(const JointUnits& units) {
+  return {.name = std::string(kTorqueOffset), .role = Role::gravity, .unit = units.torque};
 }
 
 /// Columns of the law over the samples. [N x 3], and one more where friction rises at low speed
@@ -61,9 +73,17 @@ SharedColumns LossColumnsOf(const JointColumns& c, std::optional<Index> slow) {
   return std::make_shared<const ModelRows::Rows>(std::move(columns));
 }
 
-/// Adds a joint's blocks to a model without heat. slow: of kSlowShares, of a friction that rises at low speed
+/// What a model without heat has in addition to what all have.
+struct Further {
+  double ripple = 1;               // level of friction, of which the ripple is a share; N.m or N
+  std::optional<double> flanks{};  // how alike both are, where the torque has an offset; N.m or N
+  std::optional<Index> slow{};     // of kSlowShares, of a friction that rises at low speed
+};
+
+/// Adds a joint's blocks to a model without heat.
 void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
-               std::optional<Index> slow, double level, JointFit& fit) {
+               const Further& further, JointFit& fit) {
+  const std::optional<Index>& slow = further.slow;
   Model& model = fit.model;
   model.samples = c.velocity.size();
   std::vector<Unknown> law;
@@ -102,7 +122,7 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   const Unknown direction = Nuisance(1);
   fit.at.given.z = model.Append(
       std::vector<Unknown>(static_cast<std::size_t>(c.rigid.directions.cols()), direction));
-  const Unknown harmonic = Nuisance(kRippleShare * level);
+  const Unknown harmonic = Nuisance(kRippleShare * further.ripple);
   fit.at.ripple =
       model.Append(std::vector<Unknown>(static_cast<std::size_t>(c.ripple.cols()), harmonic));
 
@@ -115,6 +135,12 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
   };
   if (c.ripple.cols() > 0) {
     model.blocks.push_back(std::make_shared<LinearBlock>(fit.at.ripple, Shared(c.ripple)));
+  }
+  if (further.flanks) {
+    model.alike = {{fit.at.law.begin + 1, fit.at.law.begin + 2, *further.flanks}};
+    fit.at.offset = model.Append({OffsetUnknown(units)});
+    const VectorXd ones = VectorXd::Ones(c.velocity.size());
+    model.blocks.push_back(std::make_shared<LinearBlock>(*fit.at.offset, Shared(ones)));
   }
 }
 
@@ -151,7 +177,7 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
   JointFit first;
   JointColumns plain = c;
   plain.ripple.resize(c.ripple.rows(), 0);
-  AddBlocks(plain, guess, q, {}, 1, first);
+  AddBlocks(plain, guess, q, {}, first);
   SolveFresh(c, first);
   const Index law = first.at.law.begin;
   const double mean = (first.Value(law + 1) + first.Value(law + 2)) / 2;
@@ -160,8 +186,7 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
 
 /// (J^T J + P)^-1, P by the noise of as many samples as are independent, by which the fit weighed its rows.
 MatrixXd PenalisedCofactor(const Model& model, const SolvedModel& solved) {
-  const VectorXd prior = solved.noise.scale() * model.PriorPrecision();
-  return InverseScaled(solved.gram + MatrixXd(prior.asDiagonal()));
+  return InverseScaled(solved.gram + solved.noise.scale() * model.PriorPrecision());
 }
 
 /// How sure the unknowns of a fit are. cofactor: PenalisedCofactor
@@ -188,9 +213,9 @@ void AddErrors(const JointColumns& c, JointFit& fit) {
 
 /// The model in all parts but heat, fitted.
 JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
-                 double level) {
+                 const Further& further) {
   JointFit fit;
-  AddBlocks(c, guess, q, {}, level, fit);
+  AddBlocks(c, guess, q, further, fit);
   SolveFresh(c, fit);
   AddErrors(c, fit);
   return fit;
@@ -198,9 +223,9 @@ JointFit FitCold(const JointColumns& c, const GainGuess& guess, const JointQuest
 
 /// The same with friction that rises at low speed, from the fit without on.
 JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuestion& q,
-                 double level, const JointFit& cold, Index share) {
+                 const Further& further, const JointFit& cold) {
   JointFit fit;
-  AddBlocks(c, guess, q, share, level, fit);
+  AddBlocks(c, guess, q, further, fit);
   const Index rise = fit.at.law.end() - 1, size = cold.solved.x.size();
   VectorXd x = VectorXd::Zero(size + 1);
   x.head(rise) = cold.solved.x.head(rise);
@@ -236,6 +261,23 @@ double DescriptionErrorOf(const JointFit& fit, const JointQuestion& q) {
   return p < q.error_level / q.joints ? std::max(1.0, std::sqrt(squares / count)) : 1;
 }
 
+/// The same fit where friction may drive.
+JointFit WithoutBounds(const JointColumns& c, const JointFit& fit) {
+  if (fit.solved.at_bound.empty()) return fit;
+  JointFit free = fit;
+  for (const Index i : fit.solved.at_bound) {
+    free.model.table[static_cast<std::size_t>(i)].lower = -kInfinity;
+  }
+  free.solved = Solve(free.model, c.samples, fit.solved.x);
+  AddErrors(c, free);
+  return free;
+}
+
+/// Deviations that chance does not reach in any of the joints.
+double ReachOf(const JointFit& fit, const JointQuestion& q) {
+  return StudentQuantile(fit.uncertainty.degrees_of_freedom, 1 - q.error_level / q.joints);
+}
+
 /// Rows of the law that the data put beyond their bound, beyond chance over all joints.
 void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
   if (fit.fields) {
@@ -246,19 +288,28 @@ void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
     return;
   }
   if (fit.solved.at_bound.empty()) return;
-  Model unbound = fit.model;
+  const JointFit free = WithoutBounds(c, fit);
+  const double reach = ReachOf(free, q);
   for (const Index i : fit.solved.at_bound) {
-    unbound.table[static_cast<std::size_t>(i)].lower = -kInfinity;
-  }
-  const SolvedModel free = Solve(unbound, c.samples, fit.solved.x);
-  const Uncertainty uncertainty =
-      UncertaintyOf(unbound, c.samples, free, PenalisedCofactor(unbound, free));
-  const double reach =
-      StudentQuantile(uncertainty.degrees_of_freedom, 1 - q.error_level / q.joints);
-  for (const Index i : fit.solved.at_bound) {
-    if (free.x[i] + reach * std::sqrt(uncertainty.covariance(i, i)) >= 0) continue;
+    if (free.Value(i) + reach * free.Deviation(i) >= 0) continue;
     fit.beyond.push_back(fit.model.table[static_cast<std::size_t>(i)].name);
   }
+}
+
+/// How alike the Coulomb friction of both directions is, N.m or N, where it differs by more than flanks do, so that the torque has an
+/// offset. Motion in both directions tells the difference plus twice the offset alone.
+std::optional<double> FindOffset(const JointColumns& c, const JointQuestion& q,
+                                 const JointFit& fit) {
+  const JointFit free = WithoutBounds(c, fit);
+  const Index up = fit.at.law.begin + 1, down = up + 1;
+  const double mean = (free.Value(up) + free.Value(down)) / 2;
+  if (!(mean > 0)) return std::nullopt;
+  const double difference = free.Value(up) - free.Value(down);
+  const MatrixXd& errors = free.uncertainty.covariance;
+  const double deviation = std::sqrt(errors(up, up) + errors(down, down) - 2 * errors(up, down));
+  const double least = kBeyondFlanks * kFlanks * mean + ReachOf(free, q) * deviation;
+  if (!(std::abs(difference) > least)) return std::nullopt;
+  return kFlanks * mean;
 }
 
 /// Mean square on the last part of the log by a fit to the first part, which starts from the given fit.
@@ -287,13 +338,14 @@ bool Falls(const JointColumns& c, const JointQuestion& q, const JointFit& cold) 
 /// The fit with friction that rises at low speed, where the log shows it; of a friction that falls with speed, at the share of the top speed that leaves
 /// least.
 std::optional<JointFit> FindSlow(const JointColumns& c, const GainGuess& guess,
-                                 const JointQuestion& q, double level, const JointFit& cold) {
+                                 const JointQuestion& q, Further further, const JointFit& cold) {
   if (!q.slows) return std::nullopt;
   const bool falls = Falls(c, q, cold);
   const Index shares = falls ? std::ssize(kSlowShares) : 1;
   std::optional<JointFit> best;
   for (Index share = 0; share < shares; ++share) {
-    JointFit slow = FitSlow(c, guess, q, level, cold, share);
+    further.slow = share;
+    JointFit slow = FitSlow(c, guess, q, further, cold);
     if (best && !(slow.solved.noise.variance < best->solved.noise.variance)) continue;
     best = std::move(slow);
   }
@@ -375,9 +427,12 @@ GainGuess GuessGain(const JointColumns& c, Description description) {
 }
 
 JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQuestion& q) {
-  const double level = c.ripple.cols() > 0 ? LevelOf(c, guess, q) : 1;
-  JointFit fit = FitCold(c, guess, q, level);
-  if (std::optional<JointFit> slow = FindSlow(c, guess, q, level, fit)) fit = *std::move(slow);
+  Further further;
+  if (c.ripple.cols() > 0) further.ripple = LevelOf(c, guess, q);
+  JointFit fit = FitCold(c, guess, q, further);
+  further.flanks = FindOffset(c, q, fit);
+  if (further.flanks) fit = FitCold(c, guess, q, further);
+  if (std::optional<JointFit> slow = FindSlow(c, guess, q, further, fit)) fit = *std::move(slow);
   if (q.warms) {
     const HeatGuess heat = FindHeat(c, fit, q);
     fit.warming = heat.deviations;

@@ -108,6 +108,7 @@ struct JointPlaces {
   Slice load, rotor;
   GivenPlaces given;
   Slice ripple;
+  std::optional<Slice> offset;
   std::optional<Slice> heat;
 };
 

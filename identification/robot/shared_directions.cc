@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "identification/fit_data.h"
 #include "identification/model/minimise.h"
@@ -39,6 +40,7 @@ class SharedSquares {
         }
         own.Add(i, all_.Append({RowOf(fit, i)}).begin);
       }
+      TakeAlike(fit.model, own);
     }
     // the directions are those of every joint
     z_.begin = all_.size();
@@ -63,8 +65,7 @@ class SharedSquares {
     for (std::size_t j = 0; j < fits_.size(); ++j) {
       const JointFit& fit = fits_[j];
       x(places_[j].here) = fit.solved.x(places_[j].of_joint);
-      const MatrixXd h = fit.solved.gram / fit.solved.noise.scale() +
-                         MatrixXd(fit.model.PriorPrecision().asDiagonal());
+      const MatrixXd h = fit.solved.gram / fit.solved.noise.scale() + fit.model.PriorPrecision();
       const Slice& own = fit.at.given.z;
       const MatrixXd of_z = InverseScaled(own.Block(InverseScaled(h)));
       precision += of_z - MatrixXd::Identity(z_.size, z_.size);
@@ -101,7 +102,21 @@ class SharedSquares {
       of_joint.push_back(joint);
       here.push_back(place);
     }
+    /// The place in x of an unknown of the joint, where it has one.
+    std::optional<Index> Find(Index joint) const {
+      const auto found = std::ranges::find(of_joint, joint);
+      if (found == of_joint.end()) return std::nullopt;
+      return here[static_cast<std::size_t>(found - of_joint.begin())];
+    }
   };
+
+  /// What a joint's model knows to be alike, of unknowns that are not held.
+  void TakeAlike(const Model& model, const Places& own) {
+    for (const auto& [first, second, deviation] : model.alike) {
+      const std::optional<Index> one = own.Find(first), other = own.Find(second);
+      if (one && other) all_.alike.push_back({*one, *other, deviation});
+    }
+  }
 
   static const Unknown& RowOf(const JointFit& fit, Index i) {
     return fit.model.table[static_cast<std::size_t>(i)];
@@ -130,9 +145,8 @@ class SharedSquares {
     rows(gains_, gains_).array() -= 1 / n;
     VectorXd off = x - all_.PriorMean();
     off(gains_) = x(gains_).array() - x(gains_).sum() / n;
-    const VectorXd precision = all_.PriorPrecision();
-    const MatrixXd weighed = precision.asDiagonal() * rows;
-    return {rows.transpose() * weighed, -weighed.transpose() * off, off.cwiseAbs2().dot(precision)};
+    const MatrixXd precision = all_.PriorPrecision(), weighed = precision * rows;
+    return {rows.transpose() * weighed, -weighed.transpose() * off, off.dot(precision * off)};
   }
 
   RowSums At(const VectorXd& x) const {

@@ -137,7 +137,7 @@ void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertain
   uncertainty.covariance = by_noise + CovarianceByPull(*fit.pull, C, hat, by_noise);
   // what was known beforehand has the error of a measurement of that weight
   if (fit.prior.size() > 0) {
-    uncertainty.covariance += uncertainty.noise.variance * (C * fit.prior.asDiagonal() * C);
+    uncertainty.covariance += uncertainty.noise.variance * (C * fit.prior * C);
   }
   // independent samples less effective parameters
   uncertainty.degrees_of_freedom =
@@ -147,7 +147,7 @@ void BesidePull(const FittedRows& fit, const Eigen::MatrixXd& scatter, Uncertain
 /// The parameters that the data determine, and not what was known beforehand: d - tr(C P).
 double Determined(const FittedRows& fit) {
   const auto d = static_cast<double>(fit.cofactor.rows());
-  return fit.prior.size() > 0 ? d - fit.cofactor.diagonal().dot(fit.prior) : d;
+  return fit.prior.size() > 0 ? d - fit.cofactor.cwiseProduct(fit.prior).sum() : d;
 }
 
 /// Sets the covariance from the noise and from what was known.
@@ -165,7 +165,7 @@ void OfSquares(const FittedRows& fit, Eigen::MatrixXd scatter, Uncertainty& unce
   if (fit.prior.size() > 0) {
     const double variance =
         fit.prior_variance > 0 ? fit.prior_variance : uncertainty.noise.variance;
-    scatter.diagonal() += variance * fit.prior;
+    scatter += variance * fit.prior;
   }
   uncertainty.covariance = n / (n - taken) * (C * scatter * C);
 }

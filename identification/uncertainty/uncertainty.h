@@ -59,8 +59,8 @@ struct FittedRows {
   const Selection& selection;
   Eigen::VectorXd fitted{};   // [n] f; or empty: not known
   Eigen::VectorXd weights{};  // [n] diagonal of W; or empty: 1
-  /// [d] what is known of x beforehand, the diagonal of P: the noise's variance over that of each parameter, or 0; or empty
-  Eigen::VectorXd prior{};
+  /// [d x d] what is known of x beforehand, P: the noise's variance times the precision of its normal density; or empty
+  Eigen::MatrixXd prior{};
   /// The noise's variance that P is made with, where the fit had another than that of the residual; 0: the same
   double prior_variance = 0;
   std::optional<WeightPrior> pull{};  // s |w|^2, which is in C as well

@@ -85,7 +85,7 @@ struct ThermalFit {
   bool converged = false;
   Layout layout;
   std::shared_ptr<const Model> model;  // in that layout
-  Eigen::VectorXd prior;               // [p] the diagonal P: what is known of x before the log
+  Eigen::MatrixXd prior;               // [p x p] P: what is known of x before the log
   InitialEnergy initial;               // what was known of E(0)
   std::vector<Eigen::Index> mixed;     // columns of law and gravity that cannot be distinguished
 

@@ -151,11 +151,7 @@ void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& 
   fit.jacobian = [of_model = std::move(fit.jacobian), by_delay] {
     return ConcatColumns(of_model(), by_delay);
   };
-  // the delay has no prior
-  if (VectorXd& prior = fit.errors.prior; prior.size() > 0) {
-    prior.conservativeResize(prior.size() + 1);
-    prior[prior.size() - 1] = 0;
-  }
+  fit.errors.AddFree();
   fit.errors.cofactor = CofactorOf(fit);
   ++fit.count;
   fit.effective_parameters += 1;

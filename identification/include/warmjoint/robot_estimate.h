@@ -11,6 +11,9 @@
 
 namespace warmjoint {
 
+/// The row of an offset of a joint's torque, which is no friction, among its parameters.
+inline constexpr const char* kTorqueOffset = "torque_offset";
+
 /// What is reported of a joint in addition to its estimate. Torques in the log's unit.
 struct RobotJointSummary {
   std::string joint;

@@ -132,6 +132,27 @@ TEST(FieldEvidence, KeepsTheLawThatOfTheBestLine) {
   }
 }
 
+TEST(FieldEvidence, GivesEachRecordingADriftOfItsOwn) {
+  FieldRows rows = RowsWithRipple(0, 0, 7);
+  const Index half = rows.size() / 2;
+  rows.starts = {half};
+  const auto blocks =
+      MakeFields({FieldKind::time_friction}, rows, JointKind::rotary, ViscousCoulombLaw());
+  const auto at = [&](Index row) {
+    const auto one = [row](const VectorXd& column) { return VectorXd(column.segment(row, 1)); };
+    return MatrixXd(blocks[0].ColumnsAt(one(rows.time), one(rows.position), one(rows.velocity)));
+  };
+  // neighbours in time on both sides of the start, and within a recording
+  for (const MatrixXd& kernel : blocks[0].kernels) {
+    const auto covariance = [&](Index a, Index b) {
+      return std::abs((at(a) * kernel * at(b).transpose())(0, 0));
+    };
+    EXPECT_LT(covariance(half - 1, half), 1e-9);
+    EXPECT_GT(covariance(half, half + 1), 0.5);
+    EXPECT_GT(covariance(half - 2, half - 1), 0.5);
+  }
+}
+
 TEST(FieldEvidence, FollowsATurn) {
   // of a joint that turns on, places a turn from each other are one
   FieldRows rows = RowsWithRipple(0, 0, 6);

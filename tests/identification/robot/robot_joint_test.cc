@@ -103,6 +103,30 @@ TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
   EXPECT_LT(squares.maxCoeff(), 45.3) << squares.transpose();
 }
 
+TEST(RobotJoint, TellsAnOffsetOfTheTorqueFromFriction) {
+  // one that is smaller than the friction, and one that leaves none of it in one direction
+  JointTruth truth;
+  truth.backwards = 5.4;
+  EXPECT_FALSE(Fit(Columns(truth, 1)).at.offset);
+  for (const double offset : {3.0, -7.0}) {
+    double squares = 0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      JointColumns c = Columns(truth, seed);
+      c.samples.torque.array() += offset;
+      const JointFit fit = Fit(c);
+      ASSERT_TRUE(fit.at.offset) << offset << ", seed " << seed;
+      EXPECT_TRUE(fit.beyond.empty());
+      const Index law = fit.at.law.begin;
+      EXPECT_LT(std::abs(Off(fit, fit.at.offset->begin, offset)), 4) << seed;
+      EXPECT_LT(std::abs(Off(fit, law + 1, truth.forwards)), 4) << seed;
+      EXPECT_LT(std::abs(Off(fit, law + 2, truth.backwards)), 4) << seed;
+      EXPECT_LT(fit.Deviation(law + 1), .1 * truth.forwards);
+      squares += std::pow(Off(fit, law, truth.viscous), 2);
+    }
+    EXPECT_LT(squares, 45.3) << "chi-squared of 20";
+  }
+}
+
 TEST(RobotJoint, FindsWarmingWhereItIsAndNotWhereItIsNot) {
   JointTruth truth;
   EXPECT_FALSE(Fit(Columns(truth, 5), true).at.heat);

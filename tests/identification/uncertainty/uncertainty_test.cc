@@ -209,7 +209,7 @@ TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
 /// A level that was known beforehand to one standard error of the log's, beside a weight of +-1 in
 /// turn: by hand its variance is s^2 / (n + n), of which a half comes from either.
 Uncertainty Penalised(const WeightPrior& pull, const Eigen::MatrixXd& inverse,
-                      const Eigen::VectorXd& prior, const Eigen::MatrixXd& jacobian,
+                      const Eigen::MatrixXd& prior, const Eigen::MatrixXd& jacobian,
                       const Eigen::VectorXd& residual) {
   return CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
                        .cofactor = inverse,
@@ -229,10 +229,11 @@ TEST(PenalisedUncertainty, CountsWhatWasKnownBeforehandAsOneMoreMeasurement) {
     residual[i] = random.Normal();
   }
   const Eigen::MatrixXd gram = jacobian.transpose() * jacobian;
-  const Eigen::VectorXd prior{{0, double(n)}};
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(2, 2);
+  prior(1, 1) = static_cast<double>(n);
   Eigen::MatrixXd penalised = gram;
   penalised(0, 0) += 1;
-  penalised(1, 1) += prior[1];
+  penalised(1, 1) += prior(1, 1);
   const Eigen::MatrixXd inverse = penalised.inverse();
   const Eigen::VectorXd weight = Eigen::VectorXd::Constant(1, 0.5);
   const Uncertainty known =

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <warmjoint/friction_model.h>
+#include <warmjoint/robot_estimate.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -29,7 +30,7 @@ constexpr double kWorstCondition = 1e4;
 
 /// The rigid torque of a joint's motor, in N.m or N of its log.
 struct Rigid {
-  VectorXd torque;   // [N] with inertia
+  VectorXd torque;   // [N] with inertia and the offset of its log
   VectorXd carried;  // [N] without, which loads the joint
 };
 
@@ -66,6 +67,7 @@ Rigid RigidOf(const RobotData& data, const RobotRows& rows, Index j,
   rigid.torque = gain * (motion.Regressor(weights, Accelerations::counted) * parameters) +
                  ValueIn(known.estimate, "rotor_inertia") / ConstantOf(known) *
                      rows.samples.front().acceleration.col(j);
+  rigid.torque.array() += ValueIn(known.estimate, kTorqueOffset) / ConstantOf(known);
   return rigid;
 }
 
