@@ -54,7 +54,9 @@ def source_of(facts, **more):
 
 def test_every_figure_of_an_estimate_is_named_as_its_file():
     facts = {**shown.mapped_facts(), "trace": shown.trace_of(8)}
-    made = all_of(source_of(facts, held_out=shown.warm_facts(), guess=shown.guess_facts()))
+    band = {"quantities": ["position"], "points": [[0.0], [1.0]], "value": [5.0, 6.0], "interval95": [[4.0, 6.0], [5.0, 7.0]]}
+    places = {"friction": {"maps": [{"factor": "direction"}, {"factor": "one"}]}, "bands": [band, band]}
+    made = all_of(source_of(facts, held_out=shown.warm_facts(), guess=shown.guess_facts(), places=places))
     assert made.keys() == source_of(facts).figures().keys()
     assert all(sheet.name == name for name, sheet in made.items())
 

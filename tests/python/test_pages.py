@@ -92,12 +92,13 @@ def test_the_page_of_a_robot_holds_each_joint():
 
 
 def test_many_joints_stand_on_several_sheets():
-    from warmjoint.figures import robot_page
+    from warmjoint.figures import robots
 
-    makers = robot_page.over_speed_sheets({f"j{i}": PASSED for i in range(2 * robot_page.MOST + 1)} | {"still": PASSED | {"friction_at_speeds": []}})
-    assert [maker.args[1] for maker in makers] == ["friction_over_speed", "friction_over_speed_2", "friction_over_speed_3"]
-    assert [len(maker.args[0]) for maker in makers] == [robot_page.MOST, robot_page.MOST, 1] and makers[2]().name == "friction_over_speed_3"
-    assert robot_page.over_speed_sheets({}) == []
+    answer = {"joints": {f"j{i}": PASSED for i in range(2 * robots.MOST + 1)} | {"still": PASSED | {"friction_at_speeds": []}}}
+    makers = robots.all_joints_sheets(answer, [])
+    assert [maker.args[1] for maker in makers] == ["all_joints", "all_joints_2", "all_joints_3"]
+    assert [len(maker.args[0]) for maker in makers] == [robots.MOST, robots.MOST, 1] and makers[2]().name == "all_joints_3"
+    assert robots.all_joints_sheets({"joints": {}}, []) == []
 
 
 def test_a_page_with_a_number_that_no_axis_holds_is_refused_with_its_place():

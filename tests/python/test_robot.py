@@ -316,8 +316,18 @@ def test_all_joints_are_drawn_on_one_sheet(wrong, log):
     for j, joint in enumerate(("shoulder", "elbow", "wrist")):
         drawn = series[f"{joint}: forwards"]
         assert np.abs(drawn["y"] - UP[j] - VISCOUS[j] * drawn["x"]).max() < .1 * UP[j]
-    with pytest.raises(wj.BadInput):
-        wj.load_robot("library:panda").plot()
+    # without a log what robot.json holds
+    stored = wj.load_robot("library:panda")
+    of_answer = stored.plot().series()["joint5: forwards"]
+    speeds = {abs(one.speed): one.value for one in stored["joint5"].friction_at_speeds if one.speed > 0}
+    assert dict(zip(of_answer["x"], of_answer["y"])) == pytest.approx(speeds)
+
+
+def test_a_robot_has_a_page(wrong, log, tmp_path):
+    robot = wj.identify_robot(wrong, log, fields="none")
+    robot.report(tmp_path / "robot.html")
+    page = (tmp_path / "robot.html").read_text()
+    assert "3 of 3 joints" in page and page.count("MuJoCo, compensation") == 3
 
 
 def test_what_cannot_be_used_is_refused(wrong, log):

@@ -38,8 +38,10 @@ struct RobotArguments {
 void DrawJoints(const Backend& backend, const RobotEstimate& answer, const std::string& folder,
                 Outputs& outputs) {
   DrawRequest request;
-  request.sources.push_back(
-      {{"kind", "robot"}, {"place", folder}, {"joints", shown::RobotFacts(answer, request.data)}});
+  request.sources.push_back({{"kind", "robot"},
+                             {"place", folder},
+                             {"joints", shown::RobotFacts(answer, request.data)},
+                             {"robot", RobotEstimateToTree(answer)}});
   for (DrawnFile& file : backend.Draw(std::move(request), {}).files) {
     outputs.Add(std::filesystem::path(folder) / file.name, std::move(file.bytes));
   }

@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "models/foundation/excerpt.h"
 #include "tools/shown/shown_estimate.h"
 
 namespace warmjoint {
 namespace {
+
+constexpr int kVerdictsWidth = 100;  // columns
 
 /// "0.81 +-0.02" of a parameter; a dash where there is none.
 std::string Shown(const Estimate& estimate, const char* name) {
@@ -34,28 +41,75 @@ std::string WarmingText(const Estimate& estimate) {
   return tau ? fmt::format("{}, {:.3g} s", Shown(estimate, "thermal_gain"), tau->value) : "none";
 }
 
-}  // namespace
+/// Verdict, and what the friction may be used for.
+std::string Verdict(const RobotJointEstimate& one) {
+  const std::string verdict(NameOf(one.estimate.status));
+  if (one.estimate.status != Status::ok) return verdict;
+  return verdict + (one.HasFriction() ? ": attach" : ": in A");
+}
 
-std::string RobotToText(const RobotEstimate& robot, const Page& page) {
-  Table table{{"joint", "verdict", "unit", "viscous", "Coulomb +", "Coulomb -", "their mean",
-               "load", "gain", "warming", "held-out rms", "all that moves", "no friction"},
+/// The cold friction in one direction at the speeds that the answer has, the slowest first.
+std::vector<std::string> AtSpeeds(const Estimate& estimate, double direction) {
+  std::vector<FrictionAtSpeed> cold;
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    if (one.speed * direction > 0 && one.energy.value_or(0) == 0) cold.push_back(one);
+  }
+  std::ranges::sort(cold, {}, [](const FrictionAtSpeed& one) { return std::abs(one.speed); });
+  std::vector<std::string> cells(3, "-");
+  for (std::size_t i = 0; i < std::min(cells.size(), cold.size()); ++i) {
+    const auto& [lower, upper] = cold[i].interval95;
+    cells[i] = fmt::format("{:.3g} +-{:.1g}", cold[i].value, (upper - lower) / 2);
+  }
+  return cells;
+}
+
+/// Two lines a joint: its name with the friction forwards, its verdict with that backwards.
+Table VerdictsOf(const RobotEstimate& robot) {
+  Table table{{"joint, verdict", "", "slow", "middle", "fast", "warming", "load"}, {}};
+  for (const RobotJointEstimate& one : robot.joints) {
+    const Estimate& e = one.estimate;
+    const std::string& unit = one.summary.torque_unit;
+    std::vector<std::string> forwards{one.summary.joint, "+ " + unit};
+    std::ranges::copy(AtSpeeds(e, 1), std::back_inserter(forwards));
+    forwards.insert(forwards.end(),
+                    {e.parameters.empty() ? "-" : WarmingText(e), Shown(e, "load_gain")});
+    std::vector<std::string> backwards{"  " + Verdict(one), "- " + unit};
+    std::ranges::copy(AtSpeeds(e, -1), std::back_inserter(backwards));
+    backwards.insert(backwards.end(), {"", ""});
+    table.rows.push_back(forwards);
+    table.rows.push_back(backwards);
+  }
+  return table;
+}
+
+Table ParametersOf(const RobotEstimate& robot) {
+  Table table{{"joint", "viscous", "Coulomb +", "Coulomb -", "their mean", "offset", "gain",
+               "held-out rms", "all that moves", "no friction"},
               {}};
   for (const RobotJointEstimate& one : robot.joints) {
     const Estimate& e = one.estimate;
     const RobotJointSummary& s = one.summary;
-    table.rows.push_back(
-        {s.joint, std::string(NameOf(e.status)), s.torque_unit, Shown(e, "viscous"),
-         Shown(e, "coulomb_positive"), Shown(e, "coulomb_negative"), Shown(e, "coulomb"),
-         Shown(e, "load_gain"), Gain(s), e.parameters.empty() ? "-" : WarmingText(e),
-         Number(s.rms_held_out), Number(s.rms_moving), Number(s.rms_without_friction)});
+    table.rows.push_back({s.joint, Shown(e, "viscous"), Shown(e, "coulomb_positive"),
+                          Shown(e, "coulomb_negative"), Shown(e, "coulomb"),
+                          Shown(e, kTorqueOffset), Gain(s), Number(s.rms_held_out),
+                          Number(s.rms_moving), Number(s.rms_without_friction)});
   }
-  std::string text = TableToText(table, 2, page);
+  return table;
+}
+
+}  // namespace
+
+std::string RobotToText(const RobotEstimate& robot, const Page& page) {
+  // what is no terminal has room for the verdicts of a joint in one line
+  Page wide = page;
+  if (!page.terminal) wide.width = std::max(page.width, kVerdictsWidth);
+  std::string text = TableToText(VerdictsOf(robot), 2, wide);
   for (const RobotJointEstimate& one : robot.joints) {
     const Colour colour = one.estimate.status == Status::ok ? Colour::green : Colour::yellow;
     text += fmt::format("{}: {}\n", Paint(Printable(one.summary.joint), colour, page),
                         Printable(one.estimate.FullMessage()));
   }
-  return text;
+  return text + "\n" + TableToText(ParametersOf(robot), 1, wide);
 }
 
 }  // namespace warmjoint

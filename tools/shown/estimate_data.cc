@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "identification/alternating/first_guess.h"
+#include "identification/estimate.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/table.h"
@@ -171,6 +172,15 @@ void AddFriction(const FitView& view, ShownData& data, Tree& facts) {
   }
 }
 
+/// Maps and bands, as estimate.json has them.
+Tree PlaceFacts(const Estimate& estimate) {
+  Tree whole = EstimateToTree(estimate), facts = Tree::object();
+  for (const char* key : {"friction", "bands"}) {
+    if (whole.contains(key)) facts[key] = std::move(whole[key]);
+  }
+  return facts;
+}
+
 }  // namespace
 
 Tree ViewFacts(const FitView& view, ShownData& data) {
@@ -207,6 +217,7 @@ Tree GuessFacts(const LogSamples& measurements, const Selection& selection,
 Tree EstimateFacts(const EstimateView& view, ShownData& data, const std::optional<Thermal>& truth) {
   const bool warms = view.fit && view.fit->warms();
   Tree facts{{"answer", AnswerFacts(view.estimate, warms)},
+             {"places", PlaceFacts(view.estimate)},
              {"fit", view.fit ? ViewFacts(*view.fit, data) : Tree()},
              {"held_out", view.held_out ? ViewFacts(*view.held_out, data) : Tree()},
              {"guess", nullptr}};
@@ -219,6 +230,7 @@ Tree EstimateFacts(const EstimateView& view, ShownData& data, const std::optiona
 
 Tree FitFacts(const FitView& view, ShownData& data) {
   return {{"answer", AnswerFacts(view.estimate, view.warms())},
+          {"places", PlaceFacts(view.estimate)},
           {"fit", ViewFacts(view, data)},
           {"held_out", nullptr},
           {"guess", nullptr}};

@@ -150,14 +150,23 @@ class RobotEstimate(Mapping[str, Estimate]):
         return Board({"joint": name} | row for name in both for row in compare(self[name], other[name]))
 
     def plot(self, joint: str = "", style: str | dict[str, Any] = "screen") -> Any:
-        """Draws friction over velocity, along the log, and what is left of one joint; without a name the friction of all joints over
-        speed, a panel each. Returns the matplotlib Figure."""
+        """Draws friction over velocity, along the log, and what is left of one joint. Without a name the friction of all joints, a panel each:
+        over speed with its 95 % interval, from a log with its means, over the place where it differs, and the warm-up. Returns the matplotlib
+        Figure."""
         from warmjoint.figures import robots
         from warmjoint.figures.style import use
 
-        drawn = self._drawn_of(joint, "plot") if joint or not self._drawn else None
+        drawn = self._drawn_of(joint, "plot") if joint else None
         with use(style):
-            return robots.joint(drawn) if drawn else robots.all_joints(list(self._drawn.values()))
+            return robots.joint(drawn) if drawn else robots.all_joints(self.data, list(self._drawn.values()))
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Writes one self-contained web page: a verdict for each joint with its friction at three speeds, what was noticed, the pictures of
+        plot(), parameters and residuals; what `warmjoint report robot.json` writes, with the log's means where there is a log."""
+        from warmjoint.figures import pages
+
+        content = {"source": "robot.json", "answer": self.data, "along": list(self._drawn.values())}
+        _core.write_text(path_of(path), pages.fill("robot", content))
 
     def _drawn_of(self, joint: str, what: str) -> dict[str, Any]:
         """The series of a joint along its log."""

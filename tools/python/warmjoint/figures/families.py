@@ -45,6 +45,7 @@ def _of_estimate(one: Source) -> Family:
         "friction_curve": (_of(view, friction.friction_curve), "a fit"),
         "hysteresis": (_of(view, along_log.hysteresis), "segments in both directions"),
         "warm_up": (_of(view, friction.warm_up), "a fit that warms"),
+        "friction_over_place": (lambda: friction.friction_over_place(one.facts.get("places", {}), view.torque_unit) if view else None, "a friction that differs by place"),
         "trace": (lambda: steps.trace(answer, view.source if view else "") if answer else None, "an identifier that iterates"),
         "envelope": (steady, "a fit that warms, at constant speeds, without maps or gravity"),
         "motor_angle": (_of(view, motor.motor_angle), "a gear or the column motor_position"),
@@ -96,7 +97,7 @@ def _of_robot(one: Source) -> Family:
     drawn: Family = {joint["file"]: (functools.partial(robots.joint, joint), "a fit") for joint in joints}
     # one sheet of all, unless a joint has its name
     if len(joints) > 1 and "all_joints" not in drawn:
-        drawn["all_joints"] = (functools.partial(robots.all_joints, joints), "fits")
+        drawn["all_joints"] = (functools.partial(robots.all_joints, one.facts["robot"], joints), "fits")
     return drawn
 
 

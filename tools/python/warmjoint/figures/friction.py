@@ -100,6 +100,41 @@ def while_warming(ax: Any, view: View, title: str = "") -> None:
     draw.finish(ax, view.time_name, view.torque_name(speed), title)
 
 
+def places_of(answer: dict[str, Any]) -> list[tuple[dict[str, Any], bool]]:
+    """The bands of an answer over the position, and whether each is of a torque that is no friction."""
+    maps = (answer.get("friction") or {}).get("maps", [])
+    return [(band, one.get("factor", "direction") == "one") for one, band in zip(maps, answer.get("bands", []), strict=False)
+            if band["quantities"] == ["position"]]
+
+
+def over_place(ax: Any, band: dict[str, Any], unit: str, is_load: bool, title: str = "") -> None:
+    """Friction at the median speed over the position, or a torque over the position that is no friction, with its 95 % interval."""
+    place = np.array(band["points"])[:, 0]
+    lower, upper = np.array(band["interval95"]).T
+    hue = "grey" if is_load else "blue"
+    draw.band(ax, place, lower, upper, hue=hue)
+    draw.line(ax, place, np.array(band["value"]), "", hue)
+    if not is_load:
+        ax.set_ylim(0, 1.1 * upper.max())
+    draw.finish(ax, f"position ({'m' if unit == 'N' else 'rad'})", f"{'torque that is no friction' if is_load else 'friction'} ({unit})", title)
+
+
+def friction_over_place(answer: dict[str, Any], unit: str) -> Sheet | None:
+    """What an answer has over the position; nothing where it is the same everywhere."""
+    found = places_of(answer)
+    if not found:
+        return None
+    friction = [band for band, is_load in found if not is_load]
+    said = "The torque has a part over the position that is no friction."
+    if friction:
+        values = np.array(friction[0]["value"])
+        said = f"Friction is {significant(values.min())} to {significant(values.max())} {unit} over the position."
+    fig = Sheet("friction_over_place", "Friction over the position", "at the median speed, cold, with its 95 % interval", said)
+    for ax, (band, is_load) in zip(fig.panels(*[(260, [1])] * len(found)), found):
+        over_place(ax, band, unit, is_load)
+    return fig
+
+
 MEANS = 80  # of a log: dots about as far apart as they are wide in a picture
 
 

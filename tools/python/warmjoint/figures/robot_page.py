@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
-from . import sheet as draw
 from .fit_page import sentence
 from .numerals import range_text, significant, to_digits_of, unit_text
-from .sheet import Sheet
+from .robots import all_joints_sheets
 from .view import VERDICTS
-
-ABREAST = 3  # panels in a row
-MOST = 60  # panels in a sheet: laying out takes the square of their number
 
 TERMS = (
     ("viscous, Coulomb", "Friction that grows with speed (N·m for each rad/s), and that which does not, in each direction. Of a joint under gravity their mean is "
      "known best, since gravity holds their difference."),
+    ("slow, middle, fast", "Speeds below which 5, 50 and 95 % of the log's samples are, in each direction."),
+    ("offset", "Of the torque, where both directions differ by more than a gear's friction does; it is not friction."),
     ("load", "Friction over the torque that the joint carries, by gravity and Coriolis forces."),
     ("rotor", "Inertia of the motor and gear, beside that of the links."),
     ("gain", "The log's torque over that of the description; in A the inverse of the torque constant. With a question mark it is known to worse than a factor of 1.5."),
@@ -28,8 +22,8 @@ TERMS = (
     ("±", "Half of the 95 % interval, which knows that the description may be wrong."),
 )
 
-COLUMNS = (("viscous", "viscous"), ("coulomb_positive", "Coulomb +"), ("coulomb_negative", "Coulomb −"), ("coulomb", "their mean"), ("load_gain", "load"),
-           ("rotor_inertia", "rotor"))
+COLUMNS = (("viscous", "viscous"), ("coulomb_positive", "Coulomb +"), ("coulomb_negative", "Coulomb −"), ("coulomb", "their mean"),
+           ("torque_offset", "offset"), ("rotor_inertia", "rotor"))
 
 
 def data_of(content: dict[str, Any]) -> dict[str, Any]:
@@ -43,9 +37,35 @@ def data_of(content: dict[str, Any]) -> dict[str, Any]:
     if load:
         notices.append(f"load at the last link: {_shown(load)} kg")
     return {"source": content["source"], "robot": answer["robot"], "logs": answer["log"], "passed": bool(passed), "verdict": verdict,
+            "verdicts": _verdicts(joints, summary),
             "joints": [(name, f"{VERDICTS[one['status']]}. {sentence(one['message'])}") for name, one in joints.items()],
             "notices": [sentence(one) for one in notices], "friction": _friction(joints, summary), "residuals": _residuals(joints, summary),
-            "attachable": bool(passed), "terms": TERMS, "figures": over_speed_sheets(joints)}
+            "attachable": bool(passed), "terms": TERMS, "figures": all_joints_sheets(answer, content.get("along", []))}
+
+
+def _verdicts(joints: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:
+    """A row for each direction of a joint."""
+    rows = []
+    for name, one in joints.items():
+        unit = summary[name]["torque_unit"]
+        row = [name, _use(one), "+", *_at_speeds(one, 1), unit_text(unit), _warming(one["parameters"]), _shown(one["parameters"].get("load_gain"))]
+        rows.append(row)
+        if one.get("friction_at_speeds"):
+            rows.append(["", "", "−", *_at_speeds(one, -1), "", "", ""])
+    return {"caption": "Friction of each joint, cold, at three of its speeds in both directions", "rows": rows,
+            "header": ["joint", "may be used for", "direction", "slow", "middle", "fast", "unit", "warming", "load"]}
+
+
+def _use(one: dict[str, Any]) -> str:
+    if one["status"] != "ok":
+        return "nothing"
+    return "compensation, in A" if (one.get("friction") or {}).get("torque_unit") == "A" else "MuJoCo, compensation"
+
+
+def _at_speeds(one: dict[str, Any], way: int) -> list[str]:
+    cold = sorted((at for at in one.get("friction_at_speeds", []) if not at.get("energy") and at["speed"] * way > 0), key=lambda at: abs(at["speed"]))
+    cells = [f"{to_digits_of(at['value'], at['std'])} ± {significant((at['interval95'][1] - at['interval95'][0]) / 2, 2)}" for at in cold[:3]]
+    return cells + ["–"] * (3 - len(cells))
 
 
 def _friction(joints: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:
@@ -53,8 +73,8 @@ def _friction(joints: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]
     for name, one in joints.items():
         own, about = one["parameters"], summary[name]
         known = [_shown(own.get(key)) for key, _ in COLUMNS]
-        rows.append([name, unit_text(about["torque_unit"]), *known, _gain(about), _warming(own)])
-    return {"caption": "Friction of each joint, in the log's unit", "header": ["joint", "unit", *(title for _, title in COLUMNS), "gain", "warming"], "rows": rows}
+        rows.append([name, unit_text(about["torque_unit"]), *known, _gain(about)])
+    return {"caption": "Parameters of each joint, in the log's unit", "header": ["joint", "unit", *(title for _, title in COLUMNS), "gain"], "rows": rows}
 
 
 def _residuals(joints: dict[str, Any], summary: dict[str, Any]) -> dict[str, Any]:
@@ -88,33 +108,3 @@ def _warming(parameters: dict[str, Any]) -> str:
     if not gain or not tau:
         return "none" if parameters else "–"
     return f"{_shown(gain)} {unit_text(gain['unit'])}, {significant(tau['value'])} s"
-
-
-def over_speed_sheets(joints: dict[str, Any]) -> list[Callable[[], Sheet]]:
-    """Makers of sheets with at most MOST joints each, of those that have figures at speeds."""
-    shown = [(name, one["friction_at_speeds"]) for name, one in joints.items() if one.get("friction_at_speeds")]
-    parts = [dict(shown[i : i + MOST]) for i in range(0, len(shown), MOST)]
-    names = ["friction_over_speed"] + [f"friction_over_speed_{i + 2}" for i in range(len(parts) - 1)]
-    return [functools.partial(over_speed, part, name) for part, name in zip(parts, names)]
-
-
-def over_speed(shown: dict[str, Any], name: str) -> Sheet:
-    """Cold friction of each joint over speed, with its 95 % interval."""
-    rows = -(-len(shown) // ABREAST)
-    fig = Sheet(name, "Friction over speed", "cold, with 95 % intervals", f"Friction of {len(shown)} joints at the speeds of the log.")
-    axes = fig.panels(*[(220, [1] * ABREAST)] * rows)
-    for ax, (name, figures) in zip(axes, shown.items(), strict=False):
-        figures = sorted((one for one in figures if not one.get("energy")), key=lambda one: one["speed"])
-        for side in (-1, 1):
-            part = [one for one in figures if side * one["speed"] > 0]
-            if not part:
-                continue
-            speed, value = (np.array([one[key] for one in part]) for key in ("speed", "value"))
-            lower, upper = np.array([one["interval95"] or [one["value"]] * 2 for one in part]).T
-            draw.band(ax, speed, lower, upper)
-            draw.line(ax, speed, value)
-            draw.dots(ax, speed, value, "", "blue", 3)
-        draw.finish(ax, f"velocity ({unit_text(figures[0]['speed_unit'])})" if figures else "velocity", f"friction ({unit_text(figures[0]['unit'])})" if figures else "", name)
-    for ax in axes[len(shown):]:
-        ax.set_axis_off()
-    return fig

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from . import sheet as draw
 from .along_log import strokes
+from .friction import over_place, places_of
 from .numerals import significant, unit_text
 from .sheet import Sheet
 from .view import View
 
+ABREAST = 3  # panels in a row
+MOST = 60  # panels in a sheet: laying out takes the square of their number
 COLD = 0.01  # of the largest heat: what is less is called cold
 
 
@@ -53,36 +58,83 @@ def _means(speed: np.ndarray, values: np.ndarray, count: int = 12) -> tuple[np.n
     return np.array([speed[one].mean() for one in held]), np.array([values[one].mean() for one in held])
 
 
-def all_joints(joints: list[dict[str, Any]]) -> Sheet:
-    """The friction of all joints of identify-robot over speed, a panel each: means of the log and of the fit in both directions."""
-    ok = sum(one["status"] == "ok" for one in joints)
-    fig = Sheet("all_joints", "Friction of all joints", f"{ok} of {len(joints)} fits ok; points: means of the log, lines: of the fit",
-                "Torque against the motion that is left of the log without rigid-body torque, and what is fitted of it.")
-    columns = min(3, len(joints))
-    rows = -(-len(joints) // columns)
-    panels = fig.panels(*[(230, [1.0] * columns)] * rows)
-    for ax, facts in zip(panels, joints, strict=False):
-        keep, unit = facts["keep"] > 0, unit_text(facts["torque_unit"])
-        velocity, top = facts["velocity"][keep], 0.0
-        for way, label, hue in ((1, "forwards", "blue"), (-1, "backwards", "vermilion")):
-            one = velocity * way > 0
-            if not one.any():
-                continue
-            speed = np.abs(velocity[one])
-            for key, draw_one in (("measured", draw.dots), ("fitted", draw.line)):
-                x, y = _means(speed, way * facts[key][keep][one])
-                top = max(top, y.max(initial=0))
-                if key == "measured":
-                    draw_one(ax, x, y, label, hue, 3)
-                else:
-                    draw_one(ax, x, y, "", hue, 1.5)
-        ax.set_xlim(0, None)
-        ax.set_ylim(0, 1.15 * top or None)
-        title = facts["joint"] if facts["status"] == "ok" else f"{facts['joint']}: {facts['status']}"
-        draw.finish(ax, f"speed ({'m/s' if unit == 'N' else 'rad/s'})", f"friction ({unit})", title)
-    for ax in panels[len(joints):]:
+Panel = Callable[[Any], None]
+
+
+def all_joints(answer: dict[str, Any], along: list[dict[str, Any]]) -> Sheet:
+    """The friction of all joints of a robot: over speed, and of those where it differs by place or warms, over the angle and over time.
+    answer: robot.json; along: the series of its joints along the log, or none."""
+    sheets = all_joints_sheets(answer, along, most=10**6)
+    return sheets[0]() if sheets else Sheet("all_joints", "Friction of all joints", "", "No joint has an answer.")
+
+
+def all_joints_sheets(answer: dict[str, Any], along: list[dict[str, Any]], most: int = MOST) -> list[Callable[[], Sheet]]:
+    """Makers of the same on sheets with at most so many panels."""
+    of_log = {one["joint"]: one for one in along}
+    panels = [panel for name, one in answer["joints"].items() for panel in _panels(name, one, of_log.get(name))]
+    parts = [panels[i : i + most] for i in range(0, len(panels), most)]
+    ok = sum(one["status"] == "ok" for one in answer["joints"].values())
+    said = f"{ok} of {len(answer['joints'])} joints ok; cold, with 95 % intervals" + ("; points: means of the log" if along else "")
+    return [functools.partial(_sheet, part, "all_joints" + (f"_{i + 1}" if i else ""), said) for i, part in enumerate(parts)]
+
+
+def _sheet(panels: list[Panel], name: str, said: str) -> Sheet:
+    fig = Sheet(name, "Friction of all joints", said, "Friction of each joint over speed in both directions.")
+    columns = min(ABREAST, len(panels))
+    axes = fig.panels(*[(230, [1.0] * columns)] * -(-len(panels) // columns))
+    for ax, panel in zip(axes, panels, strict=False):
+        panel(ax)
+    for ax in axes[len(panels):]:
         ax.set_axis_off()
     return fig
+
+
+def _panels(name: str, answer: dict[str, Any], facts: dict[str, Any] | None) -> list[Panel]:
+    """Those of one joint."""
+    found: list[Panel] = []
+    if answer.get("friction_at_speeds") or facts:
+        found.append(functools.partial(_over_speed, name=name, answer=answer, facts=facts))
+    for band, is_load in places_of(answer):
+        found.append(functools.partial(over_place, band=band, unit=_unit_of(answer), is_load=is_load, title=f"{name}, over the place"))
+    if facts and facts["energy"].size:
+        found.append(functools.partial(_warm_up, name=name, facts=facts))
+    return found
+
+
+def _unit_of(answer: dict[str, Any]) -> str:
+    at = answer.get("friction_at_speeds") or [{}]
+    return unit_text(at[0].get("unit", ""))
+
+
+def _over_speed(ax: Any, name: str, answer: dict[str, Any], facts: dict[str, Any] | None) -> None:
+    """Both directions on one axis from 0."""
+    cold = sorted((one for one in answer.get("friction_at_speeds", []) if not one.get("energy")), key=lambda one: abs(one["speed"]))
+    top, is_linear = 0.0, any(one.get("speed_unit") == "m/s" for one in cold)
+    for way, label, hue in ((1, "forwards", "blue"), (-1, "backwards", "vermilion")):
+        if facts:
+            one = (facts["keep"] > 0) & (facts["velocity"] * way > 0)
+            x, y = _means(np.abs(facts["velocity"][one]), way * facts["measured"][one]) if one.any() else (np.zeros(0), np.zeros(0))
+            top = max(top, y.max(initial=0))
+            draw.dots(ax, x, y, label, hue, 3)
+        part = [one for one in cold if way * one["speed"] > 0]
+        if not part:
+            continue
+        speed, value = np.array([abs(one["speed"]) for one in part]), np.array([one["value"] for one in part])
+        lower, upper = np.array([one["interval95"] or [one["value"]] * 2 for one in part]).T
+        top = max(top, upper.max())
+        draw.band(ax, speed, lower, upper, hue=hue)
+        draw.line(ax, speed, value, "" if facts else label, hue)
+        draw.dots(ax, speed, value, "", hue, 2, "diamond")
+    ax.set_xlim(0, None)
+    ax.set_ylim(0, 1.1 * top or None)
+    unit = unit_text(facts["torque_unit"]) if facts else _unit_of(answer)
+    draw.finish(ax, f"speed ({'m/s' if is_linear else 'rad/s'})", f"friction ({unit})", name if answer["status"] == "ok" else f"{name}: {answer['status']}")
+
+
+def _warm_up(ax: Any, name: str, facts: dict[str, Any]) -> None:
+    """E along the log."""
+    draw.line(ax, facts["time"] / 60, facts["energy"], "", "vermilion", 1.5)
+    draw.finish(ax, "time (min)", f"change by heat, E ({unit_text(facts['torque_unit'])})", f"{name}, while it warms")
 
 
 def warm_robot(view: View, scene: dict[str, Any], name: str) -> Sheet:
