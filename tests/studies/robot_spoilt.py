@@ -4,7 +4,7 @@
 
 Each log is 150 s at 50 Hz of moves between random places; the description is wrong by 8 % in masses, their places and inertias. Kinds: positions, torques
 or both of two joints swapped; the torque of one joint or of all turned; a zero 90 degrees off; the torque of one joint or of all on the motor's side of a gear;
-late by 1, 2 or 3 samples; filtered (30 ms); the command for the measurement; the base tilted by 15, 90, 180 degrees; a payload; a half that stands still; and clean logs.
+late by 1, 2 or 3 samples; filtered (30 ms); an offset of one torque by .5 to 1.5 of its Coulomb friction; the command for the measurement; the base tilted by 15, 90, 180 degrees; a payload; a half that stands still; and clean logs.
 Friction is scaled to the robot: Coulomb friction 15 to 40 % of the rms of the rigid torque, at least .3 N.m.
 For each kind: joints that are ok and right (true viscous and Coulomb friction inside the interval, or within 5 %), ok and wrong (silently, where nothing
 is said; said: a notice or a remark names the kind), refused with the cause named, and refused without. Needs NumPy and MuJoCo.
@@ -28,7 +28,7 @@ NAMED = {
     "swap positions": "swapped", "swap torques": "swapped", "swap both": "swapped", "turned one": "turned", "turned all": "turned",
     "zero": "zero of", "motor one": "motor's side", "motor all": "motors' side", "late 1": "after the positions", "late 2": "after the positions",
     "late 3": "after the positions", "filtered": "after the positions", "commanded": "commanded", "tilted 15": "base does not stand", "tilted 90": "base does not stand",
-    "tilted 180": "base does not stand", "payload": "load at the last link", "idle": "", "clean": "",
+    "tilted 180": "base does not stand", "offset": "has an offset", "payload": "load at the last link", "idle": "", "clean": "",
 }
 
 
@@ -138,6 +138,8 @@ class Log:
             torque /= GEAR
         if kind.startswith("late"):
             torque = np.roll(torque, 2 * int(kind.split()[1]), axis=0)
+        if kind == "offset":
+            torque[:, one] += random.choice([-1, 1]) * random.uniform(0.5, 1.5) * self.coulomb[one]
         if kind == "filtered":
             pole = np.exp(-1 / RATE / 0.03)
             for i in range(1, len(torque)):
