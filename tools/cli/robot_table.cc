@@ -63,36 +63,42 @@ std::vector<std::string> AtSpeeds(const Estimate& estimate, double direction) {
   return cells;
 }
 
-/// Two lines a joint: its name with the friction forwards, its verdict with that backwards.
+/// "load 0.054", of a friction that grows with what the joint carries.
+std::string LoadText(const Estimate& estimate) {
+  const EstimatedParameter* const load = estimate.Find("load_gain");
+  return load && load->value > 0 ? fmt::format("load {:.2g}", load->value) : "";
+}
+
+/// Two lines a joint, one for each direction.
 Table VerdictsOf(const RobotEstimate& robot) {
-  Table table{{"joint, verdict", "", "slow", "middle", "fast", "warming", "load"}, {}};
+  Table table{{"joint", "verdict", "", "slow", "middle", "fast", "warming, load"}, {}};
   for (const RobotJointEstimate& one : robot.joints) {
     const Estimate& e = one.estimate;
     const std::string& unit = one.summary.torque_unit;
-    std::vector<std::string> forwards{one.summary.joint, "+ " + unit};
+    std::vector<std::string> forwards{one.summary.joint, Verdict(one), "+ " + unit};
     std::ranges::copy(AtSpeeds(e, 1), std::back_inserter(forwards));
-    forwards.insert(forwards.end(),
-                    {e.parameters.empty() ? "-" : WarmingText(e), Shown(e, "load_gain")});
-    std::vector<std::string> backwards{"  " + Verdict(one), "- " + unit};
-    std::ranges::copy(AtSpeeds(e, -1), std::back_inserter(backwards));
-    backwards.insert(backwards.end(), {"", ""});
+    forwards.push_back(e.parameters.empty() ? "-" : WarmingText(e));
     table.rows.push_back(forwards);
+    if (e.friction_at_speeds.empty()) continue;
+    std::vector<std::string> backwards{"", "", "- " + unit};
+    std::ranges::copy(AtSpeeds(e, -1), std::back_inserter(backwards));
+    backwards.push_back(LoadText(e));
     table.rows.push_back(backwards);
   }
   return table;
 }
 
 Table ParametersOf(const RobotEstimate& robot) {
-  Table table{{"joint", "viscous", "Coulomb +", "Coulomb -", "their mean", "offset", "gain",
+  Table table{{"joint", "viscous", "Coulomb +", "Coulomb -", "their mean", "offset", "load", "gain",
                "held-out rms", "all that moves", "no friction"},
               {}};
   for (const RobotJointEstimate& one : robot.joints) {
     const Estimate& e = one.estimate;
     const RobotJointSummary& s = one.summary;
-    table.rows.push_back({s.joint, Shown(e, "viscous"), Shown(e, "coulomb_positive"),
-                          Shown(e, "coulomb_negative"), Shown(e, "coulomb"),
-                          Shown(e, kTorqueOffset), Gain(s), Number(s.rms_held_out),
-                          Number(s.rms_moving), Number(s.rms_without_friction)});
+    table.rows.push_back(
+        {s.joint, Shown(e, "viscous"), Shown(e, "coulomb_positive"), Shown(e, "coulomb_negative"),
+         Shown(e, "coulomb"), Shown(e, kTorqueOffset), Shown(e, "load_gain"), Gain(s),
+         Number(s.rms_held_out), Number(s.rms_moving), Number(s.rms_without_friction)});
   }
   return table;
 }
@@ -103,7 +109,7 @@ std::string RobotToText(const RobotEstimate& robot, const Page& page) {
   // what is no terminal has room for the verdicts of a joint in one line
   Page wide = page;
   if (!page.terminal) wide.width = std::max(page.width, kVerdictsWidth);
-  std::string text = TableToText(VerdictsOf(robot), 2, wide);
+  std::string text = TableToText(VerdictsOf(robot), 3, wide);
   for (const RobotJointEstimate& one : robot.joints) {
     const Colour colour = one.estimate.status == Status::ok ? Colour::green : Colour::yellow;
     text += fmt::format("{}: {}\n", Paint(Printable(one.summary.joint), colour, page),

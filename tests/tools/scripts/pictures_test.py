@@ -88,7 +88,7 @@ class Pictures(unittest.TestCase):
             head = [line for line in self.at(f"all/{name}.csv").read_text().splitlines() if not line.startswith("#")]
             self.assertEqual(head[0], "panel,series,kind,x,y,lower,upper,value")
             self.assertGreater(len(head), 2, name)
-        self.assertIn("left out: motor_angle (needs a gear or the column motor_position)", self.said.stderr)
+        self.assertIn("motor_angle (needs a gear or the column motor_position)", self.said.stderr)
 
     def test_formats_give_the_same_bytes_twice_and_the_size_that_is_asked_for(self):
         for format in ("png", "svg", "pdf"):
