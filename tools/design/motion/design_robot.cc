@@ -48,6 +48,55 @@ MotionLimits LimitsOf(const MotionLimits& given, const RoomJoint& joint) {
   return limits;
 }
 
+/// Of all joints, lower and upper; what turns freely, once round. [n x 2]
+Eigen::MatrixX2d RoomOf(const std::vector<MotionLimits>& limits) {
+  Eigen::MatrixX2d room(std::ssize(limits), 2);
+  for (Index j = 0; j < room.rows(); ++j) {
+    const auto [lower, upper] =
+        limits[static_cast<size_t>(j)].position.value_or(std::array{-M_PI, M_PI});
+    room.row(j) << lower, upper;
+  }
+  return room;
+}
+
+/// Each joint by itself, a seed further each, so that equal joints do not move alike; as slow to speed up as its torque asks.
+std::vector<ExpectedJoint> ExpectAll(RobotRoom& room, const RobotDesignSettings& settings,
+                                     const std::optional<PreparedLog>& after,
+                                     std::vector<std::string>& notices) {
+  std::vector<MotionLimits> limits;
+  for (const RoomJoint& joint : room.joints()) {
+    limits.push_back(LimitsOf(settings.each.limits, joint));
+  }
+  std::vector<ExpectedJoint> expected;
+  for (size_t j = 0; j < limits.size(); ++j) {
+    const RoomJoint& joint = room.joints()[j];
+    DesignSettings one = settings.each;
+    one.limits = limits[j];
+    one.joint = joint.kind;
+    one.seed += j;
+    const auto prior = settings.priors.find(joint.name);
+    if (prior != settings.priors.end()) one.prior = prior->second;
+    expected.push_back(Expect(one, after));
+    const double level = expected.back().Level(expected.back().settings.limits.velocity[1]);
+    const double most = room.Acceleration(j, RoomOf(limits), level);
+    if (most >= one.limits.acceleration) continue;
+    if (!(most > 0)) {
+      Refuse({"--joint"},
+             "'{}' has an effort of {:g} {}, of which gravity and a friction of {:.3g} leave "
+             "nothing; lower --limits velocity, or say by --prior what friction is expected",
+             joint.name, *joint.torque, kTorqueUnit.For(joint.kind), level);
+    }
+    MotionLimits slower = settings.each.limits;
+    slower.acceleration = most;
+    one.limits = LimitsOf(slower, joint);
+    expected.back() = Expect(one, after);
+    notices.push_back(fmt::format(
+        "{} speeds up by {:.3g} {}/s^2 at most, as its effort of {:g} {} allows", joint.name, most,
+        kPositionUnit.For(joint.kind), *joint.torque, kTorqueUnit.For(joint.kind)));
+  }
+  return expected;
+}
+
 /// How a joint gives way in a block: as planned, in the other direction, with ever shorter strokes, at last by a rest.
 struct WayOut {
   double hold = 0;
@@ -72,15 +121,13 @@ class RobotPaths {
  public:
   RobotPaths(RobotRoom& room, const std::vector<ExpectedJoint>& expected)
       : room_(room), expected_(expected) {
-    const auto n = std::ssize(expected);
-    Eigen::MatrixX2d limits(n, 2);
-    for (Index j = 0; j < n; ++j) {
-      // what turns freely, once round
-      const auto [lower, upper] = LimitsOf(j).position.value_or(std::array{-M_PI, M_PI});
-      limits.row(j) << lower, upper;
+    std::vector<MotionLimits> limits;
+    for (const ExpectedJoint& one : expected) limits.push_back(one.settings.limits);
+    start_ = room.Begin(RoomOf(limits));
+    for (size_t j = 0; j < limits.size(); ++j) {
+      paths_.emplace_back(limits[j], start_[static_cast<Index>(j)]);
     }
-    start_ = room.Begin(limits);
-    for (Index j = 0; j < n; ++j) paths_.emplace_back(LimitsOf(j), start_[j]);
+    kept_from_.resize(limits.size());
   }
 
   /// Of each joint its block of the same time.
@@ -90,6 +137,7 @@ class RobotPaths {
       ways.push_back(WaysOut(paths_[j], blocks[j], expected_[j].settings.hold));
     }
     std::vector<size_t> chosen(blocks.size(), 0);
+    std::string last;
     while (true) {
       std::vector<MotionPath> longer = paths_;
       for (size_t j = 0; j < blocks.size(); ++j) {
@@ -100,7 +148,10 @@ class RobotPaths {
       const auto breach = FirstBreach(longer);
       if (!breach) {
         paths_ = std::move(longer);
-        exchanged_ += std::ranges::count_if(chosen, [](size_t one) { return one > 0; });
+        for (size_t j = 0; j < chosen.size(); ++j) {
+          exchanged_ += chosen[j] > 0;
+          if (blocks[j].speed != 0 && ways[j][chosen[j]].rests) kept_from_[j].push_back(last);
+        }
         return;
       }
       // who can end it, and has given way least
@@ -110,6 +161,7 @@ class RobotPaths {
       }
       // at rest they are where the last block left them, which was looked at
       if (!next) Refuse({"--joint"}, "{}, also at rest", breach->words);
+      last = breach->words;
       ++chosen[*next];
     }
   }
@@ -117,7 +169,9 @@ class RobotPaths {
   const std::vector<MotionPath>& paths() const { return paths_; }
   const VectorXd& start() const { return start_; }
   /// Of blocks, each joint's by itself.
-  std::ptrdiff_t exchanged() const { return exchanged_; }
+  int exchanged() const { return exchanged_; }
+  /// Of each joint, by what each of its blocks became a rest.
+  const std::vector<std::vector<std::string>>& kept_from() const { return kept_from_; }
 
   /// Where all joints are after so many seconds.
   RobotMoment At(const std::vector<MotionPath>& paths, double time) const {
@@ -142,10 +196,6 @@ class RobotPaths {
   }
 
  private:
-  const MotionLimits& LimitsOf(Index j) const {
-    return expected_[static_cast<size_t>(j)].settings.limits;
-  }
-
   /// Of the part that goes beyond the paths so far.
   std::optional<Breach> FirstBreach(const std::vector<MotionPath>& longer) {
     const double begin = paths_.front().knots().back().time;
@@ -171,7 +221,8 @@ class RobotPaths {
   const std::vector<ExpectedJoint>& expected_;
   VectorXd start_;
   std::vector<MotionPath> paths_;
-  std::ptrdiff_t exchanged_ = 0;
+  int exchanged_ = 0;
+  std::vector<std::vector<std::string>> kept_from_;
 };
 
 /// What of a joint's torque shows that another one moves, in the places where blocks begin.
@@ -199,6 +250,30 @@ std::vector<DesignCoupling> CouplingOf(RobotRoom& room, const RobotPaths& paths,
   return coupling;
 }
 
+/// Says what was exchanged. count: of blocks of each joint. Throws BadInput where a joint may not move at all.
+void NoteExchanges(const RobotPaths& paths, const std::vector<RoomJoint>& joints, size_t count,
+                   std::vector<std::string>& notices) {
+  if (paths.exchanged() > 0) {
+    notices.push_back(fmt::format(
+        "{} of {} blocks were exchanged for others, in which links stay apart and torques within "
+        "their limits",
+        paths.exchanged(), joints.size() * count));
+  }
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const std::vector<std::string>& from = paths.kept_from()[j];
+    if (from.empty()) continue;
+    const std::vector<MotionKnot>& knots = paths.paths()[j].knots();
+    if (std::ranges::all_of(knots, [](const MotionKnot& one) { return one.velocity == 0; })) {
+      Refuse({"--joint"},
+             "'{}' may not move from where the motion begins: {}; give another place by --at, a "
+             "lower acceleration or velocity by --limits, or lower --clearance",
+             joints[j].name, from.front());
+    }
+    notices.push_back(fmt::format("{} rests in {} of {} blocks for that, as where {}",
+                                  joints[j].name, from.size(), count, from.front()));
+  }
+}
+
 }  // namespace
 
 RobotDesign DesignRobotMotion(const RobotDesignSettings& settings,
@@ -215,19 +290,12 @@ RobotDesign DesignRobotMotion(const RobotDesignSettings& settings,
     Refuse({"--prior"}, "is for '{}', which is none of the joints that move", name);
   }
 
-  // each joint by itself, a seed further each, so that equal joints do not move alike
-  std::vector<ExpectedJoint> expected;
+  RobotDesign design;
+  const std::vector<ExpectedJoint> expected = ExpectAll(room, settings, after, design.notices);
   std::vector<std::vector<SpeedBlock>> blocks;
-  for (const RoomJoint& joint : joints) {
-    DesignSettings one = settings.each;
-    one.limits = LimitsOf(one.limits, joint);
-    one.joint = joint.kind;
-    one.seed += expected.size();
-    const auto prior = settings.priors.find(joint.name);
-    if (prior != settings.priors.end()) one.prior = prior->second;
-    expected.push_back(Expect(one, after));
-    blocks.push_back(BestBlocks(expected.back(), [&](const std::string& words) {
-      if (watch) watch(fmt::format("{}: {}", joint.name, words));
+  for (size_t j = 0; j < joints.size(); ++j) {
+    blocks.push_back(BestBlocks(expected[j], [&](const std::string& words) {
+      if (watch) watch(fmt::format("{}: {}", joints[j].name, words));
     }));
   }
 
@@ -245,8 +313,9 @@ RobotDesign DesignRobotMotion(const RobotDesignSettings& settings,
     paths.Add(of_joints);
   }
 
+  NoteExchanges(paths, joints, blocks.front().size(), design.notices);
+
   // what it tells
-  RobotDesign design;
   for (size_t j = 0; j < joints.size(); ++j) {
     const auto told = [&](const std::string& words) {
       if (watch) watch(fmt::format("{}: {}", joints[j].name, words));
@@ -254,14 +323,9 @@ RobotDesign DesignRobotMotion(const RobotDesignSettings& settings,
     design.joints.push_back(
         {Foretold(expected[j], paths.paths()[j].knots(), told), joints[j].name});
   }
+  // what was found of the model meanwhile comes first
+  design.notices.insert(design.notices.begin(), room.notices().begin(), room.notices().end());
   design.coupling = CouplingOf(room, paths, expected, times);
-  design.notices = room.notices();
-  if (paths.exchanged() > 0) {
-    design.notices.push_back(fmt::format(
-        "{} of {} blocks were exchanged for others, in which links stay apart and torques within "
-        "their limits",
-        paths.exchanged(), joints.size() * blocks.front().size()));
-  }
   return design;
 }
 

@@ -224,7 +224,7 @@ std::optional<Breach> RobotRoom::Look(const RobotMoment& moment, double step) {
 }
 
 void RobotRoom::LeaveOutOverlaps(const Eigen::MatrixX2d& limits) {
-  // pairs that touch in every pose
+  // pairs that touch in nearly every pose
   RandomStream random({1, 0}, Stream::start);
   std::map<std::pair<int, int>, int> touched;
   for (int pose = 0; pose < kPoses; ++pose) {
@@ -241,14 +241,16 @@ void RobotRoom::LeaveOutOverlaps(const Eigen::MatrixX2d& limits) {
   }
   std::vector<std::string> names;
   for (const auto& [pair, times] : touched) {
-    if (times < kPoses) continue;
+    // why: the engine misses contacts of plane faces in a pose of some hundred; a pair that is free in a twentieth leaves no room for a motion
+    if (times < kPoses * 19 / 20) continue;
     overlaps_.insert(pair);
     names.push_back(
         fmt::format("{} and {}", BodyName(*model_, pair.first), BodyName(*model_, pair.second)));
   }
   if (!names.empty()) {
-    notices_.push_back(fmt::format("links that touch in every pose are not kept apart: {}",
-                                   fmt::join(names, "; ")));
+    notices_.push_back(
+        fmt::format("links that touch in every pose, or nearly so, are not kept apart: {}",
+                    fmt::join(names, "; ")));
   }
   const bool shapes = std::any_of(model_->geom_contype, model_->geom_contype + model_->ngeom,
                                   [](int type) { return type != 0; });
@@ -305,6 +307,34 @@ VectorXd RobotRoom::Gravity() {
   return of_joints;
 }
 
+/// Torques by the acceleration of one joint alone, where it stands. [n]
+VectorXd RobotRoom::Inertial(Index joint, double acceleration) {
+  const VectorXd gravity = Gravity();
+  std::fill_n(data_->qacc, model_->nv, 0);
+  data_->qacc[model_->jnt_dofadr[ids_[static_cast<size_t>(joint)]]] = acceleration;
+  VectorXd torque(model_->nv), of_joints(std::ssize(ids_));
+  mj_rne(model_.get(), data_.get(), 1, torque.data());
+  for (Index i = 0; i < of_joints.size(); ++i) {
+    const int dof = model_->jnt_dofadr[ids_[static_cast<size_t>(i)]];
+    of_joints[i] = torque[dof] + model_->dof_armature[dof] * data_->qacc[dof] - gravity[i];
+  }
+  return of_joints;
+}
+
+double RobotRoom::Acceleration(size_t joint, const Eigen::MatrixX2d& limits, double friction) {
+  if (!joints_[joint].torque) return kInfinity;
+  const auto i = static_cast<Index>(joint);
+  RandomStream random({3, 0}, Stream::start);
+  std::vector<double> left;
+  for (int pose = 0; pose < kPoses; ++pose) {
+    Pose(Anywhere(limits, random));
+    const double torque = *joints_[joint].torque - friction - std::abs(Gravity()[i]);
+    left.push_back(torque / Inertial(i, 1)[i]);
+  }
+  std::ranges::nth_element(left, left.begin() + kPoses / 2);
+  return left[kPoses / 2] / 2;
+}
+
 MatrixXd RobotRoom::Coupling(const VectorXd& position, const VectorXd& other,
                              const VectorXd& acceleration) {
   const auto n = std::ssize(ids_);
@@ -318,20 +348,8 @@ MatrixXd RobotRoom::Coupling(const VectorXd& position, const VectorXd& other,
     Pose(changed);
     coupling.col(j) = (Gravity() - gravity).cwiseAbs();
   }
-  // inertia: torques of one joint's acceleration, less gravity
   Pose(position);
-  for (Index j = 0; j < n; ++j) {
-    std::fill_n(data_->qvel, model_->nv, 0);
-    std::fill_n(data_->qacc, model_->nv, 0);
-    data_->qacc[model_->jnt_dofadr[ids_[static_cast<size_t>(j)]]] = acceleration[j];
-    mj_comVel(model_.get(), data_.get());
-    VectorXd torque(model_->nv);
-    mj_rne(model_.get(), data_.get(), 1, torque.data());
-    for (Index i = 0; i < n; ++i) {
-      const int dof = model_->jnt_dofadr[ids_[static_cast<size_t>(i)]];
-      coupling(i, j) += std::abs(torque[dof] - gravity[i]);
-    }
-  }
+  for (Index j = 0; j < n; ++j) coupling.col(j) += Inertial(j, acceleration[j]).cwiseAbs();
   coupling.diagonal().setZero();
   return coupling;
 }

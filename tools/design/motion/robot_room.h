@@ -49,8 +49,12 @@ class RobotRoom {
   const std::vector<std::string>& notices() const { return notices_; }
 
   /// Where a motion within these limits (lower, upper; [n x 2]) begins with nothing broken: `at`; else in their middle, at the model's reference, at a
-  /// keyframe, or anywhere. Links that overlap in every pose do not count, which notices say. Throws BadInput where there is no such place.
+  /// keyframe, or anywhere. Links that touch in nearly every pose do not count, which notices say. Throws BadInput where there is no such place.
   Eigen::VectorXd Begin(const Eigen::MatrixX2d& limits);
+
+  /// What a joint's torque leaves for its acceleration in the middle one of many poses, beside gravity and a friction; half of it, since others' ramps take
+  /// some as well. rad/s^2 or m/s^2; infinite without a limit of the torque; 0 or less where nothing is left.
+  double Acceleration(size_t joint, const Eigen::MatrixX2d& limits, double friction);
 
   /// The first thing that breaks: links nearer than the clearance, and as near as they may come half a `step` (s) before and after;
   /// a torque beyond its joint's limit.
@@ -72,6 +76,7 @@ class RobotRoom {
   /// The joints that move one of two bodies alone.
   std::vector<size_t> Between(int body, int other) const;
   Eigen::VectorXd Gravity();
+  Eigen::VectorXd Inertial(Eigen::Index joint, double acceleration);
 
   std::string name_;
   ModelPtr model_;
