@@ -98,6 +98,10 @@ def test_a_robot_s_motion_keeps_links_apart_and_torques_within_efforts(program):
     assert (program.folder / "arm/motion.csv").read_text() == made.files["motion.csv"]
     assert (program.folder / "arm/trajectory.yaml").read_text().startswith('joint_names: ["shoulder", "elbow", "wrist"]')
 
+    # a picture of each joint
+    program("plot", "arm", "-o", "arms", "--data")
+    assert {path.stem for path in (program.folder / "arms").glob("*.csv")} == {"shoulder", "elbow", "wrist"}
+
     # walked through by MuJoCo's own Python, between the program's looks as well
     model = mujoco.MjModel.from_xml_string(ARM)
     data, torque, nearest, most = mujoco.MjData(model), np.zeros(3), 1.0, np.zeros(3)

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "identification/estimate.h"
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/parse_number.h"
+#include "models/recording/read_recording.h"
 #include "tools/cli/typed_options.h"
-#include "tools/design/read_motion.h"
 #include "tools/shown/estimate_data.h"
 #include "tools/shown/kernel_example.h"
 #include "tools/shown/run/run_data.h"
@@ -65,21 +68,44 @@ PictureSource OfSimulation(const fs::path& directory, shown::ShownData& data) {
   return source;
 }
 
-/// Of a directory of `design`.
-PictureSource OfDesign(const fs::path& directory) {
-  const Tree design = ReadJsonFile(directory / "design.json");
-  const auto motion = ReadMotion(directory / "motion.csv");
-  if (!motion) Refuse({directory / "motion.csv"}, "is no motion; make it by `warmjoint design`");
-  Tree time = Tree::array(), velocity = Tree::array();
-  for (const VelocityCorner& corner : motion->motion.corners) {
-    time.push_back(corner.time);
-    velocity.push_back(corner.velocity);
-  }
+/// A joint's motion as a picture shows it. prefix: of its columns
+Tree MotionFacts(const FileContent& motion, const std::string& prefix, const Tree& design,
+                 const fs::path& file) {
+  const auto column = [&](const std::string& name) {
+    const auto found = std::ranges::find(motion.columns, name, &FileColumn::name);
+    if (found == motion.columns.end()) {
+      Refuse({file}, "has no column '{}'; make it by `warmjoint design`", name);
+    }
+    return std::vector<double>(found->values.begin(), found->values.end());
+  };
   const bool is_linear = design.value("settings", Tree::object()).value("joint", "") == "linear";
   const JointKind joint = is_linear ? JointKind::linear : JointKind::rotary;
-  return {
-      {{"design", design},
-       {"motion", {{"time", time}, {"velocity", velocity}, {"unit", kVelocityUnit.For(joint)}}}}};
+  return {{"time", column("time")},
+          {"velocity", column(prefix + "velocity")},
+          {"unit", kVelocityUnit.For(joint)}};
+}
+
+/// Of a directory of `design`: of each joint what is foretold, and its motion.
+PictureSource OfDesign(const fs::path& directory) {
+  const Tree design = ReadJsonFile(directory / "design.json");
+  const fs::path file = directory / "motion.csv";
+  const FileContent motion = ParseTable(ReadWholeFile(file), file);
+  Tree joints = Tree::array();
+  if (!design.contains("joints")) {
+    joints.push_back({{"file", "design"},
+                      {"joint", ""},
+                      {"design", design},
+                      {"motion", MotionFacts(motion, "", design, file)}});
+  } else {
+    std::set<std::string> taken;
+    for (const auto& [name, one] : design["joints"].items()) {
+      joints.push_back({{"file", shown::FileOf(name, taken)},
+                        {"joint", name},
+                        {"design", one},
+                        {"motion", MotionFacts(motion, name + "_", one, file)}});
+    }
+  }
+  return {{{"joints", joints}}};
 }
 
 constexpr double kSmallest = 20, kLargest = 2000;  // mm

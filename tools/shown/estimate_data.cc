@@ -242,9 +242,6 @@ Tree PageFacts(const FitView& view, const RecordingCheck& check,
       {"fit", ViewFacts(view, data)}, {"check", Tree(CheckToJson(check))}, {"commands", commands}};
 }
 
-namespace {
-
-/// The name of a joint's file, without its end: no folder and not hidden, and none that is taken, also by letters of another case.
 std::string FileOf(const std::string& joint, std::set<std::string>& taken) {
   constexpr std::size_t longest =
       100;  // characters; why: with its end and a number below what file systems take
@@ -255,8 +252,6 @@ std::string FileOf(const std::string& joint, std::set<std::string>& taken) {
   for (int i = 2; !taken.insert(Lowercase(free)).second; ++i) free = fmt::format("{}_{}", name, i);
   return free;
 }
-
-}  // namespace
 
 Tree RobotFacts(const RobotEstimate& robot, ShownData& data) {
   Tree joints = Tree::array();

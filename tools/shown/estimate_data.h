@@ -5,6 +5,7 @@
 #include <warmjoint/robot_estimate.h>
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ Tree PageFacts(const FitView& view, const RecordingCheck& check,
 
 /// [{joint, status, message, ...columns}] of the joints that have a fit.
 Tree RobotFacts(const RobotEstimate& robot, ShownData& data);
+
+/// The name of a joint's picture, without its end: no folder and not hidden, and none that is taken, also by letters of another case.
+std::string FileOf(const std::string& joint, std::set<std::string>& taken);
 
 /// What the first guess of a warming is read off; null where there is none.
 Tree GuessFacts(const LogSamples& measurements, const Selection& selection,

@@ -32,12 +32,13 @@ def of_friction(answers: list[dict[str, Any]]) -> np.ndarray:
 
 
 def design(facts: dict[str, Any]) -> Sheet:
-    """Speed over the minutes; below, the foretold half widths."""
+    """Speed over the minutes; below, the foretold half widths. facts: of a joint, `joint` its name where there are several."""
     answers, motion = facts["design"]["foretold"], facts["motion"]
     names = [name for name in facts["design"]["draws"][0]["deviations"] if np.isfinite(half_widths(answers, name)).any()]
     minutes = np.array([answer["minutes"] for answer in answers])
     against = ", ".join(f"{ratio['middle']:.2f} of that of {ratio['against']}" for ratio in facts["design"]["ratios"])
-    fig = Sheet("design", "A motion to record, and how well its log will know the friction",
+    whose = f" of {facts['joint']}" if facts["joint"] else ""
+    fig = Sheet(facts["file"], f"A motion to record, and how well its log will know the friction{whose}",
                 f"half widths of 95 % intervals on a simulated log; standard deviation of what is wanted: {against}",
                 f"After {significant(float(minutes[-1]))} min the friction is known to {significant(float(of_friction(answers)[-1]))} %.")
     above, below = fig.panels((200, [1]), (330, [1]))

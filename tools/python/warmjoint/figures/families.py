@@ -89,7 +89,7 @@ def _of_kernels(one: Source) -> Family:
 
 
 def _of_design(one: Source) -> Family:
-    return {"design": (lambda: designed.design(one.facts), "")}
+    return {joint["file"]: (functools.partial(designed.design, joint), "") for joint in one.facts["joints"]}
 
 
 def _of_robot(one: Source) -> Family:
