@@ -26,6 +26,8 @@ using Eigen::VectorXd;
 
 // of -2 log p; why: of an amplitude that is 0, half a chi-squared of one degree of freedom, once in a hundred
 constexpr double kBeyondChance = 5.41;
+constexpr double kShownConstant =
+    2.58;  // deviations; why: chance reaches them in one log of a hundred
 constexpr double kSlow = 0.1, kFast = 0.9;  // quantiles of the speed between which a line is laid
 constexpr double kOneSpeed = 1.3;  // ratio of both; why: a line between nearer ones is noise
 constexpr int kSpeedCentres = 24;  // of each direction
@@ -384,6 +386,20 @@ void FieldFigures::AddFriction(double reach, Fit& fit) const {
   }
 }
 
+bool FieldFigures::HasConstant(size_t place_torque) const {
+  const Index p = report_.rows(), others = solved_.evidence.flat() - p;
+  if (others == 0) return false;
+  // the constant, with the mean of the torque over the places
+  const FieldRows& rows = solved_.rows;
+  const FieldBlock& block = solved_.blocks[place_torque];
+  const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
+  VectorXd function = VectorXd::Zero(solved_.evidence.size());
+  function.segment(p, others).setOnes();
+  function.segment(solved_.evidence.Begin(place_torque), block.size()) =
+      block.UnsignedAt(rows.time, rows.position, rows.velocity).transpose() * each;
+  return std::abs(function.dot(solved_.posterior.mean)) > kShownConstant * Deviation(function);
+}
+
 void FieldFigures::AddPlaces(double reach, Fit& fit) const {
   // as bands, friction at the median speed, or the torque alone
   const double median = MedianOf(Kept(m_.velocity, fit.used).cwiseAbs());
@@ -391,7 +407,8 @@ void FieldFigures::AddPlaces(double reach, Fit& fit) const {
     const FieldBlock& block = solved_.blocks[k];
     const Index begin = solved_.evidence.Begin(k), p = report_.rows();
     const bool is_load = block.kind == FieldKind::place_torque;
-    if ((!is_load && block.kind != FieldKind::place_friction) || !Holds(block.kind)) continue;
+    if (!is_load && block.kind != FieldKind::place_friction) continue;
+    if (!Holds(block.kind) && !(is_load && HasConstant(k))) continue;
     MatrixXd functions = MatrixXd::Zero(block.size(), solved_.evidence.size());
     functions.middleCols(begin, block.size()).setIdentity();
     if (is_load) functions.middleCols(p, solved_.evidence.flat() - p).setOnes();

@@ -77,6 +77,8 @@ class FieldFigures {
   /// The covariance of all unknowns up to each part of an error: that of the best strengths where what comes later is known. [p + m]^2 each
   std::vector<ErrorUpTo<Eigen::MatrixXd>> CovariancesUpTo() const;
   bool Holds(FieldKind kind) const;
+  /// Whether a torque that is the same in both directions is there beyond chance, in addition to gravity. place_torque: the block over the position
+  bool HasConstant(size_t place_torque) const;
 
   const SolvedFields& solved_;
   const Fit& fit_;

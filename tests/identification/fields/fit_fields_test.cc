@@ -67,6 +67,21 @@ TEST(FitWithFields, GivesTheRippleAsAMap) {
   }
 }
 
+TEST(FitWithFields, GivesAConstantTorqueAsAMap) {
+  // as much in both directions, though no torque over the place is there
+  constexpr double offset = 4;
+  Measurements m = Rippled(0, 2);
+  m.torque.array() += offset;
+  const Estimate estimate = test::Answer("nominal-ls", m, kFields);
+  ASSERT_TRUE(estimate.friction) << estimate.FullMessage();
+  Measurements at = test::Excited(test::Cold(), 2, 1);
+  at.velocity << 0.5, -0.5;
+  at.position.setZero();
+  const Eigen::VectorXd force = PredictFriction(*estimate.friction, LogSamples(at)).force;
+  const double cosine = estimate.gravity ? estimate.gravity->Torque(at.position)[0] : 0;
+  EXPECT_NEAR(force.mean() + cosine, offset + test::kCosine, 0.3);
+}
+
 TEST(FitWithFields, HoldsAFrictionThatFallsWithSpeed) {
   Measurements m = test::Excited(test::Cold(), 4000, 1);
   const double level = test::Cold().parameters.at("coulomb"),
