@@ -10,8 +10,11 @@ from .run_view import Run
 from .sheet import Sheet
 
 
+COLUMNS = 3  # of panels
+
+
 def residual_by_minute(run: Run) -> Sheet | None:
-    """The residual of each compensator over the minutes of the log, medians over the realizations; a panel for each variant."""
+    """The residual of each compensator over the minutes of the log, medians over the realizations: a panel each, in it a line for each variant."""
     shown = [row for row in run.rows if np.nanmax(row.by_minute, initial=0) > 0]
     if not shown:
         return None
@@ -20,16 +23,24 @@ def residual_by_minute(run: Run) -> Sheet | None:
                 run.about("rms of true friction less the compensator's within each minute, medians", each=True), f"Median minute: {reached}.")
     longest = max(row.by_minute.shape[1] for row in shown)
     unit, minutes = ("h", 60) if longest > 120 else ("min", 1)
-    for ax, rung in zip(fig.panels(*[(370, [1]) for _ in run.rungs]), run.rungs):
-        lines = []
-        for i, row in enumerate(shown):
-            own = row.by_minute if rung is None else row.by_minute[row.variant == rung]
-            counts = np.isfinite(own).any(axis=0)
-            median = np.full(own.shape[1], np.nan)
-            median[counts] = np.nanmedian(own[:, counts], axis=0)
+    lines = [[_medians(row.by_minute if rung is None else row.by_minute[row.variant == rung]) for rung in run.rungs] for row in shown]
+    rows = -(-len(shown) // COLUMNS)
+    axes = fig.panels(*[(210, [1] * COLUMNS)] * rows)
+    for ax, row, own in zip(axes, shown, lines):
+        for i, (rung, median) in enumerate(zip(run.rungs, own)):
             hue, dash = look_of_several(i)
-            draw.line(ax, np.arange(median.size) / minutes, median, row.label, hue, 1.4, dash)
-            lines.append(median)
-        draw.magnitudes(ax, lines)
-        draw.finish(ax, f"time ({unit})", "residual (% of friction)", run.name_of(rung))
+            draw.line(ax, np.arange(median.size) / minutes, median, run.name_of(rung), hue, 1.2, dash)
+        # one scale, so that panels can be compared
+        draw.magnitudes(ax, [median for of_row in lines for median in of_row])
+        draw.finish(ax, f"time ({unit})", "residual (% of friction)", row.label)
+    for ax in axes[len(shown):]:
+        ax.set_axis_off()
     return fig
+
+
+def _medians(by_minute: np.ndarray) -> np.ndarray:
+    """Over the realizations, [minutes]; NaN where none has a value."""
+    known = np.isfinite(by_minute).any(axis=0)
+    medians = np.full(by_minute.shape[1], np.nan)
+    medians[known] = np.nanmedian(by_minute[:, known], axis=0)
+    return medians
