@@ -102,6 +102,7 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
     const double rests = std::max(problem.rests, kRounding * found.sums.squares);
 
     // damped more and more until the squares fall
+    bool is_finite = true;
     for (bool fell = false; !fell && !found.converged && !stuck;) {
       const VectorXd next =
           Within(problem, x + StepOf(problem, x, found.sums, damping.share(), fixed));
@@ -115,7 +116,8 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
       const bool promises = std::abs(promised) > (damping.IsLight() ? rests : problem.rests);
       found.converged = !promises && damping.IsLight();
       stuck = !promises && !damping.IsLight();
-      fell = there.squares < found.sums.squares && IsFinite(there);
+      is_finite = IsFinite(there);
+      fell = there.squares < found.sums.squares && is_finite;
       if (!fell) {
         damping.AfterRise();
         continue;
@@ -126,6 +128,12 @@ Minimum Minimise(const SquaresProblem& problem, VectorXd x) {
       damping.AfterFall(promised > 0 ? found.fell / promised : 0);
       found.trace.push_back({x, found.sums.squares});
     }
+
+    // the step that is left: it promises less than the squares' rounding, so that they cannot judge it
+    if (!found.converged || !is_finite) continue;
+    const VectorXd left = StepOf(problem, x, found.sums, 0, fixed);
+    if (left.allFinite()) x = Within(problem, x + left);
+    found.trace.back().x = x;
   }
   found.x = std::move(x);
   return found;

@@ -31,6 +31,16 @@ TEST(Minimise, ArrivesWhereAllIsFinite) {
   EXPECT_NEAR(found.x[0], 3, 1e-9);
 }
 
+TEST(Minimise, TakesTheLastStepThoughSquaresAreFlatToRounding) {
+  // squares of 1e6 in addition to those of the bowl: 1e-6 beside its bottom they do not tell up from down
+  const auto beside = [](const VectorXd& x, RowSums& sums) {
+    sums.squares += 1e6 + (x[0] == 3 ? 1e-9 : 0);
+  };
+  const Minimum found = Minimise(Bowl(beside), Eigen::Vector2d(3 + 1e-6, -1));
+  EXPECT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 3, 1e-12);
+}
+
 TEST(Minimise, HasNotConvergedOnWhatIsNoNumber) {
   const auto ends = [](auto spoil) {
     for (const double start : {0.0, 3.0}) {
