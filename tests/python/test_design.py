@@ -141,7 +141,7 @@ def test_limits_of_a_urdf_count_and_what_cannot_begin_is_refused(tmp_path):
     # of one joint the files of one
     assert made.files["motion.csv"].startswith("time,position,velocity\n") and "motion.script" in made.files
     (tmp_path / "weak.urdf").write_text(arm.format(effort=1))
-    with pytest.raises(wj.BadInput, match=r"lift.*beyond its 1.*at="):
+    with pytest.raises(wj.BadInput, match=r"lift.*effort of 1 N.m, of which gravity"):
         wj.design_robot(tmp_path / "weak.urdf", ["lift"], 4, method="energy-ml", at={"lift": 1.0})
     for wrong, words in (({"joints": ["lever"]}, "lever"), ({"at": {"lever": 0}}, "lever"), ({"priors": {"lever": PRIOR}}, "lever"), ({"clearance": -1}, "clearance")):
         with pytest.raises(wj.BadInput, match=words):

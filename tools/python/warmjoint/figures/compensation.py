@@ -9,7 +9,6 @@ from .numerals import look_of_several, significant
 from .run_view import Run
 from .sheet import Sheet
 
-
 COLUMNS = 3  # of panels
 
 
