@@ -77,8 +77,6 @@ struct FittedFields {
   Eigen::VectorXd rest{};  // [N] torque along this log alone, as drifts, N.m or N
   /// -2 log of the marginal likelihood, of the same rows and fields with any table: the least is the likeliest
   double cost = 0;
-  /// Whether a warming is told from the friction over time that was let in beside it; true without such a friction.
-  bool tells_heat = true;
   double time_torque = 0;  // amplitude of the torque over time, a share of the friction
   double time_friction =
       0;  // rms of the friction over time about its mean, a share of the friction

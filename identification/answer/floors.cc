@@ -77,12 +77,7 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   }
   if (fit.fields && fit.fields->time_friction > kMostDrift) {
     return Floor(Source::impossible, Status::inadequate_model,
-                 fit.friction.thermal
-                     ? ExplainDriftBesideHeat(fit.fields->time_friction, kMostDrift)
-                     : ExplainDriftOfFriction(fit.fields->time_friction, kMostDrift));
-  }
-  if (fit.fields && !fit.fields->tells_heat) {
-    return Floor(Source::impossible, Status::not_identifiable, kWarmingOrDrift);
+                 ExplainDriftOfFriction(fit.fields->time_friction, kMostDrift));
   }
   // an inertia below 0 that was taken out, without which the friction is another
   const auto inertia = std::ranges::find(fit.causes, Source::findings, &Cause::source);

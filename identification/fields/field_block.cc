@@ -32,9 +32,6 @@ constexpr double kNugget = 1e-6;     // of a kernel's variance; why: rounding le
 constexpr double kFastest = 0.99;    // quantile of the speed
 constexpr double kOneWay = 0.03;     // share of the rows
 constexpr double kLeastSpeedRange = 0.05;
-// of a friction over time beside a warming; why so small a beginning: from .05 on it takes the warming up whole
-constexpr double kWalkStep = 25, kWalkBegins = 0.01;  // s, share of the friction
-constexpr Index kMostTimeKnots = 144;
 
 /// exp(-d/l), and Matern 3/2: (1 + sqrt(3) d/l) exp(-sqrt(3) d/l)
 MatrixXd Exponential(const MatrixXd& distance, double length) {
@@ -103,8 +100,8 @@ FieldBlock OverPlace(FieldKind kind, double scale, const FieldRows& rows, JointK
   return block;
 }
 
-/// Knots over the time of each recording. all_knots: of all together
-Knots TimeKnots(const FieldRows& rows, Index all_knots) {
+/// Knots over the time of each recording.
+Knots TimeKnots(const FieldRows& rows) {
   const std::vector<SampleRange> recordings = CutAt(rows.starts, rows.size());
   const auto length = [&](const SampleRange& one) {
     return rows.time[one.end() - 1] - rows.time[one.first];
@@ -113,7 +110,7 @@ Knots TimeKnots(const FieldRows& rows, Index all_knots) {
   for (const SampleRange& one : recordings) all += length(one);
   Knots knots;
   for (const SampleRange& one : recordings) {
-    const auto count = std::lround(static_cast<double>(all_knots) * length(one) / all);
+    const auto count = std::lround(static_cast<double>(kTimeKnots) * length(one) / all);
     const double first = rows.time[one.first];
     const double last = std::max(rows.time[one.end() - 1], first + rows.step);
     const Index m = std::max<Index>(count, 2), begin = knots.size();
@@ -124,42 +121,8 @@ Knots TimeKnots(const FieldRows& rows, Index all_knots) {
   return knots;
 }
 
-/// Friction over time from the start of each recording on.
-FieldBlock FromStart(double scale, const FieldRows& rows) {
-  const double length = rows.time[rows.size() - 1] - rows.time[0];
-  const Index count =
-      std::clamp<Index>(std::lround(length / kWalkStep), kTimeKnots, kMostTimeKnots);
-  FieldBlock block{.kind = FieldKind::time_friction, .knots = TimeKnots(rows, count)};
-  const Index m = block.size();
-  MatrixXd walk = MatrixXd::Zero(m, m), integrated = walk;
-  for (const SampleRange& piece : block.knots.Pieces()) {
-    const VectorXd at = block.knots.at.segment(piece.first, piece.count);
-    const VectorXd x = (at.array() - at[0]) / (at[piece.count - 1] - at[0]);
-    // given its ends, the mean of a walk over a piece of length h has a variance of h/12
-    const double first = x[1] / 12;
-    MatrixXd smooth(piece.count, 3);
-    smooth << x, (4 * x.array() * (1 - x.array())).matrix(),
-        (10 * x.array() * (1 - x.array()) * (1 - 2 * x.array())).matrix();
-    for (Index i = 0; i < piece.count; ++i) {
-      for (Index j = 0; j < piece.count; ++j) {
-        const auto [less, more] = std::minmax(x[i], x[j]);
-        const double imitated = 4 * smooth.row(i).dot(smooth.row(j));
-        walk(piece.first + i, piece.first + j) = less + first + imitated;
-        integrated(piece.first + i, piece.first + j) =
-            less * less * (3 * more - less) / 2 + imitated;
-      }
-    }
-  }
-  block.lengths = {0, 1};  // which of both
-  block.kernels = {walk, integrated};
-  block.from = DriftFrom::start;
-  block.amplitude_scale = scale;
-  block.begins = kWalkBegins;
-  return block;
-}
-
 FieldBlock OverTime(FieldKind kind, double scale, const FieldRows& rows) {
-  FieldBlock block{.kind = kind, .knots = TimeKnots(rows, kTimeKnots)};
+  FieldBlock block{.kind = kind, .knots = TimeKnots(rows)};
   double longest = 0;
   for (const SampleRange& piece : block.knots.Pieces()) {
     longest = std::max(longest, block.knots.at[piece.end() - 1] - block.knots.at[piece.first]);
@@ -191,7 +154,7 @@ FieldBlock OverSpeed(double scale, const FieldRows& rows) {
 // the friction, and the law to its negative
 constexpr double kLoadScale = 0.5, kTorqueDriftScale = 0.3, kFrictionScale = 0.15;
 
-FieldBlock Make(FieldKind kind, const FieldRows& rows, JointKind joint, DriftFrom drift) {
+FieldBlock Make(FieldKind kind, const FieldRows& rows, JointKind joint) {
   switch (kind) {
     case FieldKind::place_torque:
       return OverPlace(kind, kLoadScale, rows, joint);
@@ -200,8 +163,7 @@ FieldBlock Make(FieldKind kind, const FieldRows& rows, JointKind joint, DriftFro
     case FieldKind::speed_friction:
       return OverSpeed(kFrictionScale, rows);
     case FieldKind::time_friction:
-      return drift == DriftFrom::start ? FromStart(kFrictionScale, rows)
-                                       : OverTime(kind, kFrictionScale, rows);
+      return OverTime(kind, kFrictionScale, rows);
     case FieldKind::time_torque:
       break;
   }
@@ -286,10 +248,10 @@ bool IsSymmetric(const Law& law) {
 }
 
 std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const FieldRows& rows,
-                                   JointKind joint, const Law& law, DriftFrom drift) {
+                                   JointKind joint, const Law& law) {
   std::vector<FieldBlock> blocks;
   for (const FieldKind kind : kinds) {
-    FieldBlock& block = blocks.emplace_back(Make(kind, rows, joint, drift));
+    FieldBlock& block = blocks.emplace_back(Make(kind, rows, joint));
     block.columns = block.ColumnsAt(rows.time, rows.position, rows.velocity);
     const bool levels_differ = kind == FieldKind::place_torque && !IsSymmetric(law);
     if (kind == FieldKind::place_friction || levels_differ) {

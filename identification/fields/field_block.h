@@ -53,9 +53,6 @@ struct Knots {
   Eigen::MatrixXd Distances() const;
 };
 
-/// Where a friction over time is 0: on average over the log, or at its start, of a joint that warms, whose cold friction is that at the start.
-enum class DriftFrom { mean, start };
-
 /// A field whose values at m knots are normal about 0.
 struct FieldBlock {
   FieldKind kind;
@@ -63,11 +60,8 @@ struct FieldBlock {
   SparseRows columns{};                    // [n x m]
   std::vector<double> lengths{};           // [l] of the kernels, in the unit of the knots
   std::vector<Eigen::MatrixXd> kernels{};  // [l] of [m x m], covariance at amplitude 1
-  DriftFrom from = DriftFrom::mean;
   double amplitude_scale = 0;  // of the half-normal prior of its amplitude, a share of the friction
   double fastest = 1;          // rad/s or m/s, at which a knot over the root of the speed is 1
-  /// Amplitude at which a search begins, a share of the friction; why: from above it rests where fields follow the noise.
-  double begins = 0.05;
 
   /// The columns at other places, times and speeds. [n] each; returns [n x m]
   SparseRows ColumnsAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
@@ -87,12 +81,7 @@ bool IsSymmetric(const Law& law);
 /// ones are what a law, gravity or a curve over the speed does.
 /// Friction over position and over speed is orthogonal, over the rows, to a level and to the law, so that the law's parameters are those of
 /// its best line; torque over position to a constant where the law has a level for each direction, which would be the same. law: linear
-///
-/// A friction over time from the start on is a random walk, plain or integrated, and a knot stands for 25 s, where these are 144 at most: with x = t/T in each
-/// recording, min(x, x') + h/12, h from a knot to the next, or min(x, x')^2 (3 max(x, x') - min(x, x'))/2, and in both 4 s(x) s(x')^T in addition, s = (x, 4 x (1 - x),
-/// 10 x (1 - x) (1 - 2 x)), which is what a heat can imitate.
 std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const FieldRows& rows,
-                                   JointKind joint, const Law& law,
-                                   DriftFrom drift = DriftFrom::mean);
+                                   JointKind joint, const Law& law);
 
 }  // namespace warmjoint

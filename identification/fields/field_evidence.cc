@@ -26,8 +26,9 @@ constexpr std::array kCoarse{0.6, 0.8, 0.9, 1.0, 1.1, 1.25, 1.6};
 constexpr std::array kFine{0.93, 1.0, 1.07};
 constexpr int kAmplitudes = 32;                    // 0, and 31 even in the logarithm
 constexpr double kSmallest = 0.003, kLargest = 3;  // shares of the friction
-constexpr double kNothing = 1e-5;                  // a share that stands for an amplitude of 0
-constexpr double kFlat = 1e3;  // spread of flat columns, in deviations of the torque
+constexpr double kStart = 0.05;    // why: from above, a search rests where fields follow the noise
+constexpr double kNothing = 1e-5;  // a share that stands for an amplitude of 0
+constexpr double kFlat = 1e3;      // spread of flat columns, in deviations of the torque
 constexpr int kMostSweeps = 10, kSettle = 6, kDraws = 24;
 constexpr double kJitter = 1e-13;
 
@@ -343,11 +344,8 @@ FieldHyperparameters FieldEvidence::Maximise() const {
     squares += left[n] * left[n];
   }
   const double rough = squares > 0 ? products / squares : 0;
-  FieldHyperparameters start;
-  for (const FieldBlock& block : blocks_) {
-    start.amplitudes.push_back(block.begins);
-    start.lengths.push_back(block.lengths.size() / 2);
-  }
+  FieldHyperparameters start{std::vector<double>(blocks_.size(), kStart), {}};
+  for (const FieldBlock& block : blocks_) start.lengths.push_back(block.lengths.size() / 2);
   start.correlation = *std::ranges::min_element(correlations_, {},
                                                 [&](double rho) { return std::abs(rho - rough); });
   start.innovation = std::max(left.squaredNorm() / static_cast<double>(left.size()),

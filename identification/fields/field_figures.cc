@@ -111,11 +111,8 @@ VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m) {
     if (block.kind != FieldKind::time_friction && block.kind != FieldKind::time_torque) continue;
     along += block.ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
   }
-  const auto is_about_its_mean = [](const FieldBlock& block) {
-    return block.kind == FieldKind::time_friction && block.from == DriftFrom::mean;
-  };
-  if (std::ranges::none_of(solved.blocks, is_about_its_mean)) return along;
   const VectorXd friction = FrictionOverTime(solved);
+  if (friction.size() == 0) return along;
   return along - friction.mean() * m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
 }
 
@@ -196,7 +193,7 @@ VectorXd FieldFigures::MeansOfFields() const {
   const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
     const FieldBlock& block = solved_.blocks[k];
-    if (block.kind == FieldKind::speed_friction || block.from == DriftFrom::start) continue;
+    if (block.kind == FieldKind::speed_friction) continue;
     // a torque counts where the log has one direction alone, in which it cannot be told from friction
     const double sign = IsFriction(block.kind) ? 1 : way;
     const SparseRows all = block.UnsignedAt(rows.time, rows.position, rows.velocity);

@@ -31,8 +31,7 @@ struct SolvedFields {
 Eigen::VectorXd FieldsAlong(const SolvedFields& solved, Eigen::Index p, const LogSamples& m);
 /// The friction over time at the rows, unsigned; empty without such a field. [n] N.m or N
 Eigen::VectorXd FrictionOverTime(const SolvedFields& solved);
-/// The part of it that is of this log alone: the torque over time, and the friction over time, about its mean where it is no drift from the
-/// start. [N] N.m or N
+/// The part of it that is of this log alone: the torque over time, and the friction over time about its mean. [N] N.m or N
 Eigen::VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m);
 
 /// Linear functions of the unknowns of a fit with fields.
@@ -61,7 +60,7 @@ class FieldFigures {
   /// time. load: |load|, of a friction that grows with it. [p + m]
   Eigen::VectorXd AtVelocity(double velocity, double load) const;
   Eigen::VectorXd OfFields(double speed) const;
-  /// Of what depends on place and time, the means over the rows; of a drift from the start 0. [p + m]
+  /// Of what depends on place and time, the means over the rows. [p + m]
   Eigen::VectorXd MeansOfFields() const;
   /// dE/dx at the kept sample with the largest |E|, and E. [p + m]
   struct WarmMoment {

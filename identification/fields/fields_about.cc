@@ -11,7 +11,6 @@
 #include "identification/fields/field_rows.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/seen_samples.h"
@@ -47,6 +46,8 @@ std::vector<FieldKind> Possible(const FieldSet& asked, const Fit& fit, const Log
         fit.gravity->kind == GravityKind::paired) {
       continue;
     }
+    // of a drift beside a warming no likelihood decides (the tests for lack of fit do)
+    if (kind == FieldKind::time_friction && fit.friction.thermal) continue;
     if (kind == FieldKind::speed_friction && !(speed.maxCoeff() > speed.minCoeff())) continue;
     kinds.push_back(kind);
   }
@@ -149,20 +150,6 @@ bool IsLinear(const Fit& fit) {
 constexpr int kMostRounds = 4;
 constexpr double kRests = 0.1;  // deviations; why: such a step changes no interval by a hundredth
 
-/// -2 log of the likelihood that a friction over time has to gain beside a warming; why: with less, one log in eight of a joint that only warms
-/// has one, which makes the errors of the heat several times as large.
-constexpr double kGate = 5;
-/// By how much the errors of the heat are larger beside such a friction; why: the fit is linear about its solution, and on simulated logs the
-/// errors of the gain are 1.8 to 2.0 times as large as that says.
-constexpr double kBesideDrift = 2;
-constexpr double kLeastHeat =
-    0.03;  // of the friction; why: chosen, drifts of good joints are as large
-
-bool HasDriftBesideHeat(const std::vector<FieldBlock>& blocks) {
-  return std::ranges::any_of(
-      blocks, [](const FieldBlock& block) { return block.from == DriftFrom::start; });
-}
-
 /// A fit to what fields leave of the torque, and the fields about it.
 struct Round {
   FitForFields at;
@@ -194,27 +181,12 @@ std::unique_ptr<Round> Solve(FitForFields at, const FieldSet& asked, const Vecto
   round->rows.prior_precision = round->at.prior_precision;
   if (round->rows.size() < kFewestRows) return round;
   round->friction = FrictionOver(round->rows, fit);
-  const DriftFrom drift = fit.friction.thermal ? DriftFrom::start : DriftFrom::mean;
-  round->blocks = MakeFields(Possible(asked, fit, m), round->rows, m.joint, law, drift);
+  round->blocks = MakeFields(Possible(asked, fit, m), round->rows, m.joint, law);
   round->evidence =
       std::make_unique<const FieldEvidence>(round->rows, round->blocks, round->friction);
   round->best = round->evidence->Maximise();
   round->posterior = round->evidence->At(round->best);
   return round;
-}
-
-/// Whether a warming is told from the friction over time beside it: its gain lies below 0 with its interval, and E is no small part.
-bool TellsHeat(const Fit& fit, const Uncertainty& uncertainty, double friction,
-               const LogSamples& m) {
-  Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
-    if (!row.estimated) continue;
-    const bool is_gain = row.role == Role::heat && row.coordinate != Coordinate::logarithm;
-    if (is_gain && row.value + kNormal95 * uncertainty.Deviation(column) >= 0) return false;
-    ++column;
-  }
-  const VectorXd energy = PredictFriction(fit.friction, m, fit.Start()).energy;
-  return energy.maxCoeff() - energy.minCoeff() > kLeastHeat * friction;
 }
 
 /// The answer: the fit moved to the posterior, with what fields add to it.
@@ -247,9 +219,6 @@ Fit Conclude(const Round& round) {
                             .time_torque = AmplitudeOf(FieldKind::time_torque, solved),
                             .time_friction = DriftOf(solved, round.friction)};
   for (const FieldBlock& block : round.blocks) fit.fields->present.kinds.push_back(block.kind);
-  if (HasDriftBesideHeat(round.blocks)) {
-    fit.fields->tells_heat = TellsHeat(fit, uncertainty, round.friction, m);
-  }
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
   fit.fields->rest = torque - round.at.torque_of(fit, m);
   fit.count += static_cast<int>(round.evidence->size() - x.size());
@@ -260,13 +229,17 @@ Fit Conclude(const Round& round) {
   return fit;
 }
 
-using RoundPtr = std::unique_ptr<Round>;
+}  // namespace
 
-/// Both in turn until x rests. left_out: [N] of the torque, that `first` did not see
-RoundPtr Converged(FitForFields first, const FieldSet& asked, const VectorXd& left_out,
-                   const FitToTheRest& again) {
-  RoundPtr round = Solve(std::move(first), asked, left_out);
-  if (!round->evidence) return round;
+Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const FitToTheRest& again) {
+  const VectorXd nothing = VectorXd::Zero(first.motion.size());
+  auto round = Solve(std::move(first), asked, nothing);
+  if (!round->evidence) {
+    Fit plain = std::move(round->at.fit);
+    plain.causes.push_back(Note(ExplainFewFieldRows(round->rows.size(), kFewestRows)));
+    return plain;
+  }
+
   // the fit once more to what the fields leave, and the fields about that
   for (int i = 1; i < kMostRounds && !IsLinear(round->at.fit) && !round->Rests(); ++i) {
     const VectorXd held =
@@ -277,58 +250,7 @@ RoundPtr Converged(FitForFields first, const FieldSet& asked, const VectorXd& le
     if (!other->evidence) break;
     round = std::move(other);
   }
-  return round;
-}
-
-/// Beside a warming, the better of two rounds with a friction over time, where it gains more than kGate: from the fit without fields, and from that
-/// with the others.
-RoundPtr BesideHeat(const FitForFields& first, RoundPtr without, const FieldSet& asked,
-                    const FitToTheRest& again) {
-  const VectorXd nothing = VectorXd::Zero(first.motion.size());
-  const VectorXd held =
-      FieldsAlong(without->solved(), UnknownsOf(without->at.fit).size(), without->at.motion);
-  const auto cost = [](const Round& round) { return round.evidence->Cost(round.best); };
-  // where it gains nothing about the present fit, nothing drifts
-  if (cost(*without) - cost(*Solve(without->at, asked, held)) <= kGate) return without;
-  RoundPtr best = Converged(first, asked, nothing, again);
-  RoundPtr other = Converged(without->at, asked, held, again);
-  if (cost(*other) < cost(*best)) best = std::move(other);
-  return cost(*without) - cost(*best) > kGate ? std::move(best) : std::move(without);
-}
-
-/// The covariance with larger errors of the heat.
-void WidenHeat(const Fit& fit, MatrixXd& covariance) {
-  Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
-    if (!row.estimated) continue;
-    if (row.role == Role::heat) {
-      covariance.row(column) *= kBesideDrift;
-      covariance.col(column) *= kBesideDrift;
-    }
-    ++column;
-  }
-}
-
-}  // namespace
-
-Fit WithFieldsAbout(FitForFields first, const FieldSet& asked, const FitToTheRest& again) {
-  const bool warms = first.fit.friction.thermal.has_value();
-  FieldSet timeless = asked;
-  if (warms) std::erase(timeless.kinds, FieldKind::time_friction);
-  const VectorXd nothing = VectorXd::Zero(first.motion.size());
-  RoundPtr round = Converged(first, timeless, nothing, again);
-  if (!round->evidence) {
-    Fit plain = std::move(round->at.fit);
-    plain.causes.push_back(Note(ExplainFewFieldRows(round->rows.size(), kFewestRows)));
-    return plain;
-  }
-  if (timeless.kinds.size() < asked.kinds.size()) {
-    round = BesideHeat(first, std::move(round), asked, again);
-  }
   round->posterior = round->evidence->Averaged(round->best);
-  if (HasDriftBesideHeat(round->blocks)) {
-    WidenHeat(round->at.fit, round->posterior.covariance);
-  }
   return Conclude(*round);
 }
 

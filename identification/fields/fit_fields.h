@@ -29,11 +29,11 @@ struct FieldOption {
 ///
 /// Without heat, level and slope of a law are those of the line through the friction at the 10 % and the 90 % quantile of |v|,
 ///     F(s) = law(s) + v(s) + mean of r over the places seen + mean of d over the times seen.
-/// With heat they are those of the best line, from which the losses follow, at the log's start, and friction has a field over time only
-/// where that raises the likelihood beyond chance; gain and time constant have twice their errors then. The friction at speeds is F with
-/// the covariance of all unknowns; the maps are r, q and what F has beyond the law. A symmetric law has a constant torque beside it where
-/// both directions move, which is part of q. The fit is without fields, with a remark, where it has maps, a lag, or another loss than
-/// squares, and where the log has fewer than 60 such rows. make: the fit without fields; input: its samples
+/// With heat they are those of the best line, from which the losses follow, and friction has no field over time: a drift is told from a
+/// warming by the tests for lack of fit. The friction at speeds is F with the covariance of all unknowns; the maps are r, q and what
+/// F has beyond the law. A symmetric law has a constant torque beside it where both directions move, which is part of q.
+/// The fit is without fields, with a remark, where it has maps, a lag, or another loss than squares, and where the log has fewer than
+/// 60 such rows. make: the fit without fields; input: its samples
 Fit FitWithFields(const IdentifierInput& input,
                   const std::function<Fit(const IdentifierInput&)>& make);
 

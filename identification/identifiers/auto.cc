@@ -279,17 +279,13 @@ Fit FitChosen(const IdentifierInput& input) {
   // fitted to every sample, with the reason before the summary of the fit
   input.Tell("fitting " + chosen.Name() + " to every sample");
   chosen = WithLagOrFields(chosen, late, input);
+  const std::string name =
+      chosen.CanHaveFields() ? chosen.With(FieldOption{}).Name() : chosen.Name();
   const MakeFit make = [&](const IdentifierInput& other) { return FitOnAll(chosen, late, other); };
   Fit fit = WithoutNegativeInertia(make(input), input, make);
-  if (chosen.CanWarm() && fit.fields && !fit.fields->tells_heat) {
-    // a drift that no warming is told from is a field over time
-    chosen = chosen.Cold();
-    fit = WithoutNegativeInertia(make(input), input, make);
-    fit.causes.push_back(Note(kDriftInPlaceOfWarming));
-  }
 
   // what is reported, and the same structure for other samples
-  reported.chosen = chosen.CanHaveFields() ? chosen.With(FieldOption{}).Name() : chosen.Name();
+  reported.chosen = name;
   const auto inertia = fit.RowOf(Role::inertia);
   if (inertia && !fit.parameters[*inertia].estimated) {
     chosen.identifier.options = WithoutInertia(chosen.identifier.options);

@@ -70,15 +70,6 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
 
 bool Structure::CanWarm() const { return identifier.name == EnergyMl().name; }
 
-Structure Structure::Cold() const {
-  const Options& own = identifier.options;
-  return Structure{NominalLs(), named_option}
-      .With(own.Get<LawOption>())
-      .With(own.Get<GravityOption>())
-      .With(own.OrDefault<LoadOption>())
-      .With(own.OrDefault<FieldOption>());
-}
-
 bool Structure::CanEstimateLag() const {
   return identifier.options.Find<LagOption>() &&
          identifier.options.OrDefault<WarmMapOptions>().position == WarmMap::none;

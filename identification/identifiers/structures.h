@@ -45,9 +45,6 @@ struct Structure {
   /// Whether it fits law and warming together.
   bool CanWarm() const;
 
-  /// The same law and gravity without warming, of one that can warm.
-  Structure Cold() const;
-
   /// Whether it could estimate a lag of the torque, too.
   bool CanEstimateLag() const;
 

@@ -365,9 +365,8 @@ JointFit Concluded(const JointColumns& c, const JointQuestion& q, JointFit cold,
   const bool rivals = !warm || q.fields.Has(FieldKind::time_friction);
   if (rivals) AddFields(c, q.fields, cold);
   const bool compared = warm && warm->fields && cold.fields;
-  const auto of = [](const JointFit& one) { return *one.fields->fit.fields; };
   const bool warms =
-      warm && (!compared || (of(*warm).tells_heat && of(*warm).cost < of(cold).cost));
+      warm && (!compared || warm->fields->fit.fields->cost < cold.fields->fit.fields->cost);
   JointFit fit = warms ? *std::move(warm) : std::move(cold);
   fit.description_error = DescriptionErrorOf(fit, q);
   FindBeyond(c, q, fit);

@@ -49,9 +49,4 @@ std::string ExplainUnseenWarmUp(std::string_view why);
 std::string SummaryOfChoice(std::string_view not_shown, std::string_view reason,
                             std::string_view summary);
 
-inline constexpr const char* kDriftInPlaceOfWarming =
-    "the friction changes over the log, and a warming cannot be told from another drift: the fit "
-    "is "
-    "without warming, and its friction that of the log's mean";
-
 }  // namespace warmjoint

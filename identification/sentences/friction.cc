@@ -150,11 +150,4 @@ std::string ExplainDriftOfFriction(double share, double most) {
       100 * share, 100 * most);
 }
 
-std::string ExplainDriftBesideHeat(double share, double most) {
-  return fmt::format(
-      "beside its warming the friction changes over the log by {:.2g} % (rms), more than {:.0f} %, "
-      "so that neither is known; record a shorter log in which only the joint's own heat changes",
-      100 * share, 100 * most);
-}
-
 }  // namespace warmjoint

@@ -58,11 +58,5 @@ std::string ExplainOwnLaw(const MovedParameter& moved);
 std::string ExplainTorqueOverTime(double share);
 /// The sentence about a friction that drifts too much over a log. share, most: rms, of the friction
 std::string ExplainDriftOfFriction(double share, double most);
-/// The same of one that warms as well.
-std::string ExplainDriftBesideHeat(double share, double most);
-inline constexpr const char* kWarmingOrDrift =
-    "the friction changes over the log, and a warming by its own losses cannot be told from "
-    "another drift: the thermal gain may be 0; for the friction as the log has it take "
-    "--identifier nominal-ls --fields auto, for the warming log longer, from cold, with rests";
 
 }  // namespace warmjoint

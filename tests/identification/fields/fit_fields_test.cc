@@ -5,9 +5,7 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
-#include <utility>
 
 #include "tests/support/judging.h"
 #include "tests/support/refusal.h"
@@ -127,42 +125,6 @@ TEST(FitWithFields, WarmsUpUnderARipple) {
   test::AddNoise(m, 0.5, 0, 7);
   const Estimate estimate = test::Answer("energy-ml", m, {{"fields", "auto"}});
   test::ExpectTold(estimate, test::TruthOf(test::TableOne()), 3.5, 0.2);
-}
-
-/// A joint at speeds in turn for two hours, whose friction drifts by 5 % of the Coulomb friction as half a sine, N.m.
-Measurements Drifting(const Friction& joint, std::uint64_t seed) {
-  Measurements m = test::RecordFriction(joint, 1, test::AlternatingSpeeds(7200, 1), .3, seed);
-  const double length = m.time[m.size() - 1];
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    const double sign = (m.velocity[i] > 0) - (m.velocity[i] < 0);
-    m.torque[i] += sign * .05 * joint.parameters.at("coulomb") *
-                   std::sin(std::numbers::pi * m.time[i] / length);
-  }
-  return m;
-}
-
-TEST(FitWithFields, TellsAWarmingFromADrift) {
-  // one that warms and drifts
-  const Friction warm = test::TableOne();
-  const Estimate both = test::Answer("energy-ml", Drifting(warm, 3), {{"fields", "auto"}});
-  ASSERT_EQ(both.status, Status::ok) << both.FullMessage();
-  for (const auto& [name, truth] : {std::pair{"thermal_gain", warm.thermal->gain},
-                                    std::pair{"thermal_time_constant", warm.thermal->time_constant},
-                                    std::pair{"coulomb", warm.parameters.at("coulomb")}}) {
-    const EstimatedParameter& one = *both.Find(name);
-    ASSERT_TRUE(one.interval95) << name;
-    EXPECT_LT((*one.interval95)[0], truth) << name;
-    EXPECT_GT((*one.interval95)[1], truth) << name;
-  }
-  EXPECT_LT((*both.Find("thermal_gain")->interval95)[1], 0);
-
-  // one that drifts alone
-  const Measurements drifting = Drifting(test::Cold(), 4);
-  const Estimate none = test::Answer("energy-ml", drifting, {{"fields", "auto"}});
-  EXPECT_EQ(none.status, Status::not_identifiable) << none.FullMessage();
-  const Estimate chosen = test::Answer("auto", drifting);
-  EXPECT_EQ(chosen.status, Status::ok) << chosen.FullMessage();
-  EXPECT_FALSE(chosen.Find("thermal_gain"));
 }
 
 TEST(FitWithFields, LeavesAnExactTorqueAlone) {
