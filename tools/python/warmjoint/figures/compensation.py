@@ -9,8 +9,6 @@ from .numerals import look_of_several, significant
 from .run_view import Run
 from .sheet import Sheet
 
-COLUMNS = 3  # of panels
-
 
 def residual_by_minute(run: Run) -> Sheet | None:
     """The residual of each compensator over the minutes of the log, medians over the realizations: a panel each, in it a line for each variant."""
@@ -23,17 +21,13 @@ def residual_by_minute(run: Run) -> Sheet | None:
     longest = max(row.by_minute.shape[1] for row in shown)
     unit, minutes = ("h", 60) if longest > 120 else ("min", 1)
     lines = [[_medians(row.by_minute if rung is None else row.by_minute[row.variant == rung]) for rung in run.rungs] for row in shown]
-    rows = -(-len(shown) // COLUMNS)
-    axes = fig.panels(*[(210, [1] * COLUMNS)] * rows)
-    for ax, row, own in zip(axes, shown, lines):
+    for ax, row, own in zip(fig.grid(len(shown), 210), shown, lines):
         for i, (rung, median) in enumerate(zip(run.rungs, own)):
             hue, dash = look_of_several(i)
             draw.line(ax, np.arange(median.size) / minutes, median, run.name_of(rung), hue, 1.2, dash)
         # one scale, so that panels can be compared
         draw.magnitudes(ax, [median for of_row in lines for median in of_row])
         draw.finish(ax, f"time ({unit})", "residual (% of friction)", row.label)
-    for ax in axes[len(shown):]:
-        ax.set_axis_off()
     return fig
 
 

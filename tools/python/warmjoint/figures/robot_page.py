@@ -6,7 +6,7 @@ from typing import Any
 
 from .fit_page import sentence
 from .numerals import range_text, significant, to_digits_of, unit_text
-from .robots import all_joints_sheets
+from .robots import all_joints_sheets, cold_at_speeds
 from .view import VERDICTS
 
 TERMS = (
@@ -63,8 +63,7 @@ def _use(one: dict[str, Any]) -> str:
 
 
 def _at_speeds(one: dict[str, Any], way: int) -> list[str]:
-    cold = sorted((at for at in one.get("friction_at_speeds", []) if not at.get("energy") and at["speed"] * way > 0), key=lambda at: abs(at["speed"]))
-    cells = [f"{to_digits_of(at['value'], at['std'])} ± {significant((at['interval95'][1] - at['interval95'][0]) / 2, 2)}" for at in cold[:3]]
+    cells = [f"{to_digits_of(at['value'], at['std'])} ± {significant((at['interval95'][1] - at['interval95'][0]) / 2, 2)}" for at in cold_at_speeds(one, way)[:3]]
     return cells + ["–"] * (3 - len(cells))
 
 

@@ -15,7 +15,6 @@ from .numerals import significant, unit_text
 from .sheet import Sheet
 from .view import View
 
-ABREAST = 3  # panels in a row
 MOST = 60  # panels in a sheet: laying out takes the square of their number
 COLD = 0.01  # of the largest heat: what is less is called cold
 
@@ -80,12 +79,8 @@ def all_joints_sheets(answer: dict[str, Any], along: list[dict[str, Any]], most:
 
 def _sheet(panels: list[Panel], name: str, said: str) -> Sheet:
     fig = Sheet(name, "Friction of all joints", said, "Friction of each joint over speed in both directions.")
-    columns = min(ABREAST, len(panels))
-    axes = fig.panels(*[(230, [1.0] * columns)] * -(-len(panels) // columns))
-    for ax, panel in zip(axes, panels, strict=False):
+    for ax, panel in zip(fig.grid(len(panels), 230), panels):
         panel(ax)
-    for ax in axes[len(panels):]:
-        ax.set_axis_off()
     return fig
 
 
@@ -106,17 +101,22 @@ def _unit_of(answer: dict[str, Any]) -> str:
     return unit_text(at[0].get("unit", ""))
 
 
+def cold_at_speeds(answer: dict[str, Any], way: int) -> list[dict[str, Any]]:
+    """The cold friction of an answer in one direction, the slowest first."""
+    at = answer.get("friction_at_speeds", [])
+    return sorted((one for one in at if not one.get("energy") and way * one["speed"] > 0), key=lambda one: abs(one["speed"]))
+
+
 def _over_speed(ax: Any, name: str, answer: dict[str, Any], facts: dict[str, Any] | None) -> None:
     """Both directions on one axis from 0."""
-    cold = sorted((one for one in answer.get("friction_at_speeds", []) if not one.get("energy")), key=lambda one: abs(one["speed"]))
-    top, is_linear = 0.0, any(one.get("speed_unit") == "m/s" for one in cold)
+    top, is_linear = 0.0, any(one.get("speed_unit") == "m/s" for one in answer.get("friction_at_speeds", []))
     for way, label, hue in ((1, "forwards", "blue"), (-1, "backwards", "vermilion")):
         if facts:
             one = (facts["keep"] > 0) & (facts["velocity"] * way > 0)
             x, y = _means(np.abs(facts["velocity"][one]), way * facts["measured"][one]) if one.any() else (np.zeros(0), np.zeros(0))
             top = max(top, y.max(initial=0))
             draw.dots(ax, x, y, label, hue, 3)
-        part = [one for one in cold if way * one["speed"] > 0]
+        part = cold_at_speeds(answer, way)
         if not part:
             continue
         speed, value = np.array([abs(one["speed"]) for one in part]), np.array([one["value"] for one in part])

@@ -27,6 +27,7 @@ from .style import DASHES, MARKERS, TEXT, TICK, TITLE, colour, look, rc_of
 
 PAGE = 960.0  # width of all figures, points: side by side they have words of one size
 NARROWEST = 230.0  # of a panel whose numbers can be read, points
+ABREAST = 3  # panels in a row of a grid
 MARGIN = 14.0
 LINE = 1.25  # of the height of words
 LETTER = 0.56  # mean width of one, of their height: lines are broken by their count of letters
@@ -121,6 +122,14 @@ class Sheet(Figure):
                 ax.yaxis.set_major_locator(MaxNLocator(max(3, int(height / 38)), steps=[1, 2, 2.5, 5, 10]))
                 axes.append(ax)
         return axes
+
+    def grid(self, count: int, height: float) -> list[Any]:
+        """Axes of `count` panels of one height (points), ABREAST in a row; the last row may have room left."""
+        columns = min(ABREAST, count)
+        axes = self.panels(*[(height, [1.0] * columns)] * -(-count // columns))
+        for ax in axes[count:]:
+            ax.set_axis_off()
+        return axes[:count]
 
     def _write_head(self, width: float, titled: bool, scale: float) -> float:
         """Breaks title and subtitle into lines; returns the height that they take, points."""
