@@ -76,8 +76,8 @@ struct FieldBlock {
 bool IsSymmetric(const Law& law);
 
 /// The fields over a log's rows. Knots: 40 over the position (.05 rad apart at least; over one turn where the joint travels more than
-/// two), 24 over time, shared by the recordings, of which each has fields over time of its own, 10 over the root of the speed. Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths
-/// over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
+/// two), 24 over time, shared by the recordings, of which each has fields over time of its own, 10 over the root of the speed.
+/// Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
 /// ones are what a law, gravity or a curve over the speed does.
 /// Friction over position and over speed is orthogonal, over the rows, to a level and to the law, so that the law's parameters are those of
 /// its best line; torque over position to a constant where the law has a level for each direction, which would be the same. law: linear

@@ -186,18 +186,21 @@ void FieldFigures::HoldFlat(double slow, double fast) {
   }
 }
 
+VectorXd FieldFigures::MeanOverRows(const FieldBlock& block) const {
+  const FieldRows& rows = solved_.rows;
+  const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
+  return block.UnsignedAt(rows.time, rows.position, rows.velocity).transpose() * each;
+}
+
 VectorXd FieldFigures::MeansOfFields() const {
   VectorXd function = VectorXd::Zero(solved_.evidence.size());
-  const FieldRows& rows = solved_.rows;
-  const int way = OnlyWay(rows.velocity);
-  const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
+  const int way = OnlyWay(solved_.rows.velocity);
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
     const FieldBlock& block = solved_.blocks[k];
     if (block.kind == FieldKind::speed_friction) continue;
     // a torque counts where the log has one direction alone, in which it cannot be told from friction
     const double sign = IsFriction(block.kind) ? 1 : way;
-    const SparseRows all = block.UnsignedAt(rows.time, rows.position, rows.velocity);
-    function.segment(solved_.evidence.Begin(k), block.size()) = sign * (all.transpose() * each);
+    function.segment(solved_.evidence.Begin(k), block.size()) = sign * MeanOverRows(block);
   }
   return function;
 }
@@ -387,13 +390,10 @@ bool FieldFigures::HasConstant(size_t place_torque) const {
   const Index p = report_.rows(), others = solved_.evidence.flat() - p;
   if (others == 0) return false;
   // the constant, with the mean of the torque over the places
-  const FieldRows& rows = solved_.rows;
   const FieldBlock& block = solved_.blocks[place_torque];
-  const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
   VectorXd function = VectorXd::Zero(solved_.evidence.size());
   function.segment(p, others).setOnes();
-  function.segment(solved_.evidence.Begin(place_torque), block.size()) =
-      block.UnsignedAt(rows.time, rows.position, rows.velocity).transpose() * each;
+  function.segment(solved_.evidence.Begin(place_torque), block.size()) = MeanOverRows(block);
   return std::abs(function.dot(solved_.posterior.mean)) > kShownConstant * Deviation(function);
 }
 

@@ -114,7 +114,8 @@ class GrowingText {
 };
 
 /// Looks each time that another part of a recording has come.
-Sufficiency Watch(const UntilArguments& arguments, const RecordingSource& recording,
+Sufficiency Watch(const DesignAim& aim, const UntilArguments& arguments,
+                  const RecordingSource& recording,
                   const std::function<void(const Sufficiency&)>& looked) {
   if (recording.files.size() != 1) Refuse({"--watch"}, "is for one recording");
   const std::string& file = recording.files.front();
@@ -133,8 +134,7 @@ Sufficiency Watch(const UntilArguments& arguments, const RecordingSource& record
     if (grows && std::ranges::count(rows, '\n') < kFewest) continue;
     if (!grows && found.minutes > 0) break;
     const auto logs = MakeRecordings(rows, recording.read, InputName(file));
-    found =
-        LookWhether(Prepare(logs, recording.prepare), GoalFrom(arguments.goal), arguments.identify);
+    found = LookWhether(Prepare(logs, recording.prepare), aim, arguments.identify);
     looked(found);
   }
   return found;
@@ -153,7 +153,7 @@ ExitStatus CheckUntil(const UntilArguments& arguments, const RecordingSource& re
   };
   Sufficiency found;
   if (arguments.watch) {
-    found = Watch(arguments, recording, say);
+    found = Watch(aim, arguments, recording, say);
   } else {
     found =
         LookUntil(ReadAndPrepare(recording), aim, arguments.identify, [&](const Sufficiency& part) {

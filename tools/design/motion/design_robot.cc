@@ -285,8 +285,7 @@ RobotDesign DesignRobotMotion(const RobotDesignSettings& settings,
     Refuse({"--after"}, "is for one joint, and {} are to move", joints.size());
   }
   for (const auto& [name, file] : settings.priors) {
-    const auto& names = joints;
-    if (std::ranges::find(names, name, &RoomJoint::name) != names.end()) continue;
+    if (std::ranges::find(joints, name, &RoomJoint::name) != joints.end()) continue;
     Refuse({"--prior"}, "is for '{}', which is none of the joints that move", name);
   }
 
