@@ -74,10 +74,11 @@ std::vector<double> PlaceLengths(const Knots& knots, JointKind joint) {
   return lengths;
 }
 
-/// K -> P K P^T + 1e-6, P = I - N (N^T W N)^+ N^T W: weights whose columns are orthogonal to those of N. others: N, [m x d]
-void MakeOrthogonal(const MatrixXd& others, FieldBlock& block) {
-  const auto rows = static_cast<double>(block.columns.rows());
-  const MatrixXd gram = MatrixXd(SparseRows(block.columns.transpose()) * block.columns) / rows;
+/// K -> P K P^T + 1e-6, P = I - N (N^T W N)^+ N^T W: weights whose columns over some samples are orthogonal to those of N. over: [k x m]
+/// without signs; others: N, [m x d]
+void MakeOrthogonal(const SparseRows& over, const MatrixXd& others, FieldBlock& block) {
+  const auto rows = static_cast<double>(over.rows());
+  const MatrixXd gram = MatrixXd(SparseRows(over.transpose()) * over) / rows;
   const MatrixXd weighed = others.transpose() * gram;
   const MatrixXd inverse = (weighed * others).completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd project =
@@ -242,6 +243,10 @@ SparseRows FieldBlock::ColumnsAt(const VectorXd& time, const VectorXd& position,
   return at;
 }
 
+SparseRows FieldBlock::InMotion(const FieldRows& rows) const {
+  return UnsignedAt(rows.motion.time, rows.motion.position, rows.motion.velocity);
+}
+
 bool IsSymmetric(const Law& law) {
   const VectorXd speed = VectorXd::LinSpaced(3, 0.5, 2);
   return LawColumns(law, speed).isApprox(-LawColumns(law, -speed));
@@ -255,10 +260,10 @@ std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const Fi
     block.columns = block.ColumnsAt(rows.time, rows.position, rows.velocity);
     const bool levels_differ = kind == FieldKind::place_torque && !IsSymmetric(law);
     if (kind == FieldKind::place_friction || levels_differ) {
-      MakeOrthogonal(MatrixXd::Ones(block.size(), 1), block);
+      MakeOrthogonal(block.InMotion(rows), MatrixXd::Ones(block.size(), 1), block);
     } else if (kind == FieldKind::speed_friction) {
       const VectorXd speeds = block.fastest * block.knots.at.cwiseAbs2();
-      MakeOrthogonal(LawColumns(law, speeds), block);
+      MakeOrthogonal(block.columns, LawColumns(law, speeds), block);
     }
     for (MatrixXd& kernel : block.kernels) kernel.diagonal().array() += kNugget;
   }

@@ -29,7 +29,11 @@ struct FieldRows {
   /// [p] of what is known of the unknowns of flat columns beforehand, and its precision, 0 where nothing is; or empty
   Eigen::VectorXd prior_mean{};
   Eigen::MatrixXd prior_precision{};  // [p x p]
-  double step = 0.04;                 // s, from a row to the next, median
+  /// Of all samples in motion, also those at reversals, which make no rows: what figures are means over. [k] each
+  struct Motion {
+    Eigen::VectorXd time, position, velocity;
+  } motion{};
+  double step = 0.04;  // s, from a row to the next, median
   Eigen::Array<bool, Eigen::Dynamic, 1>
       follows;                         // [n] whether a row is the next after the one before it
   std::vector<Eigen::Index> starts{};  // first rows of further recordings
@@ -69,6 +73,8 @@ struct FieldBlock {
   /// The same without the sign of the velocity.
   SparseRows UnsignedAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                         const Eigen::VectorXd& velocity) const;
+  /// The same at the samples in motion. [k x m]
+  SparseRows InMotion(const FieldRows& rows) const;
   Eigen::Index size() const { return knots.size(); }
 };
 
@@ -79,7 +85,7 @@ bool IsSymmetric(const Law& law);
 /// two), 24 over time, shared by the recordings, of which each has fields over time of its own, 10 over the root of the speed.
 /// Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
 /// ones are what a law, gravity or a curve over the speed does.
-/// Friction over position and over speed is orthogonal, over the rows, to a level and to the law, so that the law's parameters are those of
+/// Friction over position is orthogonal, over the motion, to a level, that over speed, over the rows, to the law, so that the law's parameters are those of
 /// its best line; torque over position to a constant where the law has a level for each direction, which would be the same. law: linear
 std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const FieldRows& rows,
                                    JointKind joint, const Law& law);

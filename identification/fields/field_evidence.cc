@@ -28,7 +28,9 @@ constexpr int kAmplitudes = 32;                    // 0, and 31 even in the loga
 constexpr double kSmallest = 0.003, kLargest = 3;  // shares of the friction
 constexpr double kStart = 0.05;    // why: from above, a search rests where fields follow the noise
 constexpr double kNothing = 1e-5;  // a share that stands for an amplitude of 0
-constexpr double kFlat = 1e3;      // spread of flat columns, in deviations of the torque
+// probability beforehand that a field is not there; chosen: a real joint has most of what a law lacks
+constexpr double kNothingThere = 0.1;
+constexpr double kFlat = 1e3;  // spread of flat columns, in deviations of the torque
 constexpr int kMostSweeps = 10, kSettle = 6, kDraws = 24;
 constexpr double kJitter = 1e-13;
 
@@ -40,6 +42,17 @@ VectorXd Amplitudes() {
     all[i] = kSmallest * std::pow(kLargest / kSmallest, (i - 1) / (kAmplitudes - 2.0));
   }
   return all;
+}
+
+/// What the prior adds to the costs of amplitudes that are even in the logarithm: an amplitude is 0 with kNothingThere, else it has a
+/// half-normal density, whose exponent the cost has. scale: of that density. [kAmplitudes]
+VectorXd PriorOfAmplitudes(const VectorXd& amplitudes, double scale) {
+  const auto some = amplitudes.tail(kAmplitudes - 1).array();
+  const double all = (some * (-0.5 * (some / scale).square()).exp()).sum();
+  VectorXd cost(kAmplitudes);
+  cost[0] = -2 * std::log(kNothingThere / (1 - kNothingThere) * all);
+  cost.tail(kAmplitudes - 1) = -2 * some.log();
+  return cost;
 }
 
 /// H of any scale by its Cholesky factors with a diagonal of 1.
@@ -385,11 +398,10 @@ FieldPosterior FieldEvidence::At(const FieldHyperparameters& at) const {
 
 FieldPosterior FieldEvidence::Averaged(const FieldHyperparameters& start) const {
   const double left = LeftCorrelation(start, At(start).mean);
-  // why: cells of amplitudes that are even in the logarithm are the wider the larger they are
-  VectorXd cells = VectorXd::Zero(kAmplitudes);
-  const VectorXd amplitudes = Amplitudes();
-  cells.tail(kAmplitudes - 1) =
-      -2 * (amplitudes.tail(kAmplitudes - 1) / amplitudes[1]).array().log();
+  std::vector<VectorXd> priors;
+  for (const FieldBlock& block : blocks_) {
+    priors.push_back(PriorOfAmplitudes(Amplitudes(), block.amplitude_scale));
+  }
 
   StartStream random({});
   const auto draw = [&](const VectorXd& cost) { return Draw(cost, random); };
@@ -398,7 +410,7 @@ FieldPosterior FieldEvidence::Averaged(const FieldHyperparameters& start) const 
   MatrixXd means(size_, kDraws);
   for (int sweep = 0; sweep < kSettle + kDraws; ++sweep) {
     search.StepNoise(kFine, false, draw);
-    for (size_t k = 0; k < blocks_.size(); ++k) search.StepField(k, cells, draw);
+    for (size_t k = 0; k < blocks_.size(); ++k) search.StepField(k, priors[k], draw);
     if (sweep < kSettle) continue;
     means.col(sweep - kSettle) = At(search.at()).mean;
     FieldHyperparameters wider = search.at();

@@ -44,8 +44,8 @@ class FieldEvidence {
   double Cost(const FieldHyperparameters& at) const;
   /// The posterior for some hyperparameters.
   FieldPosterior At(const FieldHyperparameters& at) const;
-  /// Mean and covariance over hyperparameters drawn by their posterior, uniform in the amplitudes (griddy Gibbs, Ritter and Tanner
-  /// 1992), with the same draws for the same log.
+  /// Mean and covariance over hyperparameters drawn by their posterior (griddy Gibbs, Ritter and Tanner 1992), with the same draws for
+  /// the same log. An amplitude is 0 with a probability of a tenth beforehand, else half-normal.
   FieldPosterior Averaged(const FieldHyperparameters& start) const;
   /// By how much the covariance is larger since the noise is not quite of first order: 1 + 2 sum of the correlations of what is left of
   /// the residual, at least 1.

@@ -83,6 +83,13 @@ GaussianAxis AxisOver(const Knots& knots) {
   return axis;
 }
 
+/// The mean of a field over the motion, unsigned, as a function of its values. [m of the block]
+VectorXd MeanInMotion(const FieldBlock& block, const FieldRows& rows) {
+  const SparseRows columns = block.InMotion(rows);
+  const double each = 1.0 / static_cast<double>(std::max<Index>(columns.rows(), 1));
+  return columns.transpose() * VectorXd::Constant(columns.rows(), each);
+}
+
 }  // namespace
 
 VectorXd FieldsAlong(const SolvedFields& solved, Index p, const LogSamples& m) {
@@ -110,10 +117,11 @@ VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m) {
     const FieldBlock& block = solved.blocks[k];
     if (block.kind != FieldKind::time_friction && block.kind != FieldKind::time_torque) continue;
     along += block.ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
+    if (block.kind != FieldKind::time_friction) continue;
+    const double mean = MeanInMotion(block, solved.rows).dot(solved.ValuesOf(k));
+    along -= mean * m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
   }
-  const VectorXd friction = FrictionOverTime(solved);
-  if (friction.size() == 0) return along;
-  return along - friction.mean() * m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
+  return along;
 }
 
 FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const LogSamples& m)
@@ -186,12 +194,6 @@ void FieldFigures::HoldFlat(double slow, double fast) {
   }
 }
 
-VectorXd FieldFigures::MeanOverRows(const FieldBlock& block) const {
-  const FieldRows& rows = solved_.rows;
-  const VectorXd each = VectorXd::Constant(rows.size(), 1.0 / static_cast<double>(rows.size()));
-  return block.UnsignedAt(rows.time, rows.position, rows.velocity).transpose() * each;
-}
-
 VectorXd FieldFigures::MeansOfFields() const {
   VectorXd function = VectorXd::Zero(solved_.evidence.size());
   const int way = OnlyWay(solved_.rows.velocity);
@@ -200,7 +202,8 @@ VectorXd FieldFigures::MeansOfFields() const {
     if (block.kind == FieldKind::speed_friction) continue;
     // a torque counts where the log has one direction alone, in which it cannot be told from friction
     const double sign = IsFriction(block.kind) ? 1 : way;
-    function.segment(solved_.evidence.Begin(k), block.size()) = sign * MeanOverRows(block);
+    function.segment(solved_.evidence.Begin(k), block.size()) =
+        sign * MeanInMotion(block, solved_.rows);
   }
   return function;
 }
@@ -393,7 +396,8 @@ bool FieldFigures::HasConstant(size_t place_torque) const {
   const FieldBlock& block = solved_.blocks[place_torque];
   VectorXd function = VectorXd::Zero(solved_.evidence.size());
   function.segment(p, others).setOnes();
-  function.segment(solved_.evidence.Begin(place_torque), block.size()) = MeanOverRows(block);
+  function.segment(solved_.evidence.Begin(place_torque), block.size()) =
+      MeanInMotion(block, solved_.rows);
   return std::abs(function.dot(solved_.posterior.mean)) > kShownConstant * Deviation(function);
 }
 

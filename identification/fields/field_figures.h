@@ -60,9 +60,7 @@ class FieldFigures {
   /// time. load: |load|, of a friction that grows with it. [p + m]
   Eigen::VectorXd AtVelocity(double velocity, double load) const;
   Eigen::VectorXd OfFields(double speed) const;
-  /// The unsigned mean of a field over the rows, as a function of its values. [m of the block]
-  Eigen::VectorXd MeanOverRows(const FieldBlock& block) const;
-  /// Of what depends on place and time, the means over the rows. [p + m]
+  /// Of what depends on place and time, the means over the samples in motion. [p + m]
   Eigen::VectorXd MeansOfFields() const;
   /// dE/dx at the kept sample with the largest |E|, and E. [p + m]
   struct WarmMoment {

@@ -6,6 +6,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/preparation/local_motion.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 #include "models/recording/measurements.h"
@@ -101,6 +102,8 @@ FieldRows MakeFieldRows(const Fit& fit, const LogSamples& m, const MatrixXd& oth
   rows.flat = Means(ConcatColumns(jacobian, Kept(others, fit.used)), groups);
   rows.torque =
       Means(fit.residual() + jacobian * UnknownsOf(fit) + Kept(left_out, fit.used), groups);
+  const SampleMask moving = InMotion(m.velocity);
+  rows.motion = {Chosen(m.time, moving), Chosen(m.position, moving), Chosen(m.velocity, moving)};
   rows.follows.resize(std::ssize(groups));
   std::vector<double> steps;
   for (Index g = 0; g < rows.size(); ++g) {

@@ -300,9 +300,12 @@ TEST_P(Contract, CarriesTheUnitsOfALinearJoint) {
   const Estimate rotary = IdentifyRich();
   ASSERT_EQ(estimate.parameters.size(), rotary.parameters.size());
   const bool alike = !HasTurnOfTheJoint(rotary.friction);
+  // a field over the position has knots that are even in rad, of which an answer depends by far less than its errors
+  const double few = GetParam().name == "auto" ? 0.1 : 0;
   for (const EstimatedParameter& parameter : estimate.parameters) {
+    const EstimatedParameter& other = *rotary.Find(parameter.name);
     if (alike) {
-      EXPECT_EQ(parameter.value, rotary.Find(parameter.name)->value) << parameter.name;
+      EXPECT_NEAR(parameter.value, other.value, few * other.std.value_or(0)) << parameter.name;
     }
     EXPECT_EQ(parameter.unit.find("rad"), std::string::npos) << parameter.name;
     EXPECT_EQ(parameter.unit.find("N.m"), std::string::npos) << parameter.name;
