@@ -87,12 +87,20 @@ std::string TestsText(const Estimate& estimate, const Page& page) {
 
 /// The structures that were tried.
 Table TrialTable(const StructureChoice& choice, const std::string& unit) {
-  Table table{{"structure", "remark", "parameters", fmt::format("held-out RMSE {}", unit)}, {}};
+  Table table{{"structure", "remark", "parameters"}, {}};
   // which was chosen, and why others were no contenders
   for (const StructureTrial& one : choice.trials) {
     table.rows.push_back({one.name, one.name == choice.chosen ? "chosen" : one.dropped,
-                          one.parameters > 0 ? fmt::format("{:.3g}", one.parameters) : "-",
-                          one.rmse ? fmt::format("{:.4g}", *one.rmse) : "-"});
+                          one.parameters > 0 ? fmt::format("{:.3g}", one.parameters) : "-"});
+  }
+  // their errors, where blocks were needed to choose
+  if (std::ranges::none_of(choice.trials, [](const auto& one) { return one.rmse.has_value(); })) {
+    return table;
+  }
+  table.header.push_back(fmt::format("held-out RMSE {}", unit));
+  for (size_t i = 0; i < choice.trials.size(); ++i) {
+    const std::optional<double>& rmse = choice.trials[i].rmse;
+    table.rows[i].push_back(rmse ? fmt::format("{:.4g}", *rmse) : "-");
   }
   return table;
 }
@@ -104,8 +112,9 @@ std::string AssumptionsText(const Estimate& estimate) {
   for (const Assumption& one : ShownAssumptions(estimate)) {
     std::vector<std::string> moves;
     for (const auto& [name, change] : one.moves) {
-      moves.push_back(fmt::format("{} by {:.2g}", name, change));
+      if (change != 0) moves.push_back(fmt::format("{} by {:.2g}", name, change));
     }
+    if (moves.empty()) moves.emplace_back("nothing");
     text +=
         fmt::format("  {}: {}; else it moves {}\n", one.name, one.meaning, fmt::join(moves, ", "));
   }
@@ -124,11 +133,13 @@ Table HalfWidthTable(const Estimate& estimate) {
   for (const std::string& name : order) {
     std::vector<HalfWidthPart>& of = parts[name];
     std::ranges::stable_sort(of, std::greater(), &HalfWidthPart::half_width);
-    std::vector<std::string> words;
     double all = 0;
+    for (const HalfWidthPart& part : of) all += part.half_width;
+    // why 0.005: what is smaller changes none of the two digits of the whole
+    std::vector<std::string> words;
     for (const HalfWidthPart& part : of) {
+      if (part.half_width < 0.005 * all) continue;
       words.push_back(fmt::format("{} {:.2g}", part.by, part.half_width));
-      all += part.half_width;
     }
     table.rows.push_back(
         {name, fmt::format("{}", fmt::join(words, ", ")), fmt::format("{:.2g}", all)});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <warmjoint/friction.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -97,6 +98,16 @@ TEST_F(IdentifyCommand, ExplainsEveryTestAndAssumptionWhenAsked) {
     EXPECT_THAT(full, HasSubstr("  " + one.at("name").get<std::string>() + ": "));
   }
   EXPECT_THAT(Program(nominal_).out, Not(HasSubstr("test for lack of fit")));
+}
+
+TEST_F(IdentifyCommand, ExplainsItsChoiceByErrorsWhereItHadAny) {
+  const Command command{"identify", "log.csv"};
+  const auto trials = Json(command).at("choice").at("trials");
+  const bool has_errors = std::ranges::any_of(
+      trials, [](const auto& one) { return one.contains("rmse") && !one.at("rmse").is_null(); });
+  const std::string full = Program(With(command, {"--explain"})).out;
+  EXPECT_THAT(full, HasSubstr("\nstructure "));
+  EXPECT_EQ(full.find("held-out RMSE") != std::string::npos, has_errors);
 }
 
 TEST_F(IdentifyCommand, DoubtsNoUnitThatIsStated) {
