@@ -31,7 +31,7 @@ constexpr const char* kTorque = "torque";
 const std::map<std::string, std::vector<std::string>> kHints{
     {"time", {"time", "stamp", "zeit", "duration", "x_value", "t"}},
     {"position", {"pos", "angle", "winkel", "q", "theta"}},
-    {"velocity", {"vel", "speed", "drehzahl", "geschwindigkeit", "qd", "dq"}},
+    {"velocity", {"vel", "speed", "drehzahl", "geschwindigkeit", "qd", "dq", "omega", "v"}},
     {"torque",
      {"torque", "tau", "force", "effort", "moment", "current", "strom", "trq", "load", "iq", "pwm",
       "duty", "volt", "i"}},
@@ -79,6 +79,8 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
     for (const std::string& name : names) {
       const std::string lower = Lowercase(name);
       const bool is_letter = hint.size() == 1;  // "t" fits t, t_s, t [s], but not torque
+      // a voltage is no velocity
+      if (hint == "v" && SplitUnit(name, {"V"}).unit) continue;
       const bool fits =
           is_letter ? lower.substr(0, 1) == hint && (lower.size() == 1 || !std::isalpha(lower[1]))
                     : lower.find(hint) != std::string::npos;
@@ -95,16 +97,22 @@ std::optional<std::string> LikelyName(const RecordingColumn& column,
                                 const std::vector<std::string>& free, const Place& place,
                                 const std::string& there) {
   // what is lacking, and which names may be meant
-  std::vector<std::string> lacking, remedy;
-  std::string unit;  // of a torque that is something else
+  std::vector<std::string> lacking, remedy, units;
   for (const RecordingColumn* column : missing) {
     const std::string likely = LikelyName(*column, free).value_or("NAME");
     if (column->required) lacking.push_back(fmt::format("'{}'", column->name));
     remedy.push_back(column->name + "=" + likely);
     const StandIn* const stand_in = column->name == kTorque ? StandInOf(likely) : nullptr;
-    if (stand_in && !SplitUnit(likely).unit)
-      unit = fmt::format(" --unit torque={}", stand_in->Unit());
+    if (stand_in && !SplitUnit(likely).unit) {
+      units.push_back(fmt::format("torque={}", stand_in->Unit()));
+    }
+    // v_deg says by what the velocity changes the position
+    const auto distance = SplitUnit(likely, {"rad", "m"}).unit;
+    if (column->name == kVelocity && distance) {
+      units.push_back(fmt::format("velocity={}/s", distance->name));
+    }
   }
+  const std::string unit = units.empty() ? "" : fmt::format(" --unit {}", fmt::join(units, ","));
   // for a shell, which must not split names
   std::string pairs = fmt::format("{}", fmt::join(remedy, ","));
   if (pairs.find_first_of(" ()[]&;|*'") != std::string::npos) pairs = "'" + pairs + "'";
