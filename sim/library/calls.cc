@@ -28,6 +28,7 @@
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/register.h"
+#include "sim/plugin/stability.h"
 
 namespace warmjoint {
 namespace {
@@ -145,10 +146,26 @@ Tree SensorOf(const mjModel* m, const BoundJoints& bound, size_t joint) {
   return nullptr;
 }
 
+/// The largest explicit slope of each tree's friction, in units of M/h. [ntree]
+std::vector<double> SteepestOf(const mjModel* m, int plugin) {
+  std::vector<double> steepest(static_cast<size_t>(m->ntree), 0);
+  for (int instance = 0; instance < m->nplugin; ++instance) {
+    if (m->plugin[instance] != plugin) continue;
+    const BoundJoints bound(m, instance);
+    for (const BoundJoint& joint : bound.joints()) {
+      double& most = steepest[static_cast<size_t>(m->dof_treeid[joint.dof])];
+      const double slope = ExplicitSlope(m, {joint.friction, joint.viscous});
+      most = std::max(most, slope * m->opt.timestep / EffectiveInertia(m, joint.dof));
+    }
+  }
+  return steepest;
+}
+
 /// The joints of each instance, and where their numbers stand in the model's data.
 Tree Describe(const mjModel* m) {
   int plugin = -1;
   mjp_getPlugin(kFrictionPlugin, &plugin);
+  const std::vector<double> steepest = SteepestOf(m, plugin);
   Tree joints = Tree::array();
   for (int instance = 0; instance < m->nplugin; ++instance) {
     if (m->plugin[instance] != plugin) continue;
@@ -160,23 +177,25 @@ Tree Describe(const mjModel* m) {
       for (const StateMember& member : acting[i].prepared->friction.state()) {
         states.emplace_back(member.name);
       }
-      joints.push_back(
-          {{"name", NameIn(m, mjOBJ_JOINT, acting[i].joint)},
-           {"instance", name},
-           {"form", bound.passive() ? "passive" : "actuator"},
-           {"linear", m->jnt_type[acting[i].joint] == mjJNT_SLIDE},
-           {"state", bound.joints()[i].state},
-           {"states", states},
-           {"report", m->plugin_stateadr[instance]},
-           {"sensor", SensorOf(m, bound, i)},
-           {"numbers", NumbersOf(bound, i, name)},
-           {"inertia", EffectiveInertia(m, bound.joints()[i].dof)},
-           {"drive", bound.joints()[i].drive},
-           {"slope", ExplicitSlope(m, {bound.joints()[i].friction, bound.joints()[i].viscous})},
-           {"instances", bound.joints()[i].instances},
-           {"damping", bound.joints()[i].viscous == Viscous::by_damping},
-           {"initial_energy", bound.joints()[i].initial_energy},
-           {"friction", FrictionToTree(acting[i].prepared->description)}});
+      const BoundJoint& of = bound.joints()[i];
+      const double slope = steepest[static_cast<size_t>(m->dof_treeid[of.dof])];
+      // of the only instance on its tree, whose joints know of each other
+      const BristleShape shape = BristlesOf(1, of.drive, slope);
+      joints.push_back({{"name", NameIn(m, mjOBJ_JOINT, acting[i].joint)},
+                        {"instance", name},
+                        {"form", bound.passive() ? "passive" : "actuator"},
+                        {"linear", m->jnt_type[acting[i].joint] == mjJNT_SLIDE},
+                        {"state", bound.joints()[i].state},
+                        {"states", states},
+                        {"report", m->plugin_stateadr[instance]},
+                        {"sensor", SensorOf(m, bound, i)},
+                        {"numbers", NumbersOf(bound, i, name)},
+                        {"inertia", EffectiveInertia(m, bound.joints()[i].dof)},
+                        {"bristle", {{"stiffness", shape.stiffness}, {"damping", shape.damping}}},
+                        {"instances", bound.joints()[i].instances},
+                        {"damping", bound.joints()[i].viscous == Viscous::by_damping},
+                        {"initial_energy", bound.joints()[i].initial_energy},
+                        {"friction", FrictionToTree(acting[i].prepared->description)}});
     }
   }
   return {{"joints", joints}};
@@ -255,8 +274,8 @@ extern "C" {
 /// The joints with friction of a model, in the order of instances and their joints. Answer: {joints: [{name,
 /// instance, form, linear, state: first place in act (actuator) or plugin_state (passive), states: [name], report:
 /// of the instance's entries in plugin_state, sensor: place in sensordata or null, numbers: {name: {field: numeric_data or
-/// dof_damping, place there, least, above, most, words}}, inertia: effective at the reference pose, kg.m^2 or kg, drive:
-/// StiffestDrives of its tree, slope: ExplicitSlope, instances: on its tree, damping: whether the joint's damping is its viscous, initial_energy: [E1,
+/// dof_damping, place there, least, above, most, words}}, inertia: effective at the reference pose, kg.m^2 or kg, bristle:
+/// {stiffness, damping} (BristleShape) where one instance holds its tree, instances: on its tree, damping: whether the joint's damping is its viscous, initial_energy: [E1,
 /// E2], friction}]}.
 [[gnu::visibility("default")]] const char* warmjoint_joints(const mjModel* model) {
   return warmjoint::Answer([&] { return warmjoint::Describe(model); });

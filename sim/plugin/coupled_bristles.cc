@@ -6,12 +6,6 @@
 #include "sim/plugin/stability.h"
 
 namespace warmjoint {
-namespace {
-
-/// A slope of friction over speed that the step can carry takes at most so much of the damping.
-constexpr double kMostSlope = 0.5;
-
-}  // namespace
 
 CoupledBristles::CoupledBristles(const mjModel* m, const std::vector<CoupledJoint>& joints) {
   // a tree of the model for each that has joints of the instance
@@ -63,8 +57,7 @@ BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJo
 }
 
 void BristleTree::Shape(double h, double slope, double damping, double drive) {
-  const BristleShape shape =
-      BristlesOf(joints_.front().instances, drive, std::min(slope, kMostSlope), damping);
+  const BristleShape shape = BristlesOf(joints_.front().instances, drive, slope, damping);
   impulse_ = shape.stiffness / h;
   damping_ = shape.damping / h;
 }

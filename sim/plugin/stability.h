@@ -50,14 +50,18 @@ inline constexpr double kCarried = 3.9;
 /// K + 2 C (StiffestDrives) beside which bristles still hold; frictionloss lets joints rest to there.
 inline constexpr double kStiffestDrive = 3;
 
+/// A slope of friction over speed that the step can carry takes at most so much of the damping.
+inline constexpr double kMostSlope = 0.5;
+
 /// Whether drives of that K + 2 C leave bristles nothing of what the step carries.
 inline bool ShakesBeside(double drive) { return drive + kCarried - kStiffestDrive >= 4; }
 
 /// Beside drives of that K + 2 C: as above where the step carries both, else softer, with A = 2 B at last.
-/// slope: of friction over speed that the step takes explicitly, in units of M/h, which damps already;
+/// slope: of friction over speed that the step takes explicitly, in units of M/h, which damps already, up to kMostSlope;
 /// damping: share of B that the integrator carries.
 inline BristleShape BristlesOf(int instances, double drive, double slope = 0, double damping = 1) {
   const BristleShape alone = BristlesOf(instances);
+  slope = std::min(slope, kMostSlope);
   const BristleShape own{alone.stiffness * (1 - slope),
                          std::max(0.0, damping * alone.damping - slope)};
   const double left = kCarried - std::min(drive, kStiffestDrive);

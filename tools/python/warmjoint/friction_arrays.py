@@ -31,7 +31,7 @@ FloatArray = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int_]
 
-LAWS = ("coulomb", "viscous_coulomb", "asymmetric", "stribeck", "asymmetric_stribeck", "stiction")
+LAWS = tuple(law["name"] for law in _core.laws() if "kc" in law["equation"] and all(one["name"] != "bristle_stiffness" for one in law["parameters"]))
 """The laws that arrays hold; those that bring a bristle of their own are not among them."""
 _NAMES = ("coulomb", "coulomb_positive", "coulomb_negative", "static", "static_rise", "stribeck_velocity", "stribeck_exponent", "thermal_gain",
           "thermal_time_constant", "second_thermal_gain", "second_thermal_time_constant", "level_per_temperature", "viscous_per_energy", "load_gain")
@@ -167,19 +167,6 @@ def _check(found: FrictionArrays, names: list[str]) -> None:
     found.check_give()
 
 
-def bristles(drive: float, slope: float) -> tuple[float, float]:
-    """A and B of the bristles of a tree, in units of M/h^2 and M/h: the double root 0.2 of z^2 - (2 - A - B) z + 1 - B, softer beside servos
-    where the step carries A + 2 B + drive up to 3.9 (3 of it for drives). slope: the steepest that the step takes explicitly, in units of
-    m/h. Study: tests/studies/plugin.md, "Sticking"."""
-    share = min(slope, 0.5)
-    stiffness, damping = 0.64 * (1 - share), max(0.0, 0.96 - share)
-    carried = 3.9 - min(drive, 3.0)
-    if drive <= 0 or stiffness + 2 * damping <= carried:
-        return stiffness, damping
-    stiffness = min(stiffness, carried / 2)
-    return stiffness, (carried - stiffness) / 2
-
-
 @overload
 def split(model: Attached | mujoco.MjSpec | str | os.PathLike[str], spec: Literal[False] = False) -> tuple[mujoco.MjModel, FrictionArrays]: ...
 
@@ -269,7 +256,7 @@ def _same_numbers(one: mujoco.MjModel, other: mujoco.MjModel) -> bool:
 
 
 def arrays_of(bare: mujoco.MjModel, joints: list[dict[str, Any]]) -> FrictionArrays:
-    """The arrays of joints of a model. joints: name, friction, inertia, slope, drive, linear and initial_energy of each (mujoco_plugin.joints_of)."""
+    """The arrays of joints of a model. joints: name, friction, inertia, bristle, linear and initial_energy of each (mujoco_plugin.joints_of)."""
     def column(name: str) -> FloatArray:
         found = [place_of(joint["friction"], name) for joint in joints]
         return np.array([_ABSENT.get(name, 0.0) if at is None else at[0].get(at[1], 0.0) for at in found], dtype=np.float64)
@@ -278,10 +265,7 @@ def arrays_of(bare: mujoco.MjModel, joints: list[dict[str, Any]]) -> FrictionArr
     dofs = np.array([bare.jnt_dofadr[one] for one in ids])
     inertia = np.array([joint["inertia"] for joint in joints])
     h = float(bare.opt.timestep)
-    trees = bare.dof_treeid[dofs]
-    # the steepest slope of a tree shapes all its bristles
-    slopes = np.array([joint["slope"] for joint in joints]) * h / inertia
-    shapes = [bristles(joint["drive"], float(slopes[trees == tree].max())) for joint, tree in zip(joints, trees)]
+    shapes = [joint["bristle"] for joint in joints]
     return FrictionArrays(
         joints=tuple(joint["name"] for joint in joints),
         laws=tuple(joint["friction"]["law"] for joint in joints),
@@ -290,8 +274,8 @@ def arrays_of(bare: mujoco.MjModel, joints: list[dict[str, Any]]) -> FrictionArr
         linear=np.array([joint["linear"] for joint in joints]),
         gear=column("gear"),
         inertia=inertia,
-        stiffness=np.array([shape[0] for shape in shapes]),
-        damping=np.array([shape[1] for shape in shapes]),
+        stiffness=np.array([shape["stiffness"] for shape in shapes]),
+        damping=np.array([shape["damping"] for shape in shapes]),
         initial_energy=np.array([joint["initial_energy"] for joint in joints], dtype=np.float64).T.copy(),
         timestep=h,
         numbers={name: column(name) for name in _NAMES},

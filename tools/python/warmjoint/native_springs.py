@@ -66,7 +66,7 @@ class Native:
         ids = np.array([mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in names])
         if (ids < 0).any() or (model.jnt_plasticadr[ids] < 0).any():
             raise BadInput("model: lacks joints with the springs; compile it from a spec that holds this one, and give its prefix")
-        described = [{"name": name, "friction": spring["friction"], "inertia": 1.0, "slope": 0.0, "drive": 0.0,
+        described = [{"name": name, "friction": spring["friction"], "inertia": 1.0, "bristle": {"stiffness": 1.0, "damping": 1.0},
                       "initial_energy": [*spring["initial_energy"], 0.0, 0.0][:2], "linear": bool(model.jnt_type[one] == mujoco.mjtJoint.mjJNT_SLIDE)}
                      for name, spring, one in zip(names, self._springs.values(), ids)]
         self.friction: FrictionArrays = arrays_of(model, described)
