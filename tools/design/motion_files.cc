@@ -19,9 +19,6 @@ struct Track {
   const std::vector<MotionKnot>* knots;
 };
 
-/// To nine decimals, of which the texts keep all: sums of strokes about 0 leave less.
-double Rounded(double value) { return std::round(1e9 * value) / 1e9 + 0.0; }
-
 /// Where all joints are at ascending times: a call for each time with its knots, in the order of the tracks.
 template <class Visit>
 void Along(const std::vector<Track>& tracks, const std::vector<double>& times, const Visit& visit) {
@@ -65,9 +62,9 @@ std::string Csv(const std::vector<Track>& tracks, const std::vector<double>& tim
   }
   text += '\n';
   Along(tracks, times, [&](double time, const std::vector<MotionKnot>& now) {
-    text += fmt::format("{:.14g}", Rounded(time));
+    text += fmt::format("{:.14g}", AsInFiles(time));
     for (const MotionKnot& knot : now) {
-      text += fmt::format(",{:.14g},{:.14g}", Rounded(knot.position), Rounded(knot.velocity));
+      text += fmt::format(",{:.14g},{:.14g}", AsInFiles(knot.position), AsInFiles(knot.velocity));
     }
     text += '\n';
   });
@@ -82,8 +79,8 @@ std::string Trajectory(const std::vector<Track>& tracks) {
   Along(tracks, KnotTimes(tracks), [&](double time, const std::vector<MotionKnot>& now) {
     std::vector<std::string> positions, velocities;
     for (const MotionKnot& knot : now) {
-      positions.push_back(fmt::format("{:.9g}", Rounded(knot.position)));
-      velocities.push_back(fmt::format("{:.9g}", Rounded(knot.velocity)));
+      positions.push_back(fmt::format("{:.9g}", AsInFiles(knot.position)));
+      velocities.push_back(fmt::format("{:.9g}", AsInFiles(knot.velocity)));
     }
     const auto nanoseconds = std::llround(1e9 * time);
     text += fmt::format(

@@ -5,9 +5,19 @@
 #include <limits>
 
 namespace warmjoint {
+namespace {
+
+// s; why: times of a stroke's beginning and end are rounded by half a nanosecond each
+constexpr double kRounding = 1e-9;
+
+}  // namespace
+
+// sums of strokes about 0 leave no -0
+double AsInFiles(double value) { return std::round(1e9 * value) / 1e9 + 0.0; }
+
 MotionPath::MotionPath(const MotionLimits& limits, std::optional<double> start) : limits_(limits) {
   const double middle = limits.position ? ((*limits.position)[0] + (*limits.position)[1]) / 2 : 0;
-  knots_.push_back({0, start.value_or(middle), 0});
+  knots_.push_back({0, AsInFiles(start.value_or(middle)), 0});
 }
 
 void MotionPath::Add(const SpeedBlock& block, double hold) {
@@ -45,7 +55,7 @@ double MotionPath::Longest(int direction, double speed) const {
   const auto [lower, upper] = *limits_.position;
   const double place = knots_.back().position;
   const double room = direction > 0 ? upper - place : place - lower;
-  return std::max(room, 0.0) / speed + speed / limits_.acceleration;
+  return std::max(room, 0.0) / speed + speed / limits_.acceleration - kRounding;
 }
 
 void MotionPath::Stroke(double velocity, double duration) {
@@ -58,8 +68,12 @@ void MotionPath::Stroke(double velocity, double duration) {
 /// A straight line of the velocity.
 void MotionPath::Ramp(double duration, double velocity) {
   const MotionKnot& last = knots_.back();
-  knots_.push_back(
-      {last.time + duration, last.position + duration * (last.velocity + velocity) / 2, velocity});
+  time_ += duration;
+  const double time = AsInFiles(time_);
+  // no faster than asked
+  const double reached = std::trunc(1e9 * velocity) / 1e9;
+  const double way = (time - last.time) * (last.velocity + reached) / 2;
+  knots_.push_back({time, last.position + way, reached});
 }
 
 std::vector<MotionKnot> LayOut(const std::vector<SpeedBlock>& blocks, const MotionLimits& limits,

@@ -15,8 +15,12 @@ struct SpeedBlock {
   double speed = 0;     // rad/s or m/s; 0: a rest
 };
 
+/// To nine decimals, which is what files of motions keep of times, places and velocities.
+double AsInFiles(double value);
+
 /// A motion that grows block by block from rest to rest, by strokes of at most `hold` seconds with ramps of the limits' acceleration. Directions
-/// alternate; between limits a block leads from one place to another, so that all speeds come to all places.
+/// alternate; between limits a block leads from one place to another, so that all speeds come to all places. Knots are as in files, so that what
+/// is read from one keeps to the limits, too.
 class MotionPath {
  public:
   /// start: where it begins; none: in the middle of the limits
@@ -36,7 +40,8 @@ class MotionPath {
   void Ramp(double duration, double velocity);
 
   MotionLimits limits_;
-  int walk_ = 1;  // direction of a block's first stroke
+  int walk_ = 1;     // direction of a block's first stroke
+  double time_ = 0;  // s, of the last knot before it is rounded
   std::vector<MotionKnot> knots_;
 };
 

@@ -54,6 +54,27 @@ TEST(MotionPlan, KeepsToItsLimitsWhateverTheyAre) {
   }
 }
 
+TEST(MotionPlan, KeepsToItsLimitsInFilesAsWell) {
+  RandomStream random({13, 0}, Stream::test);
+  const auto rounded = [](double value) { return std::round(1e9 * value) / 1e9; };
+  for (int k = 0; k < 20; ++k) {
+    const double fastest = random.Uniform(0.05, 3), room = fastest * random.Uniform(1.3, 4);
+    const MotionLimits limits{.position = std::array{0.0, room},
+                              .velocity = {fastest / 20, fastest},
+                              .acceleration = 5 * fastest};
+    const auto knots = LayOut(SomeBlocks(limits, random), limits, 10);
+    EXPECT_EQ(knots.back().time, 600);
+    // a simulation of the file goes where its times and velocities lead
+    double place = rounded(knots[0].position);
+    for (size_t i = 1; i < knots.size(); ++i) {
+      const double lasts = rounded(knots[i].time) - rounded(knots[i - 1].time);
+      place += lasts * (rounded(knots[i].velocity) + rounded(knots[i - 1].velocity)) / 2;
+      ASSERT_GE(place, -1e-12) << i;
+      ASSERT_LE(place, room + 1e-12) << i;
+    }
+  }
+}
+
 TEST(MotionPlan, LeadsSlowSpeedsToManyPlaces) {
   MotionLimits limits{.position = std::array{-2.0, 2.0}};
   const std::vector<SpeedBlock> blocks(60, {20, 0.05});
