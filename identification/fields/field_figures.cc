@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "identification/fields/field_rows.h"
@@ -33,22 +32,6 @@ constexpr double kOneSpeed = 1.3;  // ratio of both; why: a line between nearer 
 constexpr int kSpeedCentres = 24;  // of each direction
 constexpr double kNarrow =
     0.5;  // of the centres' distance; why: narrower kernels make steps between centres
-
-std::string_view NameOfField(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::place_torque:
-      return "torque over the place";
-    case FieldKind::place_friction:
-      return "friction over the place";
-    case FieldKind::speed_friction:
-      return "a curve over the speed";
-    case FieldKind::time_friction:
-      return "friction over time";
-    case FieldKind::time_torque:
-      break;
-  }
-  return "torque over time";
-}
 
 /// Derivatives by the values of the table's rows. function: [p + m] by the coordinates of the estimated ones; returns [P]
 VectorXd ByRows(const VectorXd& function, const Fit& fit) {
@@ -457,7 +440,7 @@ std::vector<FieldShare> FieldFigures::Shares(double friction) const {
     if (!Holds(block.kind)) continue;
     const VectorXd along = block.columns * solved_.ValuesOf(k);
     const double rms = std::sqrt(along.squaredNorm() / static_cast<double>(along.size()));
-    shares.push_back({std::string(NameOfField(block.kind)), rms / friction});
+    shares.push_back({block.kind, rms / friction});
   }
   return shares;
 }

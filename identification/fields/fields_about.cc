@@ -224,8 +224,11 @@ Fit Conclude(const Round& round) {
   fit.count += static_cast<int>(round.evidence->size() - x.size());
   // what the friction file leaves out: the parts of fields that may be chance, and what lies between the centres of maps
   const VectorXd left_out = Kept(VectorXd(fit.fields->rest - DriftAlong(solved, m)), fit.used);
-  fit.summary += SummaryOfFields(figures.Shares(round.friction),
-                                 left_out.cwiseAbs().maxCoeff() / round.friction);
+  const std::vector<FieldShare> shares = figures.Shares(round.friction);
+  fit.summary += SummaryOfFields(shares, left_out.cwiseAbs().maxCoeff() / round.friction);
+  if (std::ranges::count(shares, FieldKind::time_friction, &FieldShare::kind) > 0) {
+    fit.causes.push_back(Note(ExplainMeansOverLog(fit.fields->time_friction)));
+  }
   return fit;
 }
 

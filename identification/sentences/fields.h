@@ -1,6 +1,8 @@
 // Of fields: what they hold, and why a fit has none.
 #pragma once
 
+#include <warmjoint/fields.h>
+
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -9,7 +11,7 @@ namespace warmjoint {
 
 /// How much a field holds.
 struct FieldShare {
-  std::string name;  // "friction over the place"
+  FieldKind kind = FieldKind::place_torque;
   double share = 0;  // rms, of the friction
 };
 /// The clause about what fields hold. left_out: the most that the friction file leaves out of it along the log, a share of the friction
@@ -28,6 +30,8 @@ inline constexpr const char* kNoFieldsBesideCovariance =
 inline constexpr const char* kFrictionFalls =
     "friction falls with speed: viscous friction is held at 0, Coulomb friction is that at the "
     "median speed, and the fall is in the friction at speeds and in the map over the velocity";
+/// The sentence about figures of a friction that changes over the log. drift: rms about its mean, of the friction
+std::string ExplainMeansOverLog(double drift);
 std::string ExplainFewFieldRows(Eigen::Index rows, Eigen::Index fewest);
 
 }  // namespace warmjoint
