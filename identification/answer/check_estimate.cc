@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_along.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"

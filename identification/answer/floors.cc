@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/sentences/friction.h"
 #include "identification/sentences/log.h"

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "identification/fit.h"
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
+#include "identification/fit/fit.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {

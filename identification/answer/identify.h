@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/report/report_fit.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
 

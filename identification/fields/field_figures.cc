@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "identification/fields/field_rows.h"
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/model/normal_equations.h"

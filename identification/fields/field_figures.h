@@ -7,7 +7,7 @@
 
 #include "identification/fields/field_block.h"
 #include "identification/fields/field_evidence.h"
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/sentences/fields.h"
 #include "identification/uncertainty/uncertainty.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/preparation/local_motion.h"
 #include "models/foundation/robust_noise.h"

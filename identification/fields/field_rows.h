@@ -4,7 +4,7 @@
 #include <warmjoint/prepared_log.h>
 
 #include "identification/fields/field_block.h"
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

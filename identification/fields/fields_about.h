@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

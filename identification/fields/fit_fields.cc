@@ -6,8 +6,9 @@
 
 #include "identification/fields/field_rows.h"
 #include "identification/fields/fields_about.h"
+#include "identification/fit/fit_along.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/fields.h"
 #include "identification/warming/initial_energy.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "identification/fields/field_set.h"
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 
 namespace warmjoint {
 

@@ -21,11 +21,6 @@ JointTrajectory TrajectoryOf(const LogSamples& log, BristleStart bristle) {
   return trajectory;
 }
 
-FollowedBy PartsOf(const Fit& fit) {
-  const bool grows = fit.RowOf(Role::load) && fit.gravity;
-  return {grows ? &*fit.gravity : nullptr, fit.torque_delay};
-}
-
 std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked,
                                 const FollowedBy& model) {
   const bool is_late = model.delay && logged.acceleration;
@@ -40,13 +35,6 @@ std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked
 Prediction PredictFriction(const Friction& friction, const LogSamples& log,
                            const ThermalStart& start, BristleStart bristle) {
   return AlongMotion(friction).Predict(TrajectoryOf(log, bristle), start);
-}
-
-Eigen::VectorXd TorqueAlong(const Fit& fit, const LogSamples& m) {
-  Eigen::VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
-  if (fit.gravity) torque += fit.gravity->Torque(m.position);
-  if (fit.inertia && m.acceleration) torque += *fit.inertia * *m.acceleration;
-  return torque;
 }
 
 MapPoints PointsOf(const LogSamples& measurements, const Eigen::VectorXd& energy) {

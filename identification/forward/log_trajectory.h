@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "identification/fit.h"
+#include "identification/gravity.h"
 
 namespace warmjoint {
 
@@ -27,10 +27,6 @@ struct FollowedBy {
   std::optional<double> delay{};       // s, by which the torque is late
 };
 
-/// The parts of a fit. Its friction grows with the load where the table has a row for that, whatever the value: derivatives by
-/// that row need the load of a gain of 0, too.
-FollowedBy PartsOf(const Fit& fit);
-
 /// The motion that a model's torque follows, where that is not the log's own: the earlier motion, where the torque is late
 /// relative to motion of any kind (Delayed), and under the load that its gravity gives, where friction grows with the load and
 /// the log holds none. asked: samples that are to be compared.
@@ -41,9 +37,6 @@ std::optional<LogView> Followed(const LogSamples& logged, const Selection& asked
 Prediction PredictFriction(const Friction& friction, const LogSamples& log,
                            const ThermalStart& start = {},
                            BristleStart bristle = BristleStart::sliding);
-
-/// F + G + M a of a fit along a motion that its torque follows. [N] N.m or N
-Eigen::VectorXd TorqueAlong(const Fit& fit, const LogSamples& followed);
 
 /// One row for each sample, one column for each MapQuantity in its order: [N x 5]; rad or m, rad,
 /// rad/s or m/s, N.m or N, N.m or N.

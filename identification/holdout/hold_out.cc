@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/fit.h"
 #include "models/foundation/low_pass.h"
 

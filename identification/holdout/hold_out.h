@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 
 namespace warmjoint {
 

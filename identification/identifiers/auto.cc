@@ -15,7 +15,8 @@
 #include <memory>
 #include <optional>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/model_comparison.h"
 #include "identification/identifiers/structures.h"
@@ -24,7 +25,6 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/preparation/check.h"
 #include "identification/preparation/delayed_motion.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/choice.h"
 #include "identification/sentences/late_torque.h"
 #include "identification/warming/initial_energy.h"

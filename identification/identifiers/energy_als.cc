@@ -21,8 +21,8 @@
 
 #include "identification/alternating/block_descent.h"
 #include "identification/alternating/first_guess.h"
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/layout.h"
 #include "identification/linear/linear_laws.h"

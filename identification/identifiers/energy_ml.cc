@@ -2,12 +2,12 @@
 // Needs no start. Any law that is linear in its parameters; optionally E(0). Where `position` names maps over the
 // joint's or the motor's angle, these are fitted together with law and warming (maps/energy_ml_maps.h), but without a lag.
 #include "identification/fields/fit_fields.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/energy_ml_maps.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/late_torque.h"
 #include "identification/sentences/law.h"
 #include "identification/warming/fit_law.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 
 namespace warmjoint {
 

@@ -18,9 +18,9 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/identifier.h"
 #include "identification/forward/thermal_filter.h"
-#include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"

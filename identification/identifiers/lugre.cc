@@ -20,9 +20,9 @@
 #include <optional>
 #include <vector>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/identifier.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/model/normal_equations.h"
 #include "identification/nonlinear/lugre_data.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"

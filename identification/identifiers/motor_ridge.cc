@@ -2,10 +2,10 @@
 //
 // Ripple repeats with the motor's turn: kernels over mod(gear p, 2 pi) x V on a circle, in addition to a
 // part over the joint's position for each direction of motion.
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/maps/map_model.h"
-#include "identification/seen_samples.h"
 
 namespace warmjoint {
 

@@ -3,11 +3,11 @@
 // x = argmin |A x - tau|, rows of A as in Eq. (9): [v, sign v] for law (2). Standard deviations
 // as in uncertainty.h, right for coloured noise too.
 #include "identification/fields/fit_fields.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/seen_samples.h"
 #include "identification/warming/fit_law.h"
 #include "identification/warming/torque_delay.h"
 

@@ -2,9 +2,9 @@
 //
 // Eqs. (10)-(16): law and Gaussian kernels over position, one part for each direction of motion,
 // or over position times velocity.
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/map_model.h"
-#include "identification/seen_samples.h"
 
 namespace warmjoint {
 

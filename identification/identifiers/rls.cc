@@ -12,8 +12,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"

@@ -14,7 +14,8 @@
 
 #include <cmath>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/bounds.h"
@@ -24,7 +25,6 @@
 #include "identification/model/normal_equations.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/falls.h"
 #include "identification/sentences/friction.h"
 #include "identification/uncertainty/uncertainty.h"

@@ -8,14 +8,14 @@
 #include <initializer_list>
 #include <map>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/lagged_rows.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "identification/warming/torque_delay.h"
 #include "models/friction/laws.h"

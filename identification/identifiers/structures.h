@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "identification/fields/fit_fields.h"
+#include "identification/fit/identifier.h"
 #include "identification/holdout/hold_out.h"
-#include "identification/identifier.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/nonlinear/stribeck_fit.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {

@@ -9,11 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_along.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/friction.h"
 #include "identification/sentences/law.h"
 #include "models/friction/parameter_rows.h"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/inference/inference.h"
 #include "identification/sentences/fit.h"
 #include "identification/uncertainty/tails.h"

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "identification/fit.h"
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/huber.h"

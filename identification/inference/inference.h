@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

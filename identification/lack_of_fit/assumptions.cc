@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/linear/rigid_part.h"

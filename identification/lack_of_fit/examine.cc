@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/lack_of_fit/assumptions.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/rounding.h"

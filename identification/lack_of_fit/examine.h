@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/significance.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "identification/identifier.h"
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
+#include "identification/fit/identifier.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
 

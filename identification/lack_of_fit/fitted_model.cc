@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/gravity.h"

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/growing_fit.h"
 #include "identification/lack_of_fit/rows_by_value.h"

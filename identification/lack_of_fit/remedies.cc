@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/gears.h"
 #include "identification/lagged/lagged_fit.h"

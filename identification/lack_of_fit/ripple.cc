@@ -8,7 +8,7 @@
 #include <optional>
 #include <unsupported/Eigen/FFT>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/lack_of_fit/growing_fit.h"
 #include "identification/lack_of_fit/rows_by_value.h"
 #include "identification/lack_of_fit/table.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint {

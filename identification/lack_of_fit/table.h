@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "identification/command.h"
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/growing_fit.h"

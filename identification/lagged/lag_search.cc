@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/minimise.h"
 #include "identification/model/normal_equations.h"
 #include "identification/uncertainty/tails.h"

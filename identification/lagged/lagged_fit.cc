@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/late_torque.h"
 
 namespace warmjoint {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/lagged_rows.h"
 #include "identification/options.h"

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/gravity.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/law.h"
 
 namespace warmjoint {

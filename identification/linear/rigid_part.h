@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/model/least_squares.h"
 

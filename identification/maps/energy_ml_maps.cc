@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "identification/fit/seen_samples.h"
 #include "identification/maps/local_rows.h"
 #include "identification/maps/map_model.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/maps.h"
 #include "models/recording/measurements.h"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 #include "identification/maps/map_options.h"
 
 namespace warmjoint {

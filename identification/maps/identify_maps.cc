@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/gravity.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/linear_laws.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/map_options.h"

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/maps/map_fit.h"
 
 namespace warmjoint {

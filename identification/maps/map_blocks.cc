@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/gaps.h"
 #include "models/recording/measurements.h"

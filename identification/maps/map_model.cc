@@ -4,8 +4,8 @@
 #include <iterator>
 #include <optional>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/local_rows.h"
 #include "identification/model/normal_equations.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/bounds.h"
 #include "identification/maps/map_blocks.h"

@@ -6,7 +6,7 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/kept_rows.h"
 #include "identification/model/minimise.h"
 #include "identification/model/model_squares.h"
 #include "identification/model/normal_equations.h"

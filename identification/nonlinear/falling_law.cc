@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 
 namespace warmjoint {
 namespace {

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/layout.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/laws.h"

@@ -1,7 +1,7 @@
 // The samples of a recording that show the LuGre law, and the problem of its fit.
 #pragma once
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/nonlinear/lugre_fit.h"
 
 namespace warmjoint {

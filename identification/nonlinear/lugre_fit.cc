@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/least_squares.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "models/foundation/robust_noise.h"

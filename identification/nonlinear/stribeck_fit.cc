@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/model/least_squares.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/model/least_squares.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/nonlinear/falling_law.h"
 #include "identification/uncertainty/uncertainty.h"
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"

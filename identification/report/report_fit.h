@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/normal_equations.h"
 #include "identification/robot/robot_joint.h"
 #include "identification/uncertainty/tails.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/robot/explain_robot.h"
 #include "identification/uncertainty/tails.h"
 #include "models/friction/parameter_rows.h"

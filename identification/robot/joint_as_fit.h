@@ -3,7 +3,7 @@
 
 #include <warmjoint/prepared_log.h>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/robot/robot_joint.h"
 
 namespace warmjoint {

@@ -6,7 +6,7 @@
 
 #include "identification/fields/field_rows.h"
 #include "identification/fields/fields_about.h"
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/robot/joint_as_fit.h"
 

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "identification/answer/speed_figures.h"
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/inference/apply.h"
 #include "identification/inference/inference.h"
 #include "identification/model/normal_equations.h"

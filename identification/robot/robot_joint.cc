@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/model/normal_equations.h"
 #include "identification/robot/find_heat.h"
 #include "identification/robot/joint_fields.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/model/model.h"
 #include "identification/model/solve.h"
 #include "identification/uncertainty/uncertainty.h"

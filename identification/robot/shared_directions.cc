@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/minimise.h"
 #include "identification/model/normal_equations.h"
 

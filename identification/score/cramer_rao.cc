@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"

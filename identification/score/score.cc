@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/gravity.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/score/cramer_rao.h"
-#include "identification/seen_samples.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
 
 namespace warmjoint {
 

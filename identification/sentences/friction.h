@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/sentences/moved_parameter.h"
 
 namespace warmjoint {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

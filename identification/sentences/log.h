@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
 #include "identification/sentences/moved_parameter.h"
 
 namespace warmjoint {

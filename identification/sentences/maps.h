@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

@@ -1,7 +1,7 @@
 // What sentences of several topics are about.
 #pragma once
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 
 namespace warmjoint {
 

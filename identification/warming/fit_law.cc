@@ -6,14 +6,14 @@
 #include <optional>
 #include <utility>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/hausman_test.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/huber.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/seen_samples.h"
 #include "identification/sentences/fit.h"
 #include "identification/sentences/friction.h"
 #include "identification/sentences/heat.h"

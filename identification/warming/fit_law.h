@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 #include "identification/options.h"
 #include "identification/warming/thermal_fit.h"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/warming/initial_energy.h"
 #include "models/friction/thermal.h"
 #include "models/recording/measurements.h"

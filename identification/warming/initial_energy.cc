@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/sentences/heat.h"
 #include "identification/warming/gaps.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 #include "identification/options.h"
 #include "identification/warming/thermal_fit.h"
 

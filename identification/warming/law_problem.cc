@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/linear/linear_laws.h"
 
 namespace warmjoint {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/thermal_fit.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/sentences/law.h"

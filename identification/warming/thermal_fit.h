@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/layout.h"
 #include "identification/model/model.h"

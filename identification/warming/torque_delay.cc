@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
-#include "identification/forward/log_trajectory.h"
+#include "identification/fit/fit_along.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/inference/inference.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/model/least_squares.h"

@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "identification/fit.h"
-#include "identification/identifier.h"
+#include "identification/fit/fit.h"
+#include "identification/fit/identifier.h"
 #include "identification/options.h"
 
 namespace warmjoint {

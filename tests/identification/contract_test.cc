@@ -12,9 +12,9 @@
 
 #include "identification/answer/identify.h"
 #include "identification/estimate.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/seen_samples.h"
 #include "models/friction/friction_json.h"
 #include "tests/support/bristle_recording.h"
 #include "tests/support/judging.h"

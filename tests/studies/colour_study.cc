@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "identification/answer/identify.h"
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"

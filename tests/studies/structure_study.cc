@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "identification/answer/identify.h"
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
-#include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"

@@ -36,11 +36,11 @@
 #include <vector>
 
 #include "identification/answer/identify.h"
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
-#include "identification/seen_samples.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 #include "scenarios/suite.h"

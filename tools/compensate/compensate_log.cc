@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "identification/estimate.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/seen_samples.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/node.h"
 #include "tools/shown/friction_doubt.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"

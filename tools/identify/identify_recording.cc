@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "identification/fit/seen_samples.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
-#include "identification/seen_samples.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "models/foundation/node.h"
 #include "models/friction/friction_json.h"
 #include "models/recording/measurements.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/normal_equations.h"
 #include "identification/uncertainty/tails.h"
 

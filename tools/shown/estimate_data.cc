@@ -9,7 +9,7 @@
 
 #include "identification/alternating/first_guess.h"
 #include "identification/estimate.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/preparation/check.h"

@@ -3,12 +3,12 @@
 #include <warmjoint/identify.h>
 
 #include "identification/answer/identify.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/identifier.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/holdout/hold_out.h"
-#include "identification/identifier.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/report/report_fit.h"
-#include "identification/seen_samples.h"
 
 namespace warmjoint::shown {
 namespace {

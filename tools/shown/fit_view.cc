@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "identification/answer/settling.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
-#include "identification/seen_samples.h"
 #include "identification/warming/initial_energy.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/robust_noise.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint::shown {

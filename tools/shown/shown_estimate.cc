@@ -9,8 +9,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "identification/fit_parameters.h"
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/sentences/friction.h"
 #include "models/friction/thermal.h"
 

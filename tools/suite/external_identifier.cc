@@ -11,8 +11,8 @@
 
 #include "identification/answer/check_estimate.h"
 #include "identification/estimate.h"
-#include "identification/fit_data.h"
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/options.h"
 #include "identification/warming/initial_energy.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"

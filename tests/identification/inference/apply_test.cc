@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/inference/bounds.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"

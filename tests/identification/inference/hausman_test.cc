@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/inference/inference.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/whitening.h"

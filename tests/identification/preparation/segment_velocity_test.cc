@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
+#include "identification/fit/seen_samples.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/seen_samples.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

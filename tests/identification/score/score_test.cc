@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/preparation/select.h"
 #include "identification/score/cramer_rao.h"

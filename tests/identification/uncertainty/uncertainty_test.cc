@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/normal_equations.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/noise_model.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "tests/support/coloured_noise.h"
 
 namespace warmjoint {

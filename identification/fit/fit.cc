@@ -1,8 +1,8 @@
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "identification/model/normal_equations.h"
 
 namespace warmjoint {

@@ -1,4 +1,4 @@
-#include "identification/fit_parameters.h"
+#include "identification/fit/fit_parameters.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/thermal.h"
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/inference/cause.h"
+#include "identification/fit/cause.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
 #include "identification/unknown.h"

@@ -1,4 +1,4 @@
-#include "identification/seen_samples.h"
+#include "identification/fit/seen_samples.h"
 
 namespace warmjoint {
 namespace {

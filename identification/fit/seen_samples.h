@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "identification/identifier.h"
+#include "identification/fit/identifier.h"
 
 namespace warmjoint {
 

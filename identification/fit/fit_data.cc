@@ -1,4 +1,4 @@
-#include "identification/fit_data.h"
+#include "identification/fit/fit_data.h"
 
 #include <fmt/format.h>
 
@@ -23,15 +23,6 @@ std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& va
 }
 
 }  // namespace
-
-Eigen::VectorXd AmongAll(const Eigen::VectorXd& kept, const Selection& selection,
-                         double elsewhere) {
-  Eigen::VectorXd all = Eigen::VectorXd::Constant(selection.keep.size(), elsewhere);
-  for (Eigen::Index i = 0, n = 0; i < all.size(); ++i) {
-    if (selection.keep[i]) all[i] = kept[n++];
-  }
-  return all;
-}
 
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters) {
   // what every fit uses must be finite

@@ -1,11 +1,9 @@
-// The first step of every identifier: checks of the data, with a sentence on what they lack.
+// The rows of samples that a selection keeps.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include <warmjoint/prepared_log.h>
 
-#include "identification/identifier.h"
+#include <Eigen/Core>
 
 namespace warmjoint {
 
@@ -34,15 +32,13 @@ typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& given,
 }
 
 /// The values of the kept samples at their places among all, and `elsewhere` at the others. kept: [n]; returns [N]
-Eigen::VectorXd AmongAll(const Eigen::VectorXd& kept, const Selection& selection, double elsewhere);
-
-/// Why nothing can be fitted to these data: a number that is not finite, too few kept samples for
-/// `parameters`, or a constant torque. Empty where the data can be used.
-std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);
-
-/// Names of the columns that cannot be distinguished, and the motion that would distinguish them: one sentence.
-/// mixed: names of law parameters.
-std::string Indistinct(const std::vector<std::string>& mixed, const LogSamples& measurements,
-                       const Selection& selection);
+inline Eigen::VectorXd AmongAll(const Eigen::VectorXd& kept, const Selection& selection,
+                                double elsewhere) {
+  Eigen::VectorXd all = Eigen::VectorXd::Constant(selection.keep.size(), elsewhere);
+  for (Eigen::Index i = 0, n = 0; i < all.size(); ++i) {
+    if (selection.keep[i]) all[i] = kept[n++];
+  }
+  return all;
+}
 
 }  // namespace warmjoint

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "identification/fit.h"
+#include "identification/fit/fit.h"
 #include "identification/options.h"
 #include "models/foundation/random_stream.h"
 
