@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/fit/cause.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/table.h"
 #include "models/foundation/atomic_file.h"
@@ -32,6 +33,7 @@ std::vector<std::string> NamesOf(const List& list, Member member) {
 
 std::vector<PageOf> AllPages() {
   return {{"tools/docs/lack-of-fit.md", NamesOf(LackOfFitTests(), &LackOfFitTest::name)},
+          {"tools/docs/trust.md", NamesOf(WordsOf(Source{}), &Word<Source>::name)},
           {"tools/docs/identifiers.md", NamesOf(Identifiers(), &Identifier::name)},
           {"tools/docs/files.md", LawNames()},
           {"tools/docs/formats.md", NamesOf(LogFormats(), &LogFormat::ending)},
