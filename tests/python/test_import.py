@@ -1,6 +1,7 @@
 """What `import warmjoint` does: it loads the plugin where one fits, and is silent where none does."""
 
 import os
+import pathlib
 import pickle
 import subprocess
 import sys
@@ -25,6 +26,12 @@ print("stepped")
 def run_python(code, *arguments, cwd=None, **environment):
     return subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, check=False, cwd=cwd,
                           env={**os.environ, **environment})
+
+
+def test_what_tries_a_wheel_takes_the_package_that_is_installed(tmp_path):
+    script = pathlib.Path(__file__).with_name("try_wheel.py")
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (0, "status of a simulated log: ok\n"), done.stderr
 
 
 def test_a_process_that_imports_the_package_takes_models_with_friction(tmp_path):
