@@ -25,6 +25,10 @@ using Eigen::VectorXd;
 // why: nothing is known of a parameter beyond a factor of ten; keeps what a motion does not show finite
 constexpr double kKnown = 0.01;
 
+constexpr Index kCurve = 7;  // why: as many as the speeds that a search has
+// s at a speed; why: about a stroke, which shows a curve that is larger than its own error
+constexpr double kShowsCurve = 10;
+
 constexpr int kDrawn = 64;  // why: of which a handful is kept; more change their spread by little
 
 /// Broad ranges about a fifth of the torque: at the fastest speed friction falls by a quarter to two thirds, within minutes to half an hour, as in the gears
@@ -126,7 +130,8 @@ std::vector<Friction> Representatives(const DrawnFriction& prior, std::uint64_t 
   return chosen;
 }
 
-PossibleJoint::PossibleJoint(Friction friction, StartBelief start, double noise, double rate)
+PossibleJoint::PossibleJoint(Friction friction, StartBelief start, double noise, double rate,
+                             std::optional<std::array<double, 2>> curve)
     : friction_(std::move(friction)), start_(start), noise_(noise), rate_(rate) {
   const Law& law = *FindLaw(friction_.law);
   std::vector<double> values;
@@ -138,14 +143,22 @@ PossibleJoint::PossibleJoint(Friction friction, StartBelief start, double noise,
   const double level = values_.cwiseAbs().maxCoeff();
   if (friction_.thermal) {
     for (const ParameterInfo& parameter : Thermal::parameters) names_.emplace_back(parameter.name);
-    values.insert(values.end(), {friction_.thermal->gain, friction_.thermal->time_constant, level});
+    values.insert(values.end(), {friction_.thermal->gain, friction_.thermal->time_constant});
   }
+  const auto p = static_cast<Index>(names_.size());
+  if (curve) {
+    curve_.at = VectorXd::LinSpaced(kCurve, std::sqrt((*curve)[0]), std::sqrt((*curve)[1]));
+  }
+  values.insert(values.end(), static_cast<size_t>(curve_.size()),
+                noise / std::sqrt(rate * kShowsCurve));
+  if (friction_.thermal) values.push_back(level);
   scales_ = VectorXd::Map(values.data(), std::ssize(values));
   for (double& scale : scales_) {
     if (scale == 0) scale = level > 0 ? level : 1;
   }
-  const auto p = static_cast<Index>(names_.size());
-  known_ = MatrixXd::Zero(p, p);
+  // in units of the size that a curve has
+  known_ = MatrixXd::Zero(p + curve_.size(), p + curve_.size());
+  known_.diagonal().tail(curve_.size()).setOnes();
 }
 
 PossibleJoint::Samples PossibleJoint::SamplesOf(const MotionCells& cells) const {
@@ -156,11 +169,21 @@ PossibleJoint::Samples PossibleJoint::SamplesOf(const MotionCells& cells) const 
   motion.mean_speed = cells.mean_speed;
   motion.loss_velocity = cells.loss_velocity;
   const MatrixXd columns = LawColumns(law, cells.velocity);
-  Samples samples{columns, cells.held};
+  const auto p = static_cast<Index>(names_.size());
+  Samples samples{MatrixXd(cells.time.size(), scales_.size()), cells.held};
+  samples.rows.leftCols(columns.cols()) = columns;
+  if (curve_.size() > 0) {
+    // what does not move is at no speed
+    const VectorXd speed = cells.velocity.cwiseAbs().cwiseMax(curve_.at[0] * curve_.at[0]);
+    samples.rows.middleCols(p, curve_.size()) =
+        cells.velocity.cwiseSign().asDiagonal() * MatrixXd(curve_.Columns(speed.cwiseSqrt()));
+  }
   if (friction_.thermal) {
     const LawBlocks blocks(motion, columns, LossColumns(law, motion),
                            MatrixXd(cells.time.size(), 0));
-    samples.rows = WarmJacobian(blocks, values_, *friction_.thermal, 0);
+    const MatrixXd warm = WarmJacobian(blocks, values_, *friction_.thermal, 0);
+    samples.rows.leftCols(p) = warm.leftCols(p);
+    samples.rows.rightCols(1) = warm.rightCols(1);
     // a joint so warm that it would move by itself is none
     const VectorXd energy = blocks.loop->Simulate(values_, *friction_.thermal).energy;
     const double level =
@@ -173,28 +196,33 @@ PossibleJoint::Samples PossibleJoint::SamplesOf(const MotionCells& cells) const 
 }
 
 MatrixXd PossibleJoint::Information(const MotionCells& cells) const {
-  const auto p = static_cast<Index>(names_.size());
+  const Index n = known_.rows();
   // cells count as often as they hold samples
   const Samples samples = SamplesOf(cells);
   const VectorXd weights = (rate_ * samples.seconds).cwiseSqrt() / noise_;
   const MatrixXd all = GramOf(weights.asDiagonal() * samples.rows);
-  MatrixXd information = all.topLeftCorner(p, p);
-  if (friction_.thermal && start_ == StartBelief::estimated && all(p, p) > 0) {
-    information -= all.col(p).head(p) * all.row(p).head(p) / all(p, p);
+  MatrixXd information = all.topLeftCorner(n, n);
+  if (friction_.thermal && start_ == StartBelief::estimated && all(n, n) > 0) {
+    information -= all.col(n).head(n) * all.row(n).head(n) / all(n, n);
   }
   return information + known_;
 }
 
 MatrixXd PossibleJoint::MeanSquare(const MotionCells& cells) const {
-  const auto p = static_cast<Index>(names_.size());
   const Samples samples = SamplesOf(cells);
+  MatrixXd rows = samples.rows.leftCols(known_.rows());
   const VectorXd weights = samples.seconds.cwiseSqrt();
   const double seconds = std::max(samples.seconds.sum(), std::numeric_limits<double>::min());
-  return GramOf(weights.asDiagonal() * samples.rows.leftCols(p)) / seconds;
+  const MatrixXd warm = GramOf(weights.asDiagonal() * rows);
+  // without heat
+  rows.leftCols(values_.size()) = LawColumns(*FindLaw(friction_.law), cells.velocity) *
+                                  scales_.head(values_.size()).asDiagonal();
+  if (friction_.thermal) rows.middleCols(values_.size(), 2).setZero();
+  return (warm + GramOf(weights.asDiagonal() * rows)) / (2 * seconds);
 }
 
 AimCost::AimCost(const DesignAim& aim, const PossibleJoint& joint, const MotionCells& usual)
-    : kind_(aim.kind) {
+    : kind_(aim.kind), parameters_(std::ssize(joint.names())) {
   if (kind_ == AimKind::friction) mean_square_ = joint.MeanSquare(usual);
   if (kind_ != AimKind::parameter) return;
   const auto& names = joint.names();
@@ -208,8 +236,8 @@ AimCost::AimCost(const DesignAim& aim, const PossibleJoint& joint, const MotionC
 }
 
 double AimCost::operator()(const MatrixXd& information) const {
-  const Index p = information.rows();
-  const MatrixXd known = information + kKnown * MatrixXd::Identity(p, p);
+  const Index p = kind_ == AimKind::friction ? information.rows() : parameters_;
+  const MatrixXd known = information.topLeftCorner(p, p) + kKnown * MatrixXd::Identity(p, p);
   const Eigen::LLT<MatrixXd> factor(known);
   switch (kind_) {
     case AimKind::everything:
@@ -222,9 +250,11 @@ double AimCost::operator()(const MatrixXd& information) const {
   return 0;
 }
 
-VectorXd Deviations(const MatrixXd& information) {
-  const Index p = information.rows();
-  return Cofactor(information + kKnown * MatrixXd::Identity(p, p)).diagonal().cwiseSqrt();
+VectorXd Deviations(const PossibleJoint& joint, const MotionCells& cells) {
+  const Index p = std::ssize(joint.names());
+  const MatrixXd known =
+      joint.Information(cells).topLeftCorner(p, p) + kKnown * MatrixXd::Identity(p, p);
+  return Cofactor(known).diagonal().cwiseSqrt();
 }
 
 }  // namespace warmjoint

@@ -4,10 +4,12 @@
 #include <warmjoint/design.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "identification/fields/field_block.h"
 #include "scenarios/truth_draws.h"
 #include "tools/design/motion_plan.h"
 
@@ -23,23 +25,27 @@ std::vector<Friction> Representatives(const DrawnFriction& prior, std::uint64_t 
 /// A friction of law and heat along motions. Parameters are relative to their values, so that deviations are shares.
 class PossibleJoint {
  public:
-  /// noise: standard deviation of a sample, N.m or N; rate: samples in a second
-  PossibleJoint(Friction friction, StartBelief start, double noise, double rate);
+  /// noise: standard deviation of a sample, N.m or N; rate: samples in a second; curve: slowest and fastest speed where the fit has a field over
+  /// the speed
+  PossibleJoint(Friction friction, StartBelief start, double noise, double rate,
+                std::optional<std::array<double, 2>> curve = {});
 
   const Friction& friction() const { return friction_; }
+  bool HasCurve() const { return curve_.size() > 0; }
   /// What an earlier log tells of the same parameters joins all information from here on.
   void Know(const MotionCells& earlier) { known_ += Information(earlier); }
   /// [p] names of the law's parameters and of the heat's.
   const std::vector<std::string>& names() const { return names_; }
-  /// Information about the parameters, [p x p], by the samples at constant speed: J^T J over the noise's variance, J the derivatives
-  /// of the fits' own model, and by what is known; an E(0) that is estimated is integrated out.
+  /// Information about the parameters and behind them the m values of the curve, [p + m x p + m], by the samples at constant speed: J^T J over
+  /// the noise's variance, J the derivatives of the fits' own model, and by what is known; an E(0) that is estimated is integrated out.
   Eigen::MatrixXd Information(const MotionCells& cells) const;
-  /// J^T J over the samples, [p x p]: x^T of it x is the mean square change of the friction along the motion by a change x.
+  /// J^T J over the samples, [p + m x p + m]: x^T of it x is the mean square change by a change x of the friction at the motion's speeds, half
+  /// of it along the motion, half of it cold.
   Eigen::MatrixXd MeanSquare(const MotionCells& cells) const;
 
  private:
   struct Samples {
-    Eigen::MatrixXd rows;     // [n x p + 1 or p] derivatives by parameters and E(0)
+    Eigen::MatrixXd rows;     // [n x p + m + 1 or p + m] derivatives by parameters, curve and E(0)
     Eigen::VectorXd seconds;  // [n] that a cell counts, 0 once the joint would drive itself
   };
   Samples SamplesOf(const MotionCells& cells) const;
@@ -49,12 +55,14 @@ class PossibleJoint {
   double noise_, rate_;
   std::vector<std::string> names_;
   Eigen::VectorXd values_;  // [d] of the law
-  Eigen::VectorXd scales_;  // [p + 1] of parameters and E(0)
-  Eigen::MatrixXd known_;   // [p x p]
+  Knots curve_{};           // [m] over the root of the speed, or none
+  Eigen::VectorXd scales_;  // [p + m + 1] of parameters, curve and E(0)
+  Eigen::MatrixXd known_;   // [p + m x p + m]
 };
 
 /// Logarithm of the standard deviation of what is aimed at, relative to its value: half of log(c^T C c) for a parameter, of
-/// log trace(C M) for the friction along a motion, of log det(C) / p for everything. C: the inverse of the information.
+/// log trace(C M) for the friction along a motion, of log det(C) / p for everything. C: the inverse of the information, for the friction with
+/// the curve, else of law and heat alone.
 class AimCost {
  public:
   /// usual: a motion of which the friction is to be known. Throws BadInput for a parameter that the joint lacks.
@@ -63,11 +71,11 @@ class AimCost {
 
  private:
   AimKind kind_;
-  Eigen::Index parameter_ = 0;
+  Eigen::Index parameter_ = 0, parameters_;
   Eigen::MatrixXd mean_square_;
 };
 
-/// Relative standard deviations of all parameters. [p]
-Eigen::VectorXd Deviations(const Eigen::MatrixXd& information);
+/// Relative standard deviations of a joint's parameters, of law and heat alone. [p]
+Eigen::VectorXd Deviations(const PossibleJoint& joint, const MotionCells& cells);
 
 }  // namespace warmjoint

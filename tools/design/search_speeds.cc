@@ -41,10 +41,13 @@ std::vector<SpeedBlock> Strokes(const DesignSettings& settings) {
   return std::vector<SpeedBlock>(n, {seconds / static_cast<double>(n), 0});
 }
 
-/// Whether a block keeps a speed between slowest and fastest, so that the log shows a curve that the law lacks: of all motions but
-/// those for one parameter every tenth one.
-bool IsSurvey(const DesignAim& aim, size_t block) {
-  return aim.kind != AimKind::parameter && block % kSurvey == kSurvey / 2;
+/// Whether a block keeps a speed between slowest and fastest, so that the log shows a curve that the law lacks: every tenth one, of motions
+/// for one parameter none, nor of those for a friction with a curve, which go there by themselves.
+bool IsSurvey(const SpeedSearch& search, size_t block) {
+  const AimKind aim = search.settings.aim.kind;
+  if (aim == AimKind::parameter) return false;
+  if (aim == AimKind::friction && search.joints.front().HasCurve()) return false;
+  return block % kSurvey == kSurvey / 2;
 }
 
 /// One run of exchanges.
@@ -57,7 +60,7 @@ class Exchange {
     const std::vector<double> choices = Choices(search_.settings.limits);
     size_t next = 0;
     for (size_t i = 0; i < blocks_.size(); ++i) {
-      if (!IsSurvey(search_.settings.aim, i)) continue;
+      if (!IsSurvey(search_, i)) continue;
       blocks_[i].speed = choices[2 + next++ % (choices.size() - 3)];
     }
     best_ = Cost();
@@ -86,7 +89,7 @@ class Exchange {
                                          blocks_.begin() + static_cast<std::ptrdiff_t>(last));
     const auto set = [&](double speed) {
       for (size_t i = first; i < last; ++i) {
-        if (!IsSurvey(search_.settings.aim, i)) blocks_[i].speed = speed;
+        if (!IsSurvey(search_, i)) blocks_[i].speed = speed;
       }
     };
     std::optional<double> chosen;

@@ -28,7 +28,7 @@ double CostOf(const std::vector<MotionKnot>& knots, const SpeedSearch& search, c
 
 /// Exchange: groups of neighbouring blocks take each of some speeds and a rest in turn, and keep the one at which the mean cost is least;
 /// groups become finer. It begins at random speeds, several times. Every tenth block surveys the speeds between,
-/// unless one parameter is aimed at. Returns the best.
+/// unless one parameter is aimed at, or a friction with a curve. Returns the best.
 std::vector<SpeedBlock> SearchSpeeds(const SpeedSearch& search);
 
 /// Speeds drawn uniformly between the limits, a stroke each.

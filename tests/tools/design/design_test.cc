@@ -163,6 +163,46 @@ TEST_F(DesignedMotion, RefusesWhatCannotBeWithTheNumberThatCan) {
   EXPECT_THAT(refusal(settings), HasSubstr("viscous_coulomb"));
 }
 
+/// The share of a motion at speeds well between the slowest and the fastest.
+double ShareBetween(const std::vector<SpeedBlock>& blocks, const MotionLimits& limits) {
+  double between = 0, all = 0;
+  for (const SpeedBlock& block : blocks) {
+    all += block.duration;
+    if (block.speed > 1.5 * limits.velocity[0] && block.speed < limits.velocity[1] / 1.5) {
+      between += block.duration;
+    }
+  }
+  return between / all;
+}
+
+TEST(SpeedSearch, FrictionWithACurveIsLookedAtAtAllSpeeds) {
+  DesignSettings settings;
+  settings.minutes = 10;
+  settings.aim = AimFrom("friction");
+  Friction friction;
+  friction.law = "viscous_coulomb";
+  friction.parameters = {{"viscous", 5}, {"coulomb", 15}};
+  friction.thermal = Thermal{};
+  friction.thermal->gain = -1;
+  friction.thermal->time_constant = 600;
+  const std::vector<PossibleJoint> law{{friction, StartBelief::cold, 0.5, 20}};
+  const std::vector<PossibleJoint> curved{
+      {friction, StartBelief::cold, 0.5, 20, settings.limits.velocity}};
+  // a line is known by its ends
+  const auto of_law = SearchSpeeds({settings, law});
+  const auto of_curve = SearchSpeeds({settings, curved});
+  EXPECT_LT(ShareBetween(of_law, settings.limits), 0.3);
+  EXPECT_GT(ShareBetween(of_curve, settings.limits), 0.4);
+  // and the curve's motion is the better one for it
+  const SpeedSearch search{settings, curved};
+  const AimCost cost = CostsOf(search).front();
+  const auto known = [&](const std::vector<SpeedBlock>& blocks) {
+    return CostOf(LayOut(blocks, settings.limits, settings.hold), search, cost, curved.front());
+  };
+  EXPECT_LT(known(of_curve), known(of_law));
+  EXPECT_LT(known(of_curve), known(RandomSpeeds(settings, 1)));
+}
+
 TEST(Aim, IsReadAndWrittenAlike) {
   for (const char* text : {"D", "friction", "friction=5%", "thermal_gain", "thermal_gain=12.5%"}) {
     EXPECT_EQ(TextOf(AimFrom(text)), text);

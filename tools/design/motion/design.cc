@@ -8,6 +8,9 @@
 #include <cmath>
 
 #include "identification/estimate.h"
+#include "identification/fields/fit_fields.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/identifiers/structures.h"
 #include "identification/linear/linear_laws.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -202,13 +205,23 @@ DrawnFriction PriorAfter(const PreparedLog& after, DesignSettings& settings) {
   return prior;
 }
 
+/// Whether the fits of an identifier have a curve over the speed beside the law.
+bool FitsCurve(const std::string& identifier) {
+  const Options& options = FindIdentifier(identifier).options;
+  const auto* of_auto = options.Find<AutoOptions>();
+  const auto fields = of_auto ? of_auto->fields : options.OrDefault<FieldOption>().fields;
+  return std::ranges::find(fields.kinds, FieldKind::speed_friction) != fields.kinds.end();
+}
+
 /// The prior's draws as the search sees them, behind an earlier log.
 std::vector<PossibleJoint> JointsOf(const DesignSettings& settings,
                                     const std::vector<Friction>& frictions,
                                     const std::optional<PreparedLog>& after) {
   std::vector<PossibleJoint> joints;
+  std::optional<std::array<double, 2>> curve;
+  if (FitsCurve(settings.identifier)) curve = settings.limits.velocity;
   for (const Friction& friction : frictions) {
-    joints.emplace_back(friction, settings.start, *settings.noise, settings.rate);
+    joints.emplace_back(friction, settings.start, *settings.noise, settings.rate, curve);
   }
   const double cell = CellLength(settings, joints);
   for (PossibleJoint& joint : joints) {
@@ -223,7 +236,7 @@ std::vector<DesignDraw> DrawsOf(const SpeedSearch& search, const std::vector<Mot
   std::vector<DesignDraw> draws;
   for (const PossibleJoint& joint : search.joints) {
     DesignDraw& draw = draws.emplace_back(DesignDraw{joint.friction()});
-    const Eigen::VectorXd deviations = Deviations(joint.Information(cells));
+    const Eigen::VectorXd deviations = Deviations(joint, cells);
     for (size_t i = 0; i < joint.names().size(); ++i) {
       draw.deviations.emplace_back(joint.names()[i], deviations[static_cast<Eigen::Index>(i)]);
     }
