@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whether designed motions keep to their limits, whatever these are, and whether the same seed gives the same bytes.
 
-    design_limits.py PROGRAM [--designs 100] [--robot FILE]
+    design_limits.py PROGRAM [--designs 100] [--robot FILE] [--minutes 2]
 
 Each design has limits, priors, minutes and a seed by chance. Of each the positions, velocities and accelerations of its motion are looked at between
 all corners, and the friction of each of its draws at the motion's speeds against the torque. Of every tenth the bytes of a second run are compared.
@@ -86,12 +86,12 @@ def single(program, folder, chance):
     return found, False
 
 
-def robots(program, folder, chance, file):
+def robots(program, folder, chance, file, minutes):
     """The same of a robot's joints."""
     import mujoco
     import numpy as np
 
-    options = ["--joint", ".*", "--minutes", 2, "--seed", chance.randrange(2**32), "--identifier", "nominal-ls", "--hold", round(chance.uniform(3, 12), 2),
+    options = ["--joint", ".*", "--minutes", minutes, "--seed", chance.randrange(2**32), "--identifier", "nominal-ls", "--hold", round(chance.uniform(3, 12), 2),
                "--limits", f"velocity=0.05..{chance.uniform(0.3, 2):.3f},acceleration={chance.uniform(3, 10):.3f}"]
     done = subprocess.run([program, "design", file, *map(str, options), "-o", folder / "a"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -112,7 +112,7 @@ def robots(program, folder, chance, file):
     dofs = [model.joint(name).dofadr[0] for name in motions]
     touching = None
     efforts = [design["joints"][name]["settings"]["limits"]["torque"] or np.inf for name in motions]
-    for time in np.arange(0, 120, 0.0071):
+    for time in np.arange(0, 60 * minutes, 0.0071):
         k = min(int(np.searchsorted(table[0, :, 0], time, side="right")), table.shape[1] - 1)
         before, after = table[:, k - 1], table[:, k]
         slope = (after[:, 2] - before[:, 2]) / (after[:, 0] - before[:, 0])
@@ -140,11 +140,13 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--designs", type=int, default=100)
     parser.add_argument("--robot")
+    parser.add_argument("--minutes", type=int, default=2, help="of a robot's designs")
     asked = parser.parse_args()
     chance, broken, refused = random.Random(1), [], 0
     for number in range(asked.designs):
         with tempfile.TemporaryDirectory() as made:
-            found, no = robots(asked.program, pathlib.Path(made), chance, asked.robot) if asked.robot else single(asked.program, pathlib.Path(made), chance)
+            folder = pathlib.Path(made)
+            found, no = robots(asked.program, folder, chance, asked.robot, asked.minutes) if asked.robot else single(asked.program, folder, chance)
         refused += no
         if found:
             broken.append(number)
