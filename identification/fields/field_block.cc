@@ -74,16 +74,19 @@ std::vector<double> PlaceLengths(const Knots& knots, JointKind joint) {
   return lengths;
 }
 
-/// K -> P K P^T + 1e-6, P = I - N (N^T W N)^+ N^T W: weights whose columns over some samples are orthogonal to those of N. over: [k x m]
-/// without signs; others: N, [m x d]
-void MakeOrthogonal(const SparseRows& over, const MatrixXd& others, FieldBlock& block) {
-  const auto rows = static_cast<double>(over.rows());
-  const MatrixXd gram = MatrixXd(SparseRows(over.transpose()) * over) / rows;
-  const MatrixXd weighed = others.transpose() * gram;
-  const MatrixXd inverse = (weighed * others).completeOrthogonalDecomposition().pseudoInverse();
+/// K -> P K P^T, P = I - N (W N)^+ W: values whose weighed sums are 0. others: N, [m x d]; weights: W, [d x m]
+void MakeOrthogonal(const MatrixXd& others, const MatrixXd& weights, FieldBlock& block) {
+  const MatrixXd inverse = (weights * others).completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd project =
-      MatrixXd::Identity(block.size(), block.size()) - others * inverse * weighed;
+      MatrixXd::Identity(block.size(), block.size()) - others * inverse * weights;
   for (MatrixXd& kernel : block.kernels) kernel = project * kernel * project.transpose();
+}
+
+/// The mean of a block's columns over the motion, without signs. [m]
+VectorXd MeanInMotion(const FieldBlock& block, const FieldRows::Motion& motion) {
+  const SparseRows columns = block.UnsignedAt(motion.time, motion.position, motion.velocity);
+  const auto samples = static_cast<double>(std::max<Index>(columns.rows(), 1));
+  return columns.transpose() * VectorXd::Constant(columns.rows(), 1 / samples);
 }
 
 /// The root of the speed among the knots.
@@ -243,10 +246,6 @@ SparseRows FieldBlock::ColumnsAt(const VectorXd& time, const VectorXd& position,
   return at;
 }
 
-SparseRows FieldBlock::InMotion(const FieldRows& rows) const {
-  return UnsignedAt(rows.motion.time, rows.motion.position, rows.motion.velocity);
-}
-
 bool IsSymmetric(const Law& law) {
   const VectorXd speed = VectorXd::LinSpaced(3, 0.5, 2);
   return LawColumns(law, speed).isApprox(-LawColumns(law, -speed));
@@ -258,12 +257,15 @@ std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const Fi
   for (const FieldKind kind : kinds) {
     FieldBlock& block = blocks.emplace_back(Make(kind, rows, joint));
     block.columns = block.ColumnsAt(rows.time, rows.position, rows.velocity);
+    block.mean = MeanInMotion(block, rows.motion);
     const bool levels_differ = kind == FieldKind::place_torque && !IsSymmetric(law);
     if (kind == FieldKind::place_friction || levels_differ) {
-      MakeOrthogonal(block.InMotion(rows), MatrixXd::Ones(block.size(), 1), block);
+      MakeOrthogonal(MatrixXd::Ones(block.size(), 1), block.mean.transpose(), block);
     } else if (kind == FieldKind::speed_friction) {
-      const VectorXd speeds = block.fastest * block.knots.at.cwiseAbs2();
-      MakeOrthogonal(block.columns, LawColumns(law, speeds), block);
+      const MatrixXd of_law = LawColumns(law, block.fastest * block.knots.at.cwiseAbs2());
+      const MatrixXd gram = MatrixXd(SparseRows(block.columns.transpose()) * block.columns) /
+                            static_cast<double>(rows.size());
+      MakeOrthogonal(of_law, of_law.transpose() * gram, block);
     }
     for (MatrixXd& kernel : block.kernels) kernel.diagonal().array() += kNugget;
   }

@@ -62,6 +62,7 @@ struct FieldBlock {
   FieldKind kind;
   Knots knots{};
   SparseRows columns{};                    // [n x m]
+  Eigen::VectorXd mean{};                  // [m] of the columns over the motion, without signs
   std::vector<double> lengths{};           // [l] of the kernels, in the unit of the knots
   std::vector<Eigen::MatrixXd> kernels{};  // [l] of [m x m], covariance at amplitude 1
   double amplitude_scale = 0;  // of the half-normal prior of its amplitude, a share of the friction
@@ -73,8 +74,6 @@ struct FieldBlock {
   /// The same without the sign of the velocity.
   SparseRows UnsignedAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                         const Eigen::VectorXd& velocity) const;
-  /// The same at the samples in motion. [k x m]
-  SparseRows InMotion(const FieldRows& rows) const;
   Eigen::Index size() const { return knots.size(); }
 };
 

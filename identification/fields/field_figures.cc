@@ -66,13 +66,6 @@ GaussianAxis AxisOver(const Knots& knots) {
   return axis;
 }
 
-/// The mean of a field over the motion, unsigned, as a function of its values. [m of the block]
-VectorXd MeanInMotion(const FieldBlock& block, const FieldRows& rows) {
-  const SparseRows columns = block.InMotion(rows);
-  const double each = 1.0 / static_cast<double>(std::max<Index>(columns.rows(), 1));
-  return columns.transpose() * VectorXd::Constant(columns.rows(), each);
-}
-
 }  // namespace
 
 VectorXd FieldsAlong(const SolvedFields& solved, Index p, const LogSamples& m) {
@@ -101,7 +94,7 @@ VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m) {
     if (block.kind != FieldKind::time_friction && block.kind != FieldKind::time_torque) continue;
     along += block.ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
     if (block.kind != FieldKind::time_friction) continue;
-    const double mean = MeanInMotion(block, solved.rows).dot(solved.ValuesOf(k));
+    const double mean = block.mean.dot(solved.ValuesOf(k));
     along -= mean * m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
   }
   return along;
@@ -185,8 +178,7 @@ VectorXd FieldFigures::MeansOfFields() const {
     if (block.kind == FieldKind::speed_friction) continue;
     // a torque counts where the log has one direction alone, in which it cannot be told from friction
     const double sign = IsFriction(block.kind) ? 1 : way;
-    function.segment(solved_.evidence.Begin(k), block.size()) =
-        sign * MeanInMotion(block, solved_.rows);
+    function.segment(solved_.evidence.Begin(k), block.size()) = sign * block.mean;
   }
   return function;
 }
@@ -379,8 +371,7 @@ bool FieldFigures::HasConstant(size_t place_torque) const {
   const FieldBlock& block = solved_.blocks[place_torque];
   VectorXd function = VectorXd::Zero(solved_.evidence.size());
   function.segment(p, others).setOnes();
-  function.segment(solved_.evidence.Begin(place_torque), block.size()) =
-      MeanInMotion(block, solved_.rows);
+  function.segment(solved_.evidence.Begin(place_torque), block.size()) = block.mean;
   return std::abs(function.dot(solved_.posterior.mean)) > kShownConstant * Deviation(function);
 }
 

@@ -146,17 +146,13 @@ Tree SensorOf(const mjModel* m, const BoundJoints& bound, size_t joint) {
   return nullptr;
 }
 
-/// The largest explicit slope of each tree's friction, in units of M/h. [ntree]
-std::vector<double> SteepestOf(const mjModel* m, int plugin) {
-  std::vector<double> steepest(static_cast<size_t>(m->ntree), 0);
-  for (int instance = 0; instance < m->nplugin; ++instance) {
-    if (m->plugin[instance] != plugin) continue;
-    const BoundJoints bound(m, instance);
-    for (const BoundJoint& joint : bound.joints()) {
-      double& most = steepest[static_cast<size_t>(m->dof_treeid[joint.dof])];
-      const double slope = ExplicitSlope(m, {joint.friction, joint.viscous});
-      most = std::max(most, slope * m->opt.timestep / EffectiveInertia(m, joint.dof));
-    }
+/// The largest explicit slope of an instance's friction on a tree, in units of M/h.
+double SteepestOn(int tree, const mjModel* m, const BoundJoints& bound) {
+  double steepest = 0;
+  for (const BoundJoint& joint : bound.joints()) {
+    if (m->dof_treeid[joint.dof] != tree) continue;
+    const double slope = ExplicitSlope(m, {joint.friction, joint.viscous});
+    steepest = std::max(steepest, slope * m->opt.timestep / EffectiveInertia(m, joint.dof));
   }
   return steepest;
 }
@@ -165,7 +161,6 @@ std::vector<double> SteepestOf(const mjModel* m, int plugin) {
 Tree Describe(const mjModel* m) {
   int plugin = -1;
   mjp_getPlugin(kFrictionPlugin, &plugin);
-  const std::vector<double> steepest = SteepestOf(m, plugin);
   Tree joints = Tree::array();
   for (int instance = 0; instance < m->nplugin; ++instance) {
     if (m->plugin[instance] != plugin) continue;
@@ -178,23 +173,23 @@ Tree Describe(const mjModel* m) {
         states.emplace_back(member.name);
       }
       const BoundJoint& of = bound.joints()[i];
-      const double slope = steepest[static_cast<size_t>(m->dof_treeid[of.dof])];
       // of the only instance on its tree, whose joints know of each other
-      const BristleShape shape = BristlesOf(1, of.drive, slope);
+      const BristleShape shape =
+          BristlesOf(1, of.drive, SteepestOn(m->dof_treeid[of.dof], m, bound));
       joints.push_back({{"name", NameIn(m, mjOBJ_JOINT, acting[i].joint)},
                         {"instance", name},
                         {"form", bound.passive() ? "passive" : "actuator"},
                         {"linear", m->jnt_type[acting[i].joint] == mjJNT_SLIDE},
-                        {"state", bound.joints()[i].state},
+                        {"state", of.state},
                         {"states", states},
                         {"report", m->plugin_stateadr[instance]},
                         {"sensor", SensorOf(m, bound, i)},
                         {"numbers", NumbersOf(bound, i, name)},
-                        {"inertia", EffectiveInertia(m, bound.joints()[i].dof)},
+                        {"inertia", EffectiveInertia(m, of.dof)},
                         {"bristle", {{"stiffness", shape.stiffness}, {"damping", shape.damping}}},
-                        {"instances", bound.joints()[i].instances},
-                        {"damping", bound.joints()[i].viscous == Viscous::by_damping},
-                        {"initial_energy", bound.joints()[i].initial_energy},
+                        {"instances", of.instances},
+                        {"damping", of.viscous == Viscous::by_damping},
+                        {"initial_energy", of.initial_energy},
                         {"friction", FrictionToTree(acting[i].prepared->description)}});
     }
   }

@@ -127,7 +127,9 @@ TEST(FieldEvidence, KeepsTheLawThatOfTheBestLine) {
   const auto blocks = MakeFields({FieldKind::place_friction, FieldKind::speed_friction}, rows,
                                  JointKind::rotary, ViscousCoulombLaw());
   const VectorXd sign = rows.velocity.array().sign().matrix();
-  const VectorXd of_place = blocks[0].InMotion(rows).transpose() * VectorXd::Ones(part) / part;
+  const SparseRows moving =
+      blocks[0].UnsignedAt(rows.motion.time, rows.motion.position, rows.motion.velocity);
+  const VectorXd of_place = moving.transpose() * VectorXd::Ones(part) / part;
   const VectorXd of_speed = blocks[1].columns.transpose() * sign / rows.size();
   for (const MatrixXd& kernel : blocks[0].kernels) {
     EXPECT_LT(of_place.dot(kernel * of_place), 1e-5);

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from warmjoint import _core
 from warmjoint._core import BadInput
-from warmjoint.friction import place_of
+from warmjoint.friction import laws, place_of
 from warmjoint.values import flag, of_kind, text
 from warmjoint.values import numbers as values_of
 
@@ -31,7 +31,7 @@ FloatArray = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int_]
 
-LAWS = tuple(law["name"] for law in _core.laws() if "kc" in law["equation"] and all(one["name"] != "bristle_stiffness" for one in law["parameters"]))
+LAWS = tuple(name for name, law in laws().items() if "bristle_stiffness" not in law["parameters"])
 """The laws that arrays hold; those that bring a bristle of their own are not among them."""
 _NAMES = ("coulomb", "coulomb_positive", "coulomb_negative", "static", "static_rise", "stribeck_velocity", "stribeck_exponent", "thermal_gain",
           "thermal_time_constant", "second_thermal_gain", "second_thermal_time_constant", "level_per_temperature", "viscous_per_energy", "load_gain")
