@@ -35,7 +35,7 @@ Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   fit.parameters = WithValues(LawUnknowns(*FindLaw(fit.friction.law), law.size(), UnitsOf(m)), law);
 
   // heat and start, where the estimate has them
-  if (fit.friction.thermal && Find(Role::heat, estimate)) {
+  if (fit.friction.thermal && Find(Role::gain, estimate)) {
     Append(HeatParameters(*fit.friction.thermal, m), fit);
   }
   if (const EstimatedParameter* start = Find(Role::start, estimate)) {
@@ -54,7 +54,7 @@ Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
   inference.gives_friction = true;
 
   // a row that the estimate lacks keeps its value, without errors
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     const EstimatedParameter* one = estimate.Find(row.name);
     inference.parameters.push_back(one ? ParameterInterval{one->value, one->std, one->interval95}
                                        : ParameterInterval{row.value, {}, {}});
@@ -125,7 +125,7 @@ std::optional<Cause> OwnLawCause(const Fit& fit, const Inference& inference,
     return std::nullopt;
   }
 
-  const FitParameter& parameter = fit.parameters[model->rows[static_cast<std::size_t>(most)]];
+  const Unknown& parameter = fit.parameters[model->rows[static_cast<std::size_t>(most)]];
   return Cause{.source = Source::own_law,
                .action = Action::refuse,
                .status = Status::inadequate_model,

@@ -35,8 +35,8 @@ constexpr double kHarmfulDelay = 0.01;  // of the friction; why: intervals may b
 constexpr double kUnresolvedPath = 5e-3;  // share of the path
 
 /// The first row of the law that is a slope over speed; nullptr where there is none.
-const FitParameter* SlopeOf(const Fit& fit) {
-  for (const FitParameter& row : fit.parameters) {
+const Unknown* SlopeOf(const Fit& fit) {
+  for (const Unknown& row : fit.parameters) {
     if (row.role == Role::law && row.part == LawPart::slope) return &row;
   }
   return nullptr;
@@ -50,7 +50,7 @@ bool MapsSlope(const Fit& fit) {
 }
 
 /// The effect of what averaging left of the noise: an error of a slope biases the levels by that error times the mean speed.
-Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitParameter* viscous,
+Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const Unknown* viscous,
                          std::string_view slope) {
   Cause cause{.source = Source::velocity_noise,
               .action = Action::widen,
@@ -58,7 +58,7 @@ Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitPa
   if (!viscous) return cause;
   const double move = std::abs(taken.left * viscous->value);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     const bool is_level = row.part == LawPart::level;
     if (row.role != Role::law || !(is_level || row.part == LawPart::slope)) continue;
     // a slope that is too small goes with levels that are too large
@@ -70,7 +70,7 @@ Cause VelocityNoiseCause(const VelocityNoise& taken, const Fit& fit, const FitPa
 /// What was done to the velocity.
 void AddVelocity(const VelocityNoise& taken, JointKind joint, const Fit& fit,
                  std::vector<Cause>& causes) {
-  const FitParameter* const viscous = SlopeOf(fit);
+  const Unknown* const viscous = SlopeOf(fit);
   std::string slope = MapsSlope(fit) ? kSlopesOverSpeed : "";
   if (viscous) slope = viscous->name;
   causes.push_back({.source = Source::velocity_averaged,
@@ -96,7 +96,7 @@ std::vector<Cause> PreparationCauses(const IdentifierInput& input, const Fit& fi
   const PreparedLog& log = input.log;
   const bool steady = input.view == View::constant_speed;
   if (steady && log.faults().empty()) {
-    const bool warms = fit.RowOf(Role::heat) && !by_noise.parameters.empty();
+    const bool warms = fit.RowOf(Role::gain) && !by_noise.parameters.empty();
     if (warms && log.unresolved_path() >= kUnresolvedPath) {
       causes.push_back(OfTheLog(Source::reversals, ExplainReversals(log.unresolved_path())));
     }
@@ -174,13 +174,13 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
 Cause SettlingCause(const SettledFit& settled) {
   const double longest = std::max(settled.settling.after, settled.settling.before);
   Cause cause = OfTheLog(Source::preparation, ExplainSettling(longest));
-  const std::vector<FitParameter>& rows = settled.fit.parameters;
+  const std::vector<Unknown>& rows = settled.fit.parameters;
   const bool alike = settled.sooner && !settled.sooner->refusal && !settled.fit.refusal &&
                      settled.sooner->friction.law == settled.fit.friction.law &&
                      settled.sooner->parameters.size() == rows.size();
   if (!alike) return cause;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i].estimated || (rows[i].role != Role::law && rows[i].role != Role::heat)) continue;
+    if (!rows[i].estimated || (rows[i].role != Role::law && !IsHeat(rows[i].role))) continue;
     cause.Add(i, settled.sooner->parameters[i].value - rows[i].value);
   }
   cause.action = Action::widen;

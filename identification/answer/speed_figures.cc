@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 VectorXd ByCoordinates(const Fit& fit, const VectorXd& derivatives) {
   std::vector<double> slopes;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     if (!row.estimated) continue;
     slopes.push_back(derivatives[static_cast<Index>(i)] * row.ValueByCoordinate(row.value));
   }
@@ -159,8 +159,8 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
 void NameOneSpeed(const LogSamples& m, const Selection& selection, Fit& fit) {
   if (fit.refusal || !fit.friction.maps.empty()) return;
   // a law of levels alone, for which all speeds are one
-  const auto is_of_law = [](const FitParameter& row) { return row.role == Role::law; };
-  const bool is_level = std::ranges::all_of(fit.parameters, [&](const FitParameter& row) {
+  const auto is_of_law = [](const Unknown& row) { return row.role == Role::law; };
+  const bool is_level = std::ranges::all_of(fit.parameters, [&](const Unknown& row) {
     return !is_of_law(row) || row.part == LawPart::level;
   });
   if (!is_level) return;
@@ -171,7 +171,7 @@ void NameOneSpeed(const LogSamples& m, const Selection& selection, Fit& fit) {
   if (groups.empty()) return;
 
   std::vector<std::string> names;
-  for (FitParameter& row : fit.parameters) {
+  for (Unknown& row : fit.parameters) {
     if (!is_of_law(row)) continue;
     row.has_interval = false;
     names.push_back(row.name);

@@ -38,7 +38,7 @@ VectorXd ByRows(const VectorXd& function, const Fit& fit) {
   VectorXd by_rows = VectorXd::Zero(std::ssize(fit.parameters));
   Index column = 0;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     if (!row.estimated) continue;
     by_rows[static_cast<Index>(i)] = function[column++] / row.ValueByCoordinate(row.value);
   }
@@ -120,7 +120,7 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
   const double slow = QuantileInPlace(speeds, kSlow), fast = QuantileInPlace(speeds, kFast);
   const auto has = [&](LawPart part) {
     return std::ranges::any_of(fit.parameters,
-                               [=](const FitParameter& row) { return row.part == part; });
+                               [=](const Unknown& row) { return row.part == part; });
   };
   VectorXd slope = VectorXd::Zero(means_.size()), level = means_;
   const bool warms = fit.friction.thermal.has_value();  // by the loss of its best line
@@ -130,7 +130,7 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
     level = at_slow - slow * slope;
   }
   Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
     if (row.role == Role::law && row.part == LawPart::slope)
       report_.row(column) += slope.transpose();
@@ -144,7 +144,7 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
 void FieldFigures::HoldFlat(double slow, double fast) {
   Index slope = -1, column = 0;
   std::vector<Index> levels;
-  for (const FitParameter& row : fit_.parameters) {
+  for (const Unknown& row : fit_.parameters) {
     if (!row.estimated) continue;
     const bool is_law = row.role == Role::law;
     if (is_law && row.part == LawPart::slope && row.lower == 0) slope = column;
@@ -200,7 +200,7 @@ VectorXd FieldFigures::AtVelocity(double velocity, double load) const {
   const Law& law = *FindLaw(fit_.friction.law);
   const MatrixXd of_law = Sign(velocity) * LawColumns(law, VectorXd::Constant(1, velocity));
   Index column = 0, of = 0;
-  for (const FitParameter& row : fit_.parameters) {
+  for (const Unknown& row : fit_.parameters) {
     if (!row.estimated) continue;
     if (row.role == Role::law) function[column] = of_law(0, of++);
     if (row.role == Role::load) function[column] = load;
@@ -244,7 +244,7 @@ std::vector<ErrorUpTo<MatrixXd>> FieldFigures::CovariancesUpTo() const {
   // a description's errors are rows without a name
   std::vector<Index> described;
   Index column = 0;
-  for (const FitParameter& row : fit_.parameters) {
+  for (const Unknown& row : fit_.parameters) {
     if (!row.estimated) continue;
     if (row.name.empty() && row.prior) described.push_back(column);
     ++column;
@@ -315,10 +315,9 @@ std::optional<FieldFigures::WarmMoment> FieldFigures::Warmest(const Fit& fit) co
                   m_.load ? std::optional<VectorXd>(m_.load->segment(warmest, 1)) : std::nullopt);
   WarmMoment moment{energy[warmest], VectorXd::Zero(solved_.evidence.size())};
   Index column = 0, of = 0;
-  for (const FitParameter& row : fit_.parameters) {
+  for (const Unknown& row : fit_.parameters) {
     if (!row.estimated) continue;
-    const bool of_heat =
-        row.role == Role::heat || row.role == Role::start || row.role == Role::jump;
+    const bool of_heat = IsHeat(row.role) || row.role == Role::start || row.role == Role::jump;
     const double by_law = IsNominal(row.role) ? cold(0, of++) : 0;
     if (of_heat || IsNominal(row.role)) {
       moment.function[column] = Sign(m_.velocity[warmest]) * (along[column] - by_law);

@@ -80,10 +80,8 @@ MatrixXd Means(const MatrixXd& kept, const std::vector<Group>& groups) {
 
 VectorXd UnknownsOf(const Fit& fit) {
   std::vector<double> x;
-  for (const FitParameter& row : fit.parameters) {
-    if (!row.estimated) continue;
-    x.push_back(row.coordinate == Coordinate::logarithm ? std::log(std::abs(row.value))
-                                                        : row.value);
+  for (const Unknown& row : fit.parameters) {
+    if (row.estimated) x.push_back(row.X());
   }
   return VectorXd::Map(x.data(), std::ssize(x));
 }

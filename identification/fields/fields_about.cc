@@ -59,7 +59,7 @@ double FrictionOver(const FieldRows& rows, const Fit& fit) {
   const VectorXd x = UnknownsOf(fit);
   VectorXd friction = VectorXd::Zero(rows.size());
   Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
     if (row.role == Role::law || row.role == Role::load)
       friction += rows.flat.col(column) * x[column];
@@ -82,10 +82,9 @@ double AmplitudeOf(FieldKind kind, const SolvedFields& solved) {
 double CostOf(const Fit& fit, const FieldRows& rows, double friction, double without_heat) {
   double cost = without_heat;
   Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
-    const bool is_gain = row.role == Role::heat && row.coordinate != Coordinate::logarithm;
-    if (is_gain) {
+    if (row.role == Role::gain) {
       const double along = rows.flat.col(column).squaredNorm() / static_cast<double>(rows.size());
       cost -= std::log(along / (friction * friction));
     }
@@ -103,19 +102,17 @@ double DriftOf(const SolvedFields& solved, double friction) {
 
 /// Changes the table and the model to x, [p]. held: columns of rows that are at a bound
 void Take(const VectorXd& x, const std::vector<Index>& held, Fit& fit) {
-  Index column = 0, gravity = 0;
-  for (FitParameter& row : fit.parameters) {
+  Index column = 0;
+  for (Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
-    const double at = x[column++];
-    row.value =
-        row.coordinate == Coordinate::logarithm ? std::copysign(std::exp(at), row.value) : at;
+    row.value = row.ValueAt(x[column++]);
     // exactly at the bound
     if (std::ranges::find(held, column - 1) != held.end()) {
       const bool below = std::abs(row.value - row.lower) <= std::abs(row.upper - row.value);
       row.value = below ? row.lower : row.upper;
     }
-    PutIntoModel(row, gravity, fit);
   }
+  FollowTable(fit);
 }
 
 /// Puts rows of the law that leave their bounds by no more than their interval to these: what is beyond is noise. report: [p x p + m]; returns their columns
@@ -123,7 +120,7 @@ std::vector<Index> HoldBounds(const MatrixXd& report, const Fit& fit, FieldPoste
   std::vector<Index> held;
   std::vector<double> gaps;
   Index column = -1;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
     ++column;
     if (!IsNominal(row.role)) continue;
@@ -206,7 +203,7 @@ Fit Conclude(const Round& round) {
   const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
   Take(figures.Reported(), held, fit);
   if (figures.Falls()) {
-    for (FitParameter& row : fit.parameters) {
+    for (Unknown& row : fit.parameters) {
       if (row.role == Role::law && row.part == LawPart::slope) row.has_interval = false;
     }
     fit.causes.push_back(Note(kFrictionFalls));

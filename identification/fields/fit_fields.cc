@@ -36,7 +36,7 @@ void TakePrior(double start, FitForFields& at) {
   at.prior_precision = prior / variance;
   at.prior_mean = VectorXd::Zero(prior.rows());
   Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
     if (row.role == Role::start) at.prior_mean[column] = start;
     ++column;

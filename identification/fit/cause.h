@@ -152,6 +152,11 @@ struct Cause {
     bias.conservativeResize(std::ssize(rows));
     bias[bias.size() - 1] = change;
   }
+  /// The change of a row's value; 0 where there is none.
+  double BiasOf(std::size_t row) const {
+    const auto at = std::ranges::find(rows, row) - rows.begin();
+    return at < std::ssize(rows) ? bias[at] : 0;
+  }
 };
 
 /// A remark of a fit on itself, which changes nothing.

@@ -9,7 +9,7 @@ namespace warmjoint {
 
 std::vector<double> Fit::Values(Role role) const {
   std::vector<double> values;
-  for (const FitParameter& parameter : parameters) {
+  for (const Unknown& parameter : parameters) {
     if (parameter.role == role) values.push_back(parameter.value);
   }
   return values;

@@ -17,24 +17,13 @@
 #include <vector>
 
 #include "identification/fit/cause.h"
+#include "identification/table.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
-#include "identification/unknown.h"
 
 namespace warmjoint {
 
 class IdentifierInput;
-
-/// An unknown with its value, a row of a fit's table of parameters.
-struct FitParameter : Unknown {
-  double value = 0;
-  bool estimated = true;     // has a column of the Jacobian; else its value was given
-  bool has_interval = true;  // false where only a prior or an option determines it
-  double moved = 0;  // of the value, by the row that holds others at a bound (HoldActiveBounds)
-
-  /// Derivative of the value by the coordinate x in which the fit works, at a value.
-  double ValueByCoordinate(double at) const { return coordinate == Coordinate::logarithm ? at : 1; }
-};
 
 /// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with the changes by the
 /// method of the fit.
@@ -125,7 +114,7 @@ struct Fit {
   std::optional<double> end_energy_std;
   /// E at the end of the log by the fit's own recursion; or not set, so that the report computes it along the motion.
   std::function<EndEnergy()> end_energy;
-  std::vector<FitParameter> parameters;  // [P]; those estimated come in the order of x
+  std::vector<Unknown> parameters;  // [P]; those estimated come in the order of x
 
   // what it was fitted to, and how well
   Selection used;

@@ -61,8 +61,10 @@ const ParameterInfo& LoadGainInfo() {
 
 std::string NameOf(Role role, int which) {
   switch (role) {
-    case Role::heat:
-      return std::string(which == 0 ? kGainName : kTimeConstantName);
+    case Role::gain:
+      return std::string(kGainName);
+    case Role::time_constant:
+      return std::string(kTimeConstantName);
     case Role::start:
       return which == 0 ? "initial_energy" : fmt::format("initial_energy_{}", which + 1);
     case Role::jump:
@@ -75,8 +77,7 @@ std::string NameOf(Role role, int which) {
       return std::string(kTorqueDelayName);
     case Role::load:
       return std::string(LoadGainInfo().name);
-    case Role::law:
-    case Role::gravity:
+    default:
       break;
   }
   assert(false);
@@ -109,7 +110,8 @@ Unknown LoadUnknown(const JointUnits& units) {
 
 std::vector<Unknown> HeatUnknowns(const JointUnits& units) {
   const auto& [gain, tau] = Thermal::parameters;
-  std::vector<Unknown> rows{UnknownOf(gain, Role::heat, units), UnknownOf(tau, Role::heat, units)};
+  std::vector<Unknown> rows{UnknownOf(gain, Role::gain, units),
+                            UnknownOf(tau, Role::time_constant, units)};
   rows[1].coordinate = Coordinate::logarithm;
   return rows;
 }
@@ -150,33 +152,23 @@ Unknown DelayUnknown(const JointUnits& units) {
   return UnknownOf(kTorqueDelayInfo, Role::delay, units);
 }
 
-FitParameter WithValue(Unknown row, double value) {
-  FitParameter parameter{std::move(row)};
-  parameter.value = value;
-  return parameter;
+Unknown WithValue(Unknown row, double value) {
+  row.value = value;
+  return row;
 }
 
-std::vector<FitParameter> WithValues(const std::vector<Unknown>& rows,
-                                     const Eigen::VectorXd& values) {
-  std::vector<FitParameter> table;
+std::vector<Unknown> WithValues(const std::vector<Unknown>& rows, const Eigen::VectorXd& values) {
+  std::vector<Unknown> table;
   for (const Unknown& row : rows) table.push_back(WithValue(row, values[std::ssize(table)]));
   return table;
 }
 
-std::vector<FitParameter> TableAt(const std::vector<Unknown>& rows, const Eigen::VectorXd& x) {
-  std::vector<FitParameter> table = WithValues(rows, x);
-  for (FitParameter& row : table) {
-    if (row.coordinate == Coordinate::logarithm) row.value = std::exp(row.value);
-  }
-  return table;
-}
-
-std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements) {
+std::vector<Unknown> HeatParameters(const Thermal& thermal, const Measurements& measurements) {
   return WithValues(HeatUnknowns(UnitsOf(measurements)),
                     Eigen::Vector2d{thermal.gain, thermal.time_constant});
 }
 
-void Append(const std::vector<FitParameter>& rows, Fit& fit) {
+void Append(const std::vector<Unknown>& rows, Fit& fit) {
   fit.parameters.insert(fit.parameters.end(), rows.begin(), rows.end());
 }
 
@@ -193,28 +185,16 @@ Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
   return friction;
 }
 
-void SetFriction(const FitParameter& row, double value, Friction& friction) {
-  if (row.role == Role::law) friction.parameters[row.name] = value;
-  if (row.role == Role::load) friction.load_gain = value;
-  if (row.role != Role::heat) return;
-  const bool gain = row.coordinate != Coordinate::logarithm;
-  (gain ? friction.thermal->gain : friction.thermal->time_constant) = value;
-}
-
-void PutIntoModel(const FitParameter& row, Eigen::Index& gravity, Fit& fit) {
-  SetFriction(row, row.value, fit.friction);
-  if (row.role == Role::start) fit.initial_energy = row.value;
-  if (row.role == Role::gravity && fit.gravity && fit.gravity->kind != GravityKind::paired) {
-    fit.gravity->values[gravity++] = row.value;
+void FollowTable(Fit& fit) {
+  const bool few = fit.gravity && fit.gravity->kind != GravityKind::paired;
+  Eigen::Index gravity = 0;
+  for (const Unknown& row : fit.parameters) {
+    if (double* const place = row.PlaceIn(fit.friction)) *place = row.value;
+    if (row.role == Role::start) fit.initial_energy = row.value;
+    if (row.role == Role::gravity && few) fit.gravity->values[gravity++] = row.value;
+    if (row.role == Role::inertia) fit.inertia = row.value;
+    if (row.role == Role::delay) fit.torque_delay = row.value;
   }
-  if (row.role == Role::inertia) fit.inertia = row.value;
-  if (row.role == Role::delay) fit.torque_delay = row.value;
-}
-
-std::vector<double> NominalValues(const Fit& fit) {
-  std::vector<double> values = LawValues(fit.friction);
-  if (fit.RowOf(Role::load)) values.push_back(fit.friction.load_gain);
-  return values;
 }
 
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which) {

@@ -14,7 +14,7 @@
 namespace warmjoint {
 
 /// The name of the which-th row with a role, of those whose names depend neither on the law nor on the
-/// kind of gravity: heat (gain, time constant), start (of the which-th recording), jump, inertia, lag and delay.
+/// kind of gravity: gain, time constant, load, start (of the which-th recording), jump, inertia, lag and delay.
 std::string NameOf(Role role, int which = 0);
 
 /// What a joint's units are of.
@@ -46,32 +46,22 @@ Unknown LagUnknown(const JointUnits& units);
 /// torque_delay: by how much the torque is late against the motion, s.
 Unknown DelayUnknown(const JointUnits& units);
 
-/// Rows with their values at x, in the coordinates of the fit. x: as long as rows
-std::vector<FitParameter> TableAt(const std::vector<Unknown>& rows, const Eigen::VectorXd& x);
 /// A row with its value.
-FitParameter WithValue(Unknown row, double value);
-std::vector<FitParameter> WithValues(const std::vector<Unknown>& rows,
-                                     const Eigen::VectorXd& values);
+Unknown WithValue(Unknown row, double value);
+std::vector<Unknown> WithValues(const std::vector<Unknown>& rows, const Eigen::VectorXd& values);
 /// The rows of a heat with its values.
-std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
+std::vector<Unknown> HeatParameters(const Thermal& thermal, const Measurements& measurements);
 
 /// Appends rows to those of the fit's table.
-void Append(const std::vector<FitParameter>& rows, Fit& fit);
+void Append(const std::vector<Unknown>& rows, Fit& fit);
 
 /// The law with its values and load_gain, where there is one value more, and nothing else. values: [d] or [d + 1]
 Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
                     const Measurements& measurements);
 
-/// Gives a friction the value of a row of law, load or heat; of the two rows of heat, the time constant is the one whose
-/// coordinate is the logarithm. Other rows change nothing.
-void SetFriction(const FitParameter& row, double value, Friction& friction);
-
-/// Puts the value of a row into the fit's model. gravity: the place of the next of its values; those of `paired`, which follow from
-/// all rows together, stay
-void PutIntoModel(const FitParameter& row, Eigen::Index& gravity, Fit& fit);
-
-/// Fn's parameters of a fit's friction, as LawParameters takes them: load_gain after the law's where the fit has it.
-std::vector<double> NominalValues(const Fit& fit);
+/// Gives the fit's model the values of its table: friction, E(0), gravity, inertia and delay. Values of `paired` gravity, which follow
+/// from all rows together, stay.
+void FollowTable(Fit& fit);
 
 /// The which-th parameter with such a role, or nullptr.
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which = 0);

@@ -219,9 +219,9 @@ std::string Reason(const std::vector<StructureCandidate>& contenders, const Choi
 /// What the fit lacks because the motion does not show it, as `check` finds it, each a clause and a semicolon: the slope over
 /// speed where one speed was held, and warming in a short log.
 std::string NotShown(const Fit& fit, const PreparedLog& log) {
-  const auto is_slope = [](const FitParameter& one) { return one.part == LawPart::slope; };
+  const auto is_slope = [](const Unknown& one) { return one.part == LawPart::slope; };
   const bool slopes = std::ranges::any_of(fit.parameters, is_slope);
-  const bool warms = fit.RowOf(Role::heat).has_value();
+  const bool warms = fit.RowOf(Role::gain).has_value();
   std::string clauses;
   for (const Excitation& one : CheckRecording(log).excitation) {
     if (one.sufficient) continue;

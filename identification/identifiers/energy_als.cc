@@ -24,7 +24,6 @@
 #include "identification/fit/fit_data.h"
 #include "identification/fit/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/layout.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/identify_maps.h"
@@ -35,6 +34,7 @@
 #include "identification/sentences/friction.h"
 #include "identification/sentences/heat.h"
 #include "identification/sentences/maps.h"
+#include "identification/table.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint {
@@ -122,14 +122,10 @@ struct NominalPart {
   double effective = 0;            // of the p parameters
   std::optional<Refusal> refusal;  // why there is no such part
 
-  /// Of the p columns, law, gravity and kernels, and of the heat, which follows them in the fit.
-  Layout layout() const {
-    const Eigen::Index kernels = KernelCount(maps);
-    return Layout::InOrder({{&Layout::law, columns.cols() - gravity.count() - kernels},
-                            {&Layout::rigid, gravity.count()},
-                            {&Layout::weights, kernels},
-                            {&Layout::heat, 2}});
-  }
+  // the places of the p columns; the heat's two follow them in the fit
+  Slice law() const { return {0, columns.cols() - gravity.count() - KernelCount(maps)}; }
+  Slice rigid() const { return {law().end(), gravity.count()}; }
+  Slice weights() const { return {rigid().end(), KernelCount(maps)}; }
 };
 
 /// Law and kernels over position.
@@ -291,7 +287,7 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
 
   // with kernels the strength of their prior joins the normal equations
   Eigen::MatrixXd normal = GramOf(jacobian);
-  const Slice weights = part.layout().weights;
+  const Slice weights = part.weights();
   normal.diagonal().segment(weights.begin, weights.size).array() += part.strength;
   const Eigen::MatrixXd cofactor = Cofactor(normal);
   if (!cofactor.allFinite()) return std::nullopt;
@@ -301,10 +297,10 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
 /// What is known of the rows of the table, law, warming and gravity. uncertainty: of (nominal, gain, ln tau).
 Uncertainty OfTable(const NominalPart& part, Uncertainty uncertainty) {
   // the fit has gravity before the warming, the table after it
-  const Layout at = part.layout();
-  const Layout table = at.Reordered(&Layout::law, &Layout::heat, &Layout::rigid, &Layout::weights);
-  std::vector<Eigen::Index> order = at.PlacesOf(table);
-  order.resize(table.weights.begin);
+  std::vector<Eigen::Index> order;
+  for (const Slice& at : {part.law(), Slice{part.weights().end(), 2}, part.rigid()}) {
+    for (Eigen::Index i = at.begin; i < at.end(); ++i) order.push_back(i);
+  }
   return Picked(std::move(uncertainty), order);
 }
 
@@ -312,16 +308,15 @@ Uncertainty OfTable(const NominalPart& part, Uncertainty uncertainty) {
 Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const DescentState& last) {
   const LogSamples& m = input.measurements;
   const Law& law = *input.options.Get<LawOption>().law;
-  const Layout at = part.layout();
-  const Eigen::VectorXd values = at.law.Of(last.nominal);
+  const Eigen::VectorXd values = part.law().Of(last.nominal);
   Fit fit;
   fit.identifier = kName;
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = last.thermal;
-  fit.friction.maps = WithWeights(part.maps, at.weights.Of(last.nominal));
+  fit.friction.maps = WithWeights(part.maps, part.weights().Of(last.nominal));
   fit.parameters = WithValues(LawUnknowns(law, values.size(), UnitsOf(m)), values);
   Append(HeatParameters(last.thermal, m), fit);
-  AddRigid(part.gravity, at.rigid.Of(last.nominal), m, fit);
+  AddRigid(part.gravity, part.rigid().Of(last.nominal), m, fit);
   return fit;
 }
 
@@ -333,7 +328,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   // gravity may drive the joint, friction itself must brake it
   const Eigen::VectorXd fitted = descent.Fitted(last);
   const Eigen::VectorXd gravity_torque = part.moving.keep.cast<double>().matrix().cwiseProduct(
-      part.gravity.columns * part.layout().rigid.Of(last.nominal));
+      part.gravity.columns * part.rigid().Of(last.nominal));
   fit.refusal = WhyRefused(input.measurements, last, fitted - gravity_torque);
   if (fit.refusal) return fit;
 
@@ -347,7 +342,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
     return fit;
   }
   fit.fitted = Kept(fitted, part.moving);
-  fit.count = static_cast<int>(part.layout().size());
+  fit.count = static_cast<int>(part.weights().end() + 2);
   fit.effective_parameters = part.effective + 2;
 
   // the uncertainty so far, and the distance from the fixed point
@@ -389,7 +384,7 @@ Fit FitInTurn(const IdentifierInput& input) {
 
   // all iterations, on losses without gravity, which the fit without warming gives
   const BlockDescent descent(input.measurements, part.moving, part.columns, part.cofactor,
-                             gravity.columns * part.layout().rigid.Of(part.solution));
+                             gravity.columns * part.rigid().Of(part.solution));
   const std::vector<DescentState> states =
       Descend(descent, *start.thermal, input.options.Get<EnergyAlsOptions>().iterations);
 

@@ -49,14 +49,14 @@ struct KalmanTrack {
 
 /// The state of the filters after a pass.
 struct KalmanPass {
-  Layout at;                   // of the mean
+  StatePlaces at;              // of the mean
   Eigen::VectorXd mean;        // [d + 3] p, k, ln tau, E
   Eigen::MatrixXd covariance;  // [d + 3 x d + 3]
   double spacing = 0;          // of the bank, in ln tau
   double noise = 0;            // variance, (N.m)^2 or N^2
 
-  Eigen::VectorXd law() const { return at.law.Of(mean); }  // [d]
-  Thermal thermal() const { return at.ThermalAt(mean); }
+  Eigen::VectorXd law() const { return mean.head(at.d); }  // [d]
+  Thermal thermal() const { return {mean[at.gain()], std::exp(mean[at.log_time_constant()])}; }
 };
 
 constexpr Eigen::Index kMoments = 50;  // of the trace
@@ -100,9 +100,9 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track) {
 /// for the gain of thirty times that of a loop at its limit of stability, k |v| = 1.
 template <int D>
 KalmanPrior<D> Ignorance(const KalmanTrack& track) {
-  const Layout at = StateLayout(track.column_rms.size());
+  const StatePlaces at{track.column_rms.size()};
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(at.size());
-  at.law.In(variance) = (10 * track.torque_rms / track.column_rms.array()).square();
+  variance.head(at.d) = (10 * track.torque_rms / track.column_rms.array()).square();
   variance[at.gain()] = std::pow(30 / track.loop.speed().maxCoeff(), 2);
   KalmanPrior<D> prior;
   prior.state.mean.setZero(at.size());
@@ -116,11 +116,11 @@ KalmanPrior<D> Ignorance(const KalmanTrack& track) {
   return prior;
 }
 
-Iterate Note(const Layout& at, const Eigen::VectorXd& mean, Eigen::Index sample, double rmse) {
+Iterate Note(const StatePlaces& at, const Eigen::VectorXd& mean, Eigen::Index sample, double rmse) {
   Iterate iterate;
   iterate.iteration = static_cast<int>(sample);
-  iterate.values.assign(mean.begin(), mean.begin() + at.heat.end());
-  iterate.values[at.log_time_constant()] = at.ThermalAt(mean).time_constant;
+  iterate.values.assign(mean.begin(), mean.begin() + at.energy());
+  iterate.values[at.log_time_constant()] = std::exp(mean[at.log_time_constant()]);
   iterate.rmse = rmse;
   iterate.energy = mean[at.energy()];
   return iterate;
@@ -132,7 +132,7 @@ KalmanPass Pass(const KalmanTrack& track, const KalmanPrior<D>& prior,
                 std::vector<Iterate>& trace) {
   trace.clear();
   KalmanBank<D> bank = MakeBank(prior);
-  const Layout at = prior.state.layout();
+  const StatePlaces at = prior.state.places();
   const Eigen::Index n = track.loop.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     bank = BankStep(bank, At<D>(track, i));
@@ -156,7 +156,7 @@ bool Settled(const KalmanPass& earlier, const KalmanPass& later) {
 /// that the data which are counted twice narrow the result by only half a percent.
 template <int D>
 KalmanPrior<D> Again(const KalmanPass& last) {
-  const Layout& at = last.at;
+  const StatePlaces& at = last.at;
   const Eigen::Index log_tau = at.log_time_constant();
   KalmanPrior<D> prior;
   prior.state.mean = last.mean;
@@ -247,7 +247,7 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
                                   const LeastSquares& joint, const LoopResponse& response,
                                   double nominal_squares) {
   const LogSamples& m = track.measurements;
-  const Eigen::Index p = last.at.heat.end(), log_tau = last.at.log_time_constant();
+  const Eigen::Index p = last.at.energy(), log_tau = last.at.log_time_constant();
 
   // how clearly the warming is seen, and how well its time constant is known
   const double squares = fit.residual().squaredNorm();
@@ -293,7 +293,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   fit.used = track.selection;
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(response.force, fit.used);
-  fit.count = static_cast<int>(last.at.heat.end());
+  fit.count = static_cast<int>(last.at.energy());
   fit.effective_parameters = fit.count;
 
   // the information of the whole recording on these parameters

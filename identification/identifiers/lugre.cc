@@ -114,7 +114,7 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
   NoiseOfGroups noise;
   noise.kept = RobustRms(kept);
   // a handful of samples does not determine the noise
-  const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.layout().size();
+  const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.places().size();
   noise.others = few ? noise.kept : RobustRms(others);
   // each sample has the noise of its group, an outlier a larger one
   const double least = 1e-12 * problem.torque.cwiseAbs().maxCoeff();
@@ -134,7 +134,7 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
   LugreAnswer answer;
   // a parameter that is held has no row among the errors
   std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < problem.layout().size(); ++i) {
+  for (Eigen::Index i = 0; i < problem.places().size(); ++i) {
     if (!problem.IsConstant(i)) free.push_back(i);
   }
   const Eigen::MatrixXd jacobian = fit.jacobian(Eigen::all, free);
@@ -178,12 +178,12 @@ std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const F
   if (scan.empty()) return std::nullopt;
 
   // a start needs a level that brakes, and a likely one at rest
-  const Layout from = problem.layout(), at = law.layout(false);
-  Eigen::VectorXd levels = from.law.Of(scan[0].x);
+  const FallingPlaces from = problem.places(), at = law.places;
+  Eigen::VectorXd levels = from.law().Of(scan[0].x);
   if (!(law.coulomb(levels.data()) > 0)) return std::nullopt;
   law.keep(levels.data(), 1, 3);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(at.size());
-  at.law.In(start) = levels;
+  at.law().In(start) = levels;
   start[at.log_vs()] = scan[0].x[from.log_vs()];
   return start;
 }
@@ -194,7 +194,7 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<FitPoint>& scan,
   const auto refine = [&](const FitPoint& start) { return RefineLugre(problem, start); };
   const LugreFit first = BestRefined(scan, refine);
   // levels may have diverged where the log shows no fall; those of the scan have not
-  const Slice law = problem.layout().law;
+  const Slice law = problem.places().law();
   FitPoint bristle = first.solution;
   law.In(bristle.x) = law.Of(scan[0].x);
   return BestRefined(ScanFall(problem, bristle, fastest), refine, std::optional(first));
@@ -203,7 +203,7 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<FitPoint>& scan,
 /// Why bristle_stiffness is not identifiable, or bristle_damping; nothing where they are.
 std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const LugreProblem& problem,
                                                  const LugreAnswer& answer) {
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   const double stiffness = answer.uncertainty.Deviation(at.log_stiffness());
   if (!(stiffness < kImpreciseBristle)) {
     return stiffness < kNothingKnown ? ExplainVagueStiffness(std::exp(1.96 * stiffness))
@@ -215,7 +215,7 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
   const Eigen::VectorXd& x = answer.fit.solution.x;
   const double damping = x[at.damping()], deviation = answer.uncertainty.Deviation(at.damping());
   if (deviation < kImpreciseBristle * std::abs(damping)) return std::nullopt;
-  const double bend = problem.law->at_rest(at.law.Of(x).data()) / std::exp(x[at.log_stiffness()]);
+  const double bend = problem.law->at_rest(at.law().Of(x).data()) / std::exp(x[at.log_stiffness()]);
   return ExplainUnknownDamping({.value = damping, .deviation = deviation, .bend = bend}, m.joint);
 }
 
@@ -223,7 +223,7 @@ std::optional<std::string> UnidentifiableBristle(const LogSamples& m, const Lugr
 std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
                                            const LugreProblem& problem, const LugreAnswer& answer) {
   const StribeckEvidence evidence =
-      EvidenceOf(*problem.law, problem.layout(), answer.fit.solution.x, answer.uncertainty);
+      EvidenceOf(*problem.law, problem.places(), answer.fit.solution.x, answer.uncertainty);
 
   // the fall must exceed its own standard error
   const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
@@ -239,11 +239,11 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
 /// Law and, where it is estimated, inertia at a point: the model and its table.
 void SetModel(const LogSamples& m, const LugreProblem& problem, const Eigen::VectorXd& x,
               Fit& fit) {
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   SetFallingModel(*problem.law, kExponent, at, x, m, fit);
   // the stiffness is fitted by its logarithm, the damping by its value
   fit.parameters[at.log_stiffness()].coordinate = Coordinate::logarithm;
-  FitParameter& damping = fit.parameters[at.damping()];
+  Unknown& damping = fit.parameters[at.damping()];
   damping.coordinate = Coordinate::positive;
   damping.estimated = !problem.IsConstant(at.damping());
   if (problem.IsConstant(at.inertia())) return;
@@ -276,13 +276,13 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
 
   // the model, and how well it fits
   const LogSamples& m = input.measurements;
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   const Eigen::VectorXd& x = answer.fit.solution.x;
   SetModel(m, problem, x, fit);
   fit.used = problem.used;
   fit.inertia_torque = x[at.inertia()] * problem.acceleration;
   // friction with which each recording begins: the load of the bristle and the viscous part
-  const double viscous = x[at.law.begin];
+  const double viscous = x[at.law().begin];
   const std::vector<SampleRange> recordings = m.Recordings();
   for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
     const double velocity = problem.motion.velocity(recordings[r].first);
@@ -337,9 +337,9 @@ Fit FitLugre(const IdentifierInput& input) {
   LugreProblem problem = MakeLugreProblem(input, law, scale);
   // parameters that the options hold at 0 are not estimated
   if (options.damping == PartFit::none)
-    problem.constant.push_back(static_cast<int>(problem.layout().damping()));
+    problem.constant.push_back(static_cast<int>(problem.places().damping()));
   if (options.inertia == PartFit::none)
-    problem.constant.push_back(static_cast<int>(problem.layout().inertia()));
+    problem.constant.push_back(static_cast<int>(problem.places().inertia()));
   const std::vector<FitPoint> scan =
       ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, law, distance); });
   if (scan.empty()) return Refused(kName, NoFall(law, m, SteadySamples(input, 0)));

@@ -87,7 +87,7 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
                                               const StribeckFit& fit,
                                               const Uncertainty& uncertainty) {
   if (problem.warming == PartFit::none) return std::nullopt;
-  const Layout at = problem.layout();
+  const FallingPlaces at = problem.places();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
   return UnidentifiableWarming({.explained = Explained(problem, ColdSquares(problem), fit.solution),
@@ -125,7 +125,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   }
 
   // the model, and how well it fits
-  const Layout at = problem.layout();
+  const FallingPlaces at = problem.places();
   SetFallingModel(problem.law, problem.exponent, at, best.solution.x, input.measurements, fit);
   AddRigid(rigid, best.rigid, input.measurements, fit);
   fit.used = input.selection;
@@ -190,7 +190,7 @@ Fit FitStribeck(const IdentifierInput& given) {
   Fit fit;
   fit.identifier = kName;
   fit.trace = ScanTrace(law, options.exponent, scan, 1, input.selection.count());
-  SetFallingModel(law, options.exponent, problem.layout(), scan[0].x, m, fit);
+  SetFallingModel(law, options.exponent, problem.places(), scan[0].x, m, fit);
   const double seen = Explained(problem, without, scan[0]);
   if (problem.warming == PartFit::none && seen < 0.5 * kVisibleWarming) {
     fit.refusal = {Status::not_identifiable, Unseen(input, law, seen)};

@@ -13,9 +13,7 @@ namespace {
 /// Changes the value of a row of the table to that where other rows are held at their bounds; its interval stays that of noise.
 void Hold(const std::vector<Cause>& causes, std::size_t row, ParameterInterval& estimated) {
   for (const Cause& cause : causes) {
-    if (cause.action != Action::hold) continue;
-    const auto at = std::ranges::find(cause.rows, row) - cause.rows.begin();
-    if (at < std::ssize(cause.rows)) estimated.value += cause.bias[at];
+    if (cause.action == Action::hold) estimated.value += cause.BiasOf(row);
   }
 }
 

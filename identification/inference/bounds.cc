@@ -22,8 +22,7 @@
 namespace warmjoint {
 namespace {
 
-std::optional<Excess> FindExcess(const FitParameter& parameter,
-                                 const ParameterInterval& estimated) {
+std::optional<Excess> FindExcess(const Unknown& parameter, const ParameterInterval& estimated) {
   // a value that is not a number counts as below
   const bool below = !(parameter.value >= parameter.lower);
   if (!below && parameter.value <= parameter.upper) return std::nullopt;
@@ -60,7 +59,7 @@ Eigen::VectorXd FrictionOver(const Fit& fit, const LogSamples& logged, const Sel
 
 /// The 95 % interval of an inertia that was fitted and lies below 0 with the whole of it.
 std::optional<std::array<double, 2>> IntervalBelowZero(const Fit& fit, std::size_t inertia) {
-  const FitParameter& row = fit.parameters[inertia];
+  const Unknown& row = fit.parameters[inertia];
   if (!row.estimated || !(row.value < 0)) return std::nullopt;
   const Inference inferred = Apply(ByNoise(fit), fit.causes);
   if (inferred.status != Status::ok) return std::nullopt;
@@ -68,33 +67,27 @@ std::optional<std::array<double, 2>> IntervalBelowZero(const Fit& fit, std::size
   return interval && (*interval)[1] < 0 ? interval : std::nullopt;
 }
 
-/// Changes the table by changes of x, [p], and the model with it.
-void Move(const Eigen::VectorXd& moves, Fit& fit) {
-  Eigen::Index column = 0, gravity = 0;
-  for (FitParameter& row : fit.parameters) {
+/// Changes the table by changes of x, [p], and the model with it. Returns the row of the values that changed.
+Cause Move(const Eigen::VectorXd& moves, Fit& fit) {
+  Cause cause{.source = Source::bound, .action = Action::hold};
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    Unknown& row = fit.parameters[i];
     if (!row.estimated) continue;
     const double move = moves[column++], before = row.value;
     row.value = row.coordinate == Coordinate::logarithm ? before * std::exp(move) : before + move;
     // exactly at the bound
     if (IsNominal(row.role)) row.value = std::clamp(row.value, row.lower, row.upper);
-    row.moved = row.value - before;
-    PutIntoModel(row, gravity, fit);
+    cause.Add(i, row.value - before);
   }
-}
-
-/// The row of the values that changed.
-Cause Moved(const std::vector<FitParameter>& parameters, std::string sentence) {
-  Cause cause{.source = Source::bound, .action = Action::hold, .sentence = std::move(sentence)};
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].estimated) cause.Add(i, parameters[i].moved);
-  }
+  FollowTable(fit);
   return cause;
 }
 
 }  // namespace
 
-bool LeavesBounds(const std::vector<FitParameter>& parameters) {
-  return std::ranges::any_of(parameters, [](const FitParameter& one) {
+bool LeavesBounds(const std::vector<Unknown>& parameters) {
+  return std::ranges::any_of(parameters, [](const Unknown& one) {
     return IsNominal(one.role) && !(one.value >= one.lower && one.value <= one.upper);
   });
 }
@@ -110,7 +103,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
 
   // parameters that could not be held at their bounds; friction that rises from rest has a sentence of its own
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     if (!IsNominal(row.role) || row.part == LawPart::rest_rise) continue;
     const auto excess = FindExcess(row, by_noise.parameters[i]);
     if (!excess) continue;
@@ -131,7 +124,7 @@ void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements,
   std::vector<Excess> beyond;
   Eigen::Index column = -1;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     column += row.estimated;
     const auto excess =
         IsNominal(row.role) ? FindExcess(row, by_noise.parameters[i]) : std::nullopt;
@@ -141,16 +134,16 @@ void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements,
     gaps.push_back(excess->bound - row.value);
     beyond.push_back(*excess);
   }
-  const std::string sentence = ExplainHeld(beyond);
-
   // the other parameters, by the covariance, with these held
   const Eigen::MatrixXd& covariance = by_noise.uncertainty.covariance;
   const Eigen::Map<const Eigen::VectorXd> gap(gaps.data(), static_cast<Eigen::Index>(gaps.size()));
   const Eigen::VectorXd before = TorqueOf(fit, measurements);
-  Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);
+  Cause cause =
+      Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);
+  cause.sentence = ExplainHeld(beyond);
   fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
   fit.end_energy = nullptr;
-  fit.causes.push_back(Moved(fit.parameters, sentence));
+  fit.causes.push_back(std::move(cause));
 }
 
 Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit& make) {
@@ -159,7 +152,7 @@ Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit&
   const auto interval = IntervalBelowZero(fit, *row);
   if (!interval) return fit;
   Fit without = make(input.With(WithoutInertia(input.options)));
-  const FitParameter& inertia = fit.parameters[*row];
+  const Unknown& inertia = fit.parameters[*row];
   if (without.refusal) {
     fit.causes.push_back(
         Invalidate(Status::inadequate_model, ExplainNegativeInertia(inertia, *interval)));
@@ -169,8 +162,8 @@ Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit&
   // what the inertia changes of law and heat, and of the friction along the log
   Cause cause{.source = Source::findings, .action = Action::widen};
   for (std::size_t i = 0; i < without.parameters.size(); ++i) {
-    const FitParameter& one = without.parameters[i];
-    const auto other = std::ranges::find(fit.parameters, one.name, &FitParameter::name);
+    const Unknown& one = without.parameters[i];
+    const auto other = std::ranges::find(fit.parameters, one.name, &Unknown::name);
     if (!one.estimated || one.name.empty() || other == fit.parameters.end()) continue;
     cause.Add(i, other->value - one.value);
   }

@@ -13,7 +13,7 @@
 namespace warmjoint {
 
 /// Whether the value of a law parameter lies outside of its bounds, by chance or not.
-bool LeavesBounds(const std::vector<FitParameter>& parameters);
+bool LeavesBounds(const std::vector<Unknown>& parameters);
 
 /// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
 /// bounds, and its static level is not below its Coulomb level. It is what Infer finds, without the covariance.

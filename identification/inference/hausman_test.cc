@@ -69,7 +69,7 @@ Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& frict
               .action = Action::widen,
               .sentence = ExplainStructure(name, structure.deviations, Action::widen)};
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& one = fit.parameters[i];
+    const Unknown& one = fit.parameters[i];
     if (!one.estimated) continue;
     cause.Add(i,
               reach * one.ValueByCoordinate(one.value) * structure.differences[cause.bias.size()]);

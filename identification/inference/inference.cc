@@ -16,7 +16,7 @@ namespace warmjoint {
 namespace {
 
 /// std and interval of an estimated parameter. deviation: of its coordinate
-ParameterInterval Known(const FitParameter& parameter, double deviation, double quantile) {
+ParameterInterval Known(const Unknown& parameter, double deviation, double quantile) {
   const double value = parameter.value;
   // where the error is that of the value itself, the interval is symmetric
   if (parameter.coordinate == Coordinate::value) {
@@ -32,10 +32,19 @@ ParameterInterval Known(const FitParameter& parameter, double deviation, double 
   return {value, std::abs(value) * relative, {{ends.first, ends.second}}};
 }
 
-/// The same about the fit's own value, where that was shifted; of a value that is at a bound, from the bound on.
-ParameterInterval KnownWithin(FitParameter row, double deviation, double quantile) {
+/// By how much rows that hold others at their bounds changed a value.
+double HeldBy(const std::vector<Cause>& causes, std::size_t row) {
+  double held = 0;
+  for (const Cause& cause : causes) {
+    if (cause.action == Action::hold) held += cause.BiasOf(row);
+  }
+  return held;
+}
+
+/// The same about the value before rows were held; of a value that is at a bound, from the bound on.
+ParameterInterval KnownWithin(Unknown row, double moved, double deviation, double quantile) {
   const double held = row.value;
-  row.value -= row.moved;
+  row.value -= moved;
   ParameterInterval estimated = Known(row, deviation, quantile);
   if (!IsNominal(row.role) || (held != row.lower && held != row.upper)) return estimated;
   for (double& end : *estimated.interval95) end = std::clamp(end, row.lower, row.upper);
@@ -47,13 +56,15 @@ std::vector<ParameterInterval> IntervalsOf(const Fit& fit, const Inference& infe
   const Uncertainty& uncertainty = inference.uncertainty;
   std::vector<ParameterInterval> all;
   Eigen::Index column = 0;
-  for (const FitParameter& parameter : fit.parameters) {
-    ParameterInterval one{parameter.value - parameter.moved, {}, {}};
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Unknown& parameter = fit.parameters[i];
+    const double moved = HeldBy(fit.causes, i);
+    ParameterInterval one{parameter.value - moved, {}, {}};
     if (parameter.estimated) {
       const double quantile = StudentQuantile(uncertainty.DegreesOfFreedom(column), kIntervalLevel);
       const double deviation = uncertainty.Deviation(column++);
       if (parameter.has_interval) {
-        one = KnownWithin(parameter, deviation, quantile);
+        one = KnownWithin(parameter, moved, deviation, quantile);
         const Eigen::VectorXd own =
             Eigen::VectorXd::Unit(uncertainty.covariance.rows(), column - 1);
         one.parts = NoiseParts(uncertainty, own, one.HalfWidth());

@@ -255,7 +255,7 @@ Eigen::VectorXd FarthestMoves(double displacement, double time, const Fit& fit,
                               const Inference& inference, const std::vector<size_t>& rows) {
   Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
   for (size_t i = 0; i < rows.size(); ++i) {
-    const FitParameter& parameter = fit.parameters[rows[i]];
+    const Unknown& parameter = fit.parameters[rows[i]];
     const ParameterInterval& estimated = inference.parameters[rows[i]];
     const double factor =
         std::pow(displacement, parameter.displacement_power) * std::pow(time, parameter.time_power);

@@ -123,7 +123,7 @@ std::vector<std::size_t> RowsOfWarming(const Fit& fit) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const Role role = fit.parameters[i].role;
-    if (role == Role::heat || role == Role::start || role == Role::jump) rows.push_back(i);
+    if (IsHeat(role) || role == Role::start || role == Role::jump) rows.push_back(i);
   }
   return rows;
 }
@@ -184,7 +184,7 @@ void ActOnFindings(const Examined& of, const LackOfFitSettings& judging, Examina
     widen(Source::open_drift);
   }
   if (Finds(examination, HeatRelation::starts)) widen(Source::open_start);
-  const bool without_warming = drifts && of.fit.RowOf(Role::heat);
+  const bool without_warming = drifts && of.fit.RowOf(Role::gain);
   row->sentence = explain(ExplainWidened(worst.harm, LargestChange(of, examination, worst.harm)) +
                           (without_warming ? kAbsorbedByWarming : ""));
 }
@@ -216,7 +216,7 @@ bool Recurs(const LackOfFitTest& test) {
 void ExplainLog(const Examined& of, Examination& examination) {
   const LogSamples& m = of.input.measurements;
   if (Cause* const row = Row(Source::held_losses, examination)) {
-    const auto tau = std::ranges::find(row->rows, *of.fit.RowOf(Role::heat, 1));
+    const auto tau = std::ranges::find(row->rows, *of.fit.RowOf(Role::time_constant));
     row->sentence =
         ExplainHeldLosses(MedianStep(m.time), row->bias[tau - row->rows.begin()], row->action);
   }

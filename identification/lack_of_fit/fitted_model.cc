@@ -82,7 +82,7 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
   std::vector<size_t> rows;
   for (const Role role : roles) {
     for (size_t i = 0; i < fit.parameters.size(); ++i) {
-      const FitParameter& parameter = fit.parameters[i];
+      const Unknown& parameter = fit.parameters[i];
       if (parameter.role == role && !parameter.name.empty()) rows.push_back(i);
     }
   }
@@ -127,7 +127,7 @@ Jumps JumpsOf(const Fit& fit, const LogSamples& m) {
 bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::VectorXd& velocity,
                  double step) {
   if (!fit.friction.thermal) return false;
-  const auto tau = fit.RowOf(Role::heat, 1);
+  const auto tau = fit.RowOf(Role::time_constant);
   if (!tau || !inference.parameters[*tau].std) return false;
   // by how much tau comes out too large, h |k v|/2
   const double gain = fit.friction.thermal->gain;
@@ -139,7 +139,8 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
 /// derivatives by the jumps that are no assumption, [N x J].
 Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const LogSamples& m,
                            FittedModel& model) {
-  const std::vector<double> values = NominalValues(fit);
+  std::vector<double> values = LawValues(fit.friction);
+  if (fit.RowOf(Role::load)) values.push_back(fit.friction.load_gain);
   const Thermal& thermal = *fit.friction.thermal;
   model.thermal = thermal;
 
@@ -197,7 +198,7 @@ Eigen::MatrixXd RigidColumns(const Fit& fit, const LogSamples& m) {
 Eigen::MatrixXd ByRole(const Fit& fit, Role role) {
   std::vector<Eigen::Index> columns;
   Eigen::Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (row.estimated && row.role == role) columns.push_back(column);
     column += row.estimated;
   }
@@ -264,11 +265,12 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.rigid = RigidColumns(fit, m);
 
   // the derivatives of the model by the fit's parameters
-  model.rows = RowsOf(fit, {Role::law, Role::load, Role::heat, Role::start, Role::gravity});
+  model.rows = RowsOf(
+      fit, {Role::law, Role::load, Role::gain, Role::time_constant, Role::start, Role::gravity});
   if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
   model.cold = NominalDerivatives(fit, m.velocity, m.load);
   model.derivatives = model.cold;
-  const bool knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
+  const bool knows_warming = fit.friction.thermal && fit.RowOf(Role::gain);
   Eigen::MatrixXd by_jumps(m.size(), 0);
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   model.of_friction = model.derivatives.cols();

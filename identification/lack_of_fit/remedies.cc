@@ -45,7 +45,7 @@ bool HasMap(const Advice& advice, MapQuantity quantity) {
     return FindAxis(map, quantity) != nullptr;
   });
 }
-bool HasWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }
+bool HasWarming(const Advice& advice) { return advice.fit.RowOf(Role::gain).has_value(); }
 
 /// To try a command, with the gravity and the lag of the torque that the fit has, where that identifier can estimate them.
 Remedy Try(const Advice& advice, IdentifyCommand command, std::string words = "") {
@@ -245,7 +245,7 @@ Remedy RemedyForLoad(const Advice& advice) {
   const bool is_logged = advice.input.log.raw().measurements.load.has_value();
   if (!may_grow && !is_logged) return Try(advice, WithMap(advice, MapQuantity::position));
   if (!may_grow) return Try(advice, {"load-map"});
-  const std::string_view like = advice.fit.RowOf(Role::heat) ? "energy-ml" : "nominal-ls";
+  const std::string_view like = advice.fit.RowOf(Role::gain) ? "energy-ml" : "nominal-ls";
   return Try(advice, LinearCommand(like, advice.fit.friction.law).With("load", "estimated"));
 }
 

@@ -135,7 +135,7 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
   if (!measurements.acceleration) return;
   // without a column it is given, as 0
   fit.inertia = rigid.inertia ? values[q] : 0;
-  FitParameter row = WithValue(InertiaUnknown(UnitsOf(measurements)), *fit.inertia);
+  Unknown row = WithValue(InertiaUnknown(UnitsOf(measurements)), *fit.inertia);
   row.estimated = row.has_interval = rigid.inertia;
   Append({row}, fit);
 }

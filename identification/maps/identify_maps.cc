@@ -49,11 +49,11 @@ void AddLaw(const Law& law, const MapFit& maps, const LogSamples& measurements, 
   // a column that kernels can imitate has no interval of its own
   for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free())) {
     if (i >= static_cast<Eigen::Index>(law.parameters.size())) continue;
-    FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
+    Unknown& parameter = fit.parameters[static_cast<size_t>(i)];
     parameter.has_interval = false;
     imitated.push_back(parameter.name);
   }
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     const bool held = row.has_interval && row.value == row.lower;
     if (held) fit.causes.push_back(Note(ExplainHeldBesideMaps(row)));
   }
@@ -208,7 +208,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   const std::optional<MapChoice> choice = ChooseAndFit(input, with);
   if (!choice) return false;
   const Uncertainty uncertainty = MapCovariance(choice->problem, choice->fit);
-  const Eigen::Index first = choice->fit.layout.rigid.begin;
+  const Eigen::Index first = choice->fit.of_rigid.begin;
   return std::abs(choice->fit.x[first]) > kBeyondDoubt * uncertainty.Deviation(first) ||
          std::abs(choice->fit.x[first + 1]) > kBeyondDoubt * uncertainty.Deviation(first + 1);
 }

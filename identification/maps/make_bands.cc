@@ -105,7 +105,7 @@ struct MeanRows {
 /// Rows whose products with a fit's x are law and maps at places of its which-th map.
 Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, const MapPoints& places,
                        const MeanRows& means) {
-  const Index size = places.rows(), q = fit.layout.weights.size;
+  const Index size = places.rows(), q = fit.of_weights.size;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
   // the band of a map that distinguishes directions includes the law and the mean of the other maps in its direction
   if (!IsAlikeInBothDirections(fit.maps[which])) {

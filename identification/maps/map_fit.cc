@@ -191,10 +191,12 @@ std::optional<MapWeights> RepeatedFit::Fit() {
 
 MapWeights RepeatedFit::At(Eigen::VectorXd x) const {
   const Eigen::Index free = problem_.free.cols();
-  const Layout layout = Layout::InOrder({{&Layout::law, problem_.of_law},
-                                         {&Layout::rigid, free - problem_.of_law},
-                                         {&Layout::weights, x.size() - free}});
-  MapWeights fit{layout, std::move(x), strength_, {}, {}, unseen_};
+  MapWeights fit{.of_law = {0, problem_.of_law},
+                 .of_rigid = {problem_.of_law, free - problem_.of_law},
+                 .of_weights = {free, x.size() - free},
+                 .x = std::move(x),
+                 .strength = strength_,
+                 .unseen = unseen_};
   // fitted torque: law by its columns, maps by their weights
   const Eigen::VectorXd weights = fit.weights();
   fit.maps = WithWeights(problem_.maps, weights);

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "identification/layout.h"
 #include "identification/maps/local_rows.h"
 #include "identification/model/conditions.h"
 #include "identification/model/normal_equations.h"
+#include "identification/table.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint {
@@ -43,17 +43,17 @@ struct MapProblem {
 NormalEquations NormalOf(const MapProblem& problem);
 
 struct MapWeights {
-  Layout layout;                  // law, gravity and inertia, p in all, then weights, q
-  Eigen::VectorXd x;              // [p + q]
-  double strength = 0;            // s
-  Eigen::VectorXd fitted;         // [n] N.m or N
-  std::vector<FrictionMap> maps;  // with their weights
-  std::vector<bool> unseen;       // [q] kernels without data (holes.h)
+  Slice of_law, of_rigid, of_weights;  // places in x: p of law, gravity and inertia, then q
+  Eigen::VectorXd x;                   // [p + q]
+  double strength = 0;                 // s
+  Eigen::VectorXd fitted{};            // [n] N.m or N
+  std::vector<FrictionMap> maps{};     // with their weights
+  std::vector<bool> unseen{};          // [q] kernels without data (holes.h)
 
-  Eigen::Index free() const { return layout.weights.begin; }  // p
-  Eigen::VectorXd law() const { return layout.law.Of(x); }
-  Eigen::VectorXd rigid() const { return layout.rigid.Of(x); }
-  Eigen::VectorXd weights() const { return layout.weights.Of(x); }
+  Eigen::Index free() const { return of_weights.begin; }  // p
+  Eigen::VectorXd law() const { return of_law.Of(x); }
+  Eigen::VectorXd rigid() const { return of_rigid.Of(x); }
+  Eigen::VectorXd weights() const { return of_weights.Of(x); }
 };
 
 /// And how sure they are.

@@ -71,12 +71,12 @@ Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& war
 }
 
 /// The rows of the heat as the first fit estimates them, without intervals.
-std::vector<FitParameter> HeatOf(const Fit& warm, const LogSamples& m) {
-  std::vector<FitParameter> rows = HeatParameters(*warm.friction.thermal, m);
-  std::ranges::copy_if(warm.parameters, std::back_inserter(rows), [](const FitParameter& row) {
+std::vector<Unknown> HeatOf(const Fit& warm, const LogSamples& m) {
+  std::vector<Unknown> rows = HeatParameters(*warm.friction.thermal, m);
+  std::ranges::copy_if(warm.parameters, std::back_inserter(rows), [](const Unknown& row) {
     return row.role == Role::start || row.role == Role::jump;
   });
-  for (FitParameter& row : rows) row.estimated = row.has_interval = false;
+  for (Unknown& row : rows) row.estimated = row.has_interval = false;
   return rows;
 }
 
@@ -87,7 +87,7 @@ Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   fit.initial_energy = warm.initial_energy;
   fit.jump_samples = warm.jump_samples;
   if (!GivesFriction(fit)) return fit;
-  const std::vector<FitParameter> heat = HeatOf(warm, m);
+  const std::vector<Unknown> heat = HeatOf(warm, m);
   Append(heat, fit);
   // friction that drives the joint by its own heat is not a valid model
   const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());

@@ -25,13 +25,17 @@ constexpr double kRests = 1e-6;
 /// The most rounds in which the bounds of the law that hold are determined again at the solution.
 constexpr int kMostConditions = 3;
 
-Layout JoinedLayout(const Layout& maps, const Layout& heat) {
-  return Layout::InOrder({{&Layout::law, maps.law.size},
-                          {&Layout::rigid, maps.rigid.size},
-                          {&Layout::weights, maps.weights.size},
-                          {&Layout::heat, heat.heat.size},
-                          {&Layout::start, heat.start.size},
-                          {&Layout::jumps, heat.jumps.size}});
+/// The rows of heat, start and jumps of a fit.
+Slice HeatOf(const ThermalFit& fit) {
+  const Index first = fit.At(Role::gain).begin;
+  return {first, fit.At(Role::gravity).begin - first};
+}
+
+/// Rows with a role, without names.
+std::vector<Unknown> Unnamed(Role role, Index count) {
+  Unknown row;
+  row.role = role;
+  return std::vector<Unknown>(static_cast<std::size_t>(count), row);
 }
 
 /// Conditions on law and weights as such on all unknowns. p: their number
@@ -72,25 +76,28 @@ class KernelBlock : public Block {
   MapPoints points_;               // [N x 5]
 };
 
-/// Law, maps, heat, gravity and inertia in a layout. heat: of the fit with the latest maps, whose priors are taken over
+/// Law, gravity and inertia, maps and heat. heat: of the fit with the latest maps, whose priors are taken over
 Model ModelOf(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
-              const ThermalFit& heat, const Layout& at) {
+              const ThermalFit& heat) {
   const LogSamples& m = input.measurements;
   const LawBlocks of_law(m, LawColumns(*task.law, m.velocity), LossColumns(*task.law, m),
                          task.rigid.columns);
   Model model;
   model.samples = m.size();
-  model.table.resize(static_cast<std::size_t>(at.size()));
-  const Index first = heat.layout.heat.begin, count = heat.layout.rigid.begin - first;
-  std::copy_n(heat.model->table.begin() + first, count, model.table.end() - count);
-  model.blocks = {std::make_shared<FrictionBlock>(at.law, of_law.law, of_law.of_losses),
-                  std::make_shared<KernelBlock>(at.weights, block.fit().maps, PointsOf(m)),
-                  std::make_shared<LinearBlock>(at.rigid, of_law.rigid)};
+  const Slice law = model.Append(Unnamed(Role::law, block.fit().of_law.size)),
+              rigid = model.Append(Unnamed(Role::gravity, block.fit().of_rigid.size)),
+              weights = model.Append(Unnamed(Role::weight, block.fit().of_weights.size));
+  const Slice from = HeatOf(heat);
+  const auto rows = heat.model->table.begin();
+  model.Append(std::vector<Unknown>(rows + from.begin, rows + from.end()));
+  model.blocks = {std::make_shared<FrictionBlock>(law, of_law.law, of_law.of_losses),
+                  std::make_shared<KernelBlock>(weights, block.fit().maps, PointsOf(m)),
+                  std::make_shared<LinearBlock>(rigid, of_law.rigid)};
   model.heat = *heat.model->heat;
-  model.heat->friction = at.weights.end();
-  model.heat->parameters = at.heat;
-  model.heat->start = at.start;
-  model.heat->jumps = at.jumps;
+  model.heat->friction = weights.end();
+  model.heat->parameters = {model.At(Role::gain).begin, 2};
+  model.heat->start = model.At(Role::start);
+  model.heat->jumps = model.At(Role::jump);
   return model;
 }
 
@@ -99,25 +106,24 @@ Model ModelOf(const IdentifierInput& input, const MapTask& task, const MapBlock&
 WarmMapFit::WarmMapFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
                        const WarmingBlock& warming)
     : selection_(input.selection),
-      layout_(JoinedLayout(block.fit().layout, warming.fit().layout)),
       penalty_(block.solver().penalty()),
       variance_(block.Squares() / static_cast<double>(input.selection.count())),
-      model_(ModelOf(input, task, block, warming.fit(), layout_)),
+      model_(ModelOf(input, task, block, warming.fit())),
       samples_{.torque = input.measurements.torque, .keep = input.selection.keep},
       squares_(model_, samples_),
-      x_(VectorXd::Zero(layout_.size())) {
+      x_(VectorXd::Zero(model_.size())) {
   // the heat as the block has it
   const ThermalFit& heat = warming.fit();
-  const Index first = heat.layout.heat.begin, count = heat.layout.rigid.begin - first;
-  x_.tail(count) = heat.x.segment(first, count);
+  const Slice from = HeatOf(heat);
+  x_.tail(from.size) = from.Of(heat.x);
 }
 
 bool WarmMapFit::Refine(MapBlock& block) {
-  const Index linear = layout().weights.end();
+  const Index linear = At(Role::weight).end();
   x_.head(linear) = block.fit().x;
   for (int i = 0; i < kMostConditions; ++i) {
     const Conditions conditions = block.solver().conditions();
-    MinimiseUnder(Extended(conditions, layout().size()));
+    MinimiseUnder(Extended(conditions, model_.size()));
     if (!converged_) break;
     // with the energy that was found, other conditions may hold
     const VectorXd energy = ModelAt(model_, x_).Energy();
@@ -148,7 +154,7 @@ void WarmMapFit::MinimiseUnder(const Conditions& conditions) {
 RowSums WarmMapFit::At(const VectorXd& x) {
   RowSums sums = squares_.At(x, variance_);
   // the weights' prior
-  const Slice& at = layout_.weights;
+  const Slice at = At(Role::weight);
   const VectorXd weights = at.Of(x), pulled = penalty_ * weights / variance_;
   sums.gram.block(at.begin, at.begin, at.size, at.size) += penalty_ / variance_;
   at.In(sums.product) -= pulled;
@@ -157,8 +163,8 @@ RowSums WarmMapFit::At(const VectorXd& x) {
 }
 
 void WarmMapFit::HeatInto(ThermalFit& warming) const {
-  const Index first = warming.layout.heat.begin, count = warming.layout.rigid.begin - first;
-  warming.x.segment(first, count) = x_.tail(count);
+  const Slice to = HeatOf(warming);
+  to.In(warming.x) = x_.tail(to.size);
 }
 
 Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) {

@@ -27,7 +27,8 @@ class WarmMapFit {
 
   bool converged() const { return converged_; }
   int iterations() const { return iterations_; }
-  const Layout& layout() const { return layout_; }
+  /// The places of unknowns with a role; law, rigid part (gravity), weights, heat, start and jumps in this order.
+  Slice At(Role role) const { return model_.At(role); }
   /// dE/dx at the end of the log. [p]
   Eigen::VectorXd EndSlopes() const { return ModelAt(model_, x_).End().slopes; }
   /// Writes the heat that the fit estimates into `warming`.
@@ -42,7 +43,6 @@ class WarmMapFit {
   RowSums At(const Eigen::VectorXd& x);
 
   const Selection& selection_;
-  Layout layout_;
   Eigen::MatrixXd penalty_;  // [q x q] s P
   double variance_;          // about that of the noise, (N.m)^2 or N^2
   Model model_;

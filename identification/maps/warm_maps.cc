@@ -39,8 +39,7 @@ bool IsInsignificant(double first, double second) {
 Uncertainty WithoutWeights(Uncertainty uncertainty, const MapFit& maps) {
   std::vector<Eigen::Index> places(static_cast<size_t>(uncertainty.covariance.cols()));
   std::iota(places.begin(), places.end(), 0);
-  places.erase(places.begin() + maps.layout.weights.begin,
-               places.begin() + maps.layout.weights.end());
+  places.erase(places.begin() + maps.of_weights.begin, places.begin() + maps.of_weights.end());
   return Picked(std::move(uncertainty), places);
 }
 
@@ -52,7 +51,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& uncertainty, const LogSamp
   fit.initial_energy = warming.initial_energy();
   fit.jump_samples = Behind(warm.gaps);
   // rows of the heat, with errors that law, maps and warming share
-  const std::vector<FitParameter> rows = HeatTable(warming, warm.gaps, measurements);
+  const std::vector<Unknown> rows = HeatTable(warming, warm.gaps, measurements);
   Append(rows, fit);
   fit.errors.covariance = [table = WithoutWeights(uncertainty, warm.fit)] { return table; };
   fit.count += static_cast<int>(rows.size());
@@ -118,7 +117,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   if (fit.refusal) return fit;
 
   // the warming; the friction predicts its own energy from here on
-  const double log_deviation = uncertainty.Deviation(warm.joint->layout().log_time_constant());
+  const double log_deviation = uncertainty.Deviation(warm.joint->At(Role::time_constant).begin);
   const double time_constant = warm.warming.thermal().time_constant;
   if (auto why = UnidentifiableWarming({.explained = warm.visible,
                                         .log_deviation = log_deviation,

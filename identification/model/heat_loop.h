@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
-#include "identification/layout.h"
+#include "identification/table.h"
 
 namespace warmjoint {
 

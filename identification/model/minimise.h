@@ -5,9 +5,13 @@
 #include <functional>
 #include <vector>
 
-#include "identification/layout.h"
-
 namespace warmjoint {
+
+/// A point, and how well it fits.
+struct FitPoint {
+  Eigen::VectorXd x;   // [p]
+  double squares = 0;  // sum of squared residuals over the samples that count
+};
 
 /// Rows of a least-squares problem at a point x, summed, over the variance of the noise: J the derivatives of the model, r what it
 /// leaves of the data. What is known in addition to the data counts as rows, too.

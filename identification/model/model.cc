@@ -59,7 +59,7 @@ void LoadBlock::FillLosses(const VectorXd& x, ModelRows& rows) const {
 
 VectorXd Model::Start() const {
   VectorXd x(size());
-  for (Index i = 0; i < size(); ++i) x[i] = table[static_cast<std::size_t>(i)].start;
+  for (Index i = 0; i < size(); ++i) x[i] = table[static_cast<std::size_t>(i)].X();
   return x;
 }
 

@@ -19,7 +19,7 @@ FallingLaw OfOneLevel() {
   return {*FindLaw(L::name),
           *FindLaw(ViscousCoulomb::name),
           Stribeck::name,
-          &LayoutOf<L>,
+          PlacesOf<L>(),
           &TableOf<L>,
           Eigen::Vector3d(0, -1, 1),
           "static less coulomb",
@@ -36,7 +36,7 @@ FallingLaw OfTwoDirections() {
   return {*FindLaw(L::name),
           *FindLaw(Asymmetric::name),
           AsymmetricStribeck::name,
-          &LayoutOf<L>,
+          PlacesOf<L>(),
           &TableOf<L>,
           Eigen::Vector4d(0, 0, 0, 1),
           kStaticRiseRow.name,
@@ -72,23 +72,23 @@ std::vector<Iterate> ScanTrace(const FallingLaw& law, double exponent,
     const Eigen::VectorXd values = law.values(point.x, exponent);
     const double rmse = deviation * std::sqrt(point.squares / static_cast<double>(count));
     trace.push_back({static_cast<int>(trace.size()),
-                     {values.begin(), values.begin() + law.layout(false).shape.end()},
+                     {values.begin(), values.begin() + law.places.gain()},
                      rmse});
   }
   return trace;
 }
 
-void SetFallingModel(const FallingLaw& law, double exponent, const Layout& at,
+void SetFallingModel(const FallingLaw& law, double exponent, const FallingPlaces& at,
                      const Eigen::VectorXd& x, const LogSamples& measurements, Fit& fit) {
   const Eigen::VectorXd values = law.values(x, exponent);
   fit.friction = FrictionOf(law.law, values, measurements);
   fit.parameters = WithValues(LawUnknowns(law.law, values.size(), UnitsOf(measurements)), values);
   // vs is fitted by its logarithm; an exponent, which follows the rows that are in x, was given
   fit.parameters[at.log_vs()].coordinate = Coordinate::logarithm;
-  for (FitParameter& given : std::span(fit.parameters).subspan(at.shape.end())) {
+  for (Unknown& given : std::span(fit.parameters).subspan(at.gain())) {
     given.estimated = false;
   }
-  if (at.heat.size == 0) return;
+  if (at.heat == 0) return;
   fit.friction.thermal = at.ThermalAt(x);
   Append(HeatParameters(*fit.friction.thermal, measurements), fit);
 }

@@ -14,20 +14,44 @@
 #include <vector>
 
 #include "identification/fit/fit.h"
-#include "identification/layout.h"
+#include "identification/model/minimise.h"
+#include "identification/options.h"
+#include "identification/table.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/laws.h"
 
 namespace warmjoint {
 
+/// The places of the unknowns of a fit of such a law, which the compiler knows: law and shape as in its table, of which an exponent is
+/// given; the heat where it is fitted; the inertia where a bristle needs samples that accelerate.
+struct FallingPlaces {
+  Eigen::Index levels = 0;  // parameters before vs
+  Eigen::Index shape = 1;   // log(vs); with a bristle log(sigma0) and sigma1, too
+  Eigen::Index heat = 0;    // 2: gain and log(tau)
+  Eigen::Index rigid = 0;   // 1: the inertia
+
+  constexpr Slice law() const { return {0, levels}; }
+  constexpr Eigen::Index log_vs() const { return levels; }
+  constexpr Eigen::Index log_stiffness() const { return levels + 1; }
+  constexpr Eigen::Index damping() const { return levels + 2; }
+  constexpr Eigen::Index gain() const { return levels + shape; }
+  constexpr Eigen::Index log_time_constant() const { return gain() + 1; }
+  constexpr Eigen::Index inertia() const { return gain() + heat; }
+  constexpr Eigen::Index size() const { return inertia() + rigid; }
+  /// The warming at x, of a fit with heat.
+  Thermal ThermalAt(const Eigen::VectorXd& x) const {
+    return {x[gain()], std::exp(x[log_time_constant()])};
+  }
+};
+
 /// What the fit of a law with the Stribeck effect knows of it in addition to its table. Its levels, p, are the l
 /// parameters before stribeck_velocity, of which the force of steady sliding is linear.
 struct FallingLaw {
   const Law& law;
-  const Law& without;           // the law that is left without the fall, whose table is a part of x
-  std::string_view steady;      // the law of the same friction in steady sliding, exponent 2
-  Layout (*layout)(bool heat);  // LayoutOf it
-  /// The values of its table at x of such a layout. exponent: of a law that has one
+  const Law& without;       // the law that is left without the fall, whose table is a part of x
+  std::string_view steady;  // the law of the same friction in steady sliding, exponent 2
+  FallingPlaces places;     // without heat
+  /// The values of its table at x. exponent: of a law that has one
   Eigen::VectorXd (*values)(const Eigen::VectorXd& x, double exponent);
   Eigen::VectorXd fall;                // [l] ks - kc = fall . p, N.m or N
   std::string_view fall_words;         // the same in words
@@ -45,32 +69,32 @@ struct FallingLaw {
 using SteadyFallingLaws = LawList<Stribeck, AsymmetricStribeck>;
 using BristleFallingLaws = LawList<LuGre, AsymmetricLuGre>;
 
-/// The places of the unknowns of a fit of L: law and shape as in its table, of which an exponent is given;
-/// the heat where it is fitted; the inertia where a bristle needs samples that accelerate.
-template <typename L>
-constexpr Layout LayoutOf(bool heat = false) {
-  constexpr bool bristle = LawWithBristle<L>;
-  Eigen::Index levels = 0;
-  while (L::parameters[levels].name != kStribeckVelocityRow.name) ++levels;
-  return Layout::InOrder({{&Layout::law, levels},
-                          {&Layout::shape, bristle ? 3 : 1},
-                          {&Layout::heat, heat ? 2 : 0},
-                          {&Layout::rigid, bristle ? 1 : 0}});
+/// The places of the unknowns of a fit of L, with the heat where it is estimated.
+template <typename L, PartFit W = PartFit::none>
+constexpr FallingPlaces PlacesOf() {
+  FallingPlaces at;
+  while (L::parameters[at.levels].name != kStribeckVelocityRow.name) ++at.levels;
+  if (W == PartFit::estimated) at.heat = 2;
+  if (LawWithBristle<L>) {
+    at.shape = 3;
+    at.rigid = 1;
+  }
+  return at;
 }
 
 /// The values of L's table at x. exponent: of a law that has one
 template <typename L, typename T>
 std::array<T, L::parameters.size()> ValuesOf(const T* x, double exponent = 2) {
   using std::exp;
-  constexpr Layout at = LayoutOf<L>();
+  constexpr FallingPlaces at = PlacesOf<L>();
   std::array<T, L::parameters.size()> values;
-  std::copy_n(x, at.shape.end(), values.begin());
+  std::copy_n(x, at.gain(), values.begin());
   // some are in x by their logarithms
   values[at.log_vs()] = exp(x[at.log_vs()]);
   if constexpr (LawWithBristle<L>) {
     values[at.log_stiffness()] = exp(x[at.log_stiffness()]);
   } else {
-    values[at.shape.end()] = T(exponent);
+    values[at.gain()] = T(exponent);
   }
   return values;
 }
@@ -104,7 +128,7 @@ std::vector<Iterate> ScanTrace(const FallingLaw& law, double exponent,
                                Eigen::Index count);
 
 /// Law and, where it is fitted, heat at x: the model and its table. at: of x; exponent: of a law that has one.
-void SetFallingModel(const FallingLaw& law, double exponent, const Layout& at,
+void SetFallingModel(const FallingLaw& law, double exponent, const FallingPlaces& at,
                      const Eigen::VectorXd& x, const LogSamples& measurements, Fit& fit);
 
 /// One law of a list, as an option names it.

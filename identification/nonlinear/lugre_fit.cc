@@ -74,7 +74,7 @@ template <typename L, typename T>
 LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
   const Eigen::Index n = problem.motion.size();
   const auto p = ValuesOf<L>(x);
-  const T& inertia = x[LayoutOf<L>().inertia()];
+  const T& inertia = x[PlacesOf<L>().inertia()];
   LugreResponse<T> response;
   response.torque.reserve(static_cast<size_t>(n));
   Eigen::Index row = 0;  // of the used samples
@@ -139,7 +139,7 @@ class Residuals {
 
 /// How many parameters x has of law L.
 template <typename L>
-constexpr int kSize = static_cast<int>(LayoutOf<L>().size());
+constexpr int kSize = static_cast<int>(PlacesOf<L>().size());
 
 template <typename L>
 using Cost = ceres::AutoDiffCostFunction<Residuals<L>, ceres::DYNAMIC, kSize<L>>;
@@ -182,7 +182,7 @@ std::pair<double, double> Distances(const LogSamples& m) {
 /// Fits the inertia to a point, and sums the squares.
 void Complete(const LugreProblem& problem, FitPoint& point) {
   const Eigen::Index n = problem.used.count();
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   double& inertia = point.x[at.inertia()];
   inertia = 0;
   // the residual without inertia
@@ -204,10 +204,10 @@ void Complete(const LugreProblem& problem, FitPoint& point) {
 /// point, by Gauss-Newton steps with ks within 1 and 3 kc as in starts.
 void CompleteLevels(const LugreProblem& problem, FitPoint& point) {
   constexpr int kSteps = 2;
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   // levels of the law, and the inertia where it is free
-  std::vector<Eigen::Index> linear(static_cast<size_t>(at.law.size));
-  std::iota(linear.begin(), linear.end(), at.law.begin);
+  std::vector<Eigen::Index> linear(static_cast<size_t>(at.law().size));
+  std::iota(linear.begin(), linear.end(), at.law().begin);
   if (!problem.IsConstant(at.inertia())) linear.push_back(at.inertia());
   Eigen::VectorXd r(problem.used.count());
   RowMajor jacobian(r.size(), at.size());
@@ -220,8 +220,8 @@ void CompleteLevels(const LugreProblem& problem, FitPoint& point) {
     FitPoint next = point;
     next.x(linear) += change;
     // steps end outside of the law's bounds
-    if (!next.x.allFinite() || !(problem.law->coulomb(at.law.In(next.x).data()) > 0)) break;
-    problem.law->keep(at.law.In(next.x).data(), 1, 3);
+    if (!next.x.allFinite() || !(problem.law->coulomb(at.law().In(next.x).data()) > 0)) break;
+    problem.law->keep(at.law().In(next.x).data(), 1, 3);
     next.x[at.inertia()] = std::max(0.0, next.x[at.inertia()]);
     point = next;
   }
@@ -234,7 +234,7 @@ std::vector<FitPoint> ScanBristle(
     const LugreProblem& problem, const LogSamples& measurements,
     const std::function<std::optional<Eigen::VectorXd>(double distance)>& steady) {
   const LogSamples& m = measurements;
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   const auto [shortest, longest] = Distances(m);
   std::vector<FitPoint> points;
   if (!(shortest > 0) || !(longest > shortest)) return points;
@@ -245,7 +245,7 @@ std::vector<FitPoint> ScanBristle(
     const std::optional<Eigen::VectorXd> curve = steady(distance);
     if (!curve) continue;
     // static torque bends the bristles by the distance
-    const double stiffness = problem.law->at_rest(at.law.Of(*curve).data()) / distance;
+    const double stiffness = problem.law->at_rest(at.law().Of(*curve).data()) / distance;
     // without damping, and with some by which bristles relax within one step or ten
     for (const double times : {0.0, 1.0, 10.0}) {
       if (times > 0 && problem.IsConstant(at.damping())) continue;
@@ -260,13 +260,13 @@ std::vector<FitPoint> ScanBristle(
 }
 
 std::vector<FitPoint> ScanFall(const LugreProblem& problem, const FitPoint& point, double fastest) {
-  const Layout at = problem.layout();
+  const FallingPlaces& at = problem.places();
   std::vector<FitPoint> points;
   for (int i = 0; i < kVelocities; ++i) {
     FitPoint other = point;
     // vs from the fastest speed to a thousandth of it
     other.x[at.log_vs()] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
-    problem.law->keep(at.law.In(other.x).data(), kFall, kFall);
+    problem.law->keep(at.law().In(other.x).data(), kFall, kFall);
     CompleteLevels(problem, other);
     if (std::isfinite(other.squares)) points.push_back(other);
   }
@@ -295,7 +295,7 @@ Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugreFit& fit) {
   return ForLaw(problem, [&]<typename L>() {
     const Eigen::VectorXd& x = fit.solution.x;
     const auto p = ValuesOf<L>(x.data());
-    Eigen::VectorXd torque = x[LayoutOf<L>().inertia()] * problem.acceleration;
+    Eigen::VectorXd torque = x[PlacesOf<L>().inertia()] * problem.acceleration;
     size_t recording = 0;
     // each recording from its own load
     for (Eigen::Index first = 0, end = 0; first < n; first = end) {

@@ -24,7 +24,7 @@ struct LugreProblem {
   std::vector<int> constant;                             // parameters of x that stay as they are
   const FallingLaw* law = &FindFallingLaw(LuGre::name);  // one of BristleFallingLaws
 
-  Layout layout() const { return law->layout(false); }
+  const FallingPlaces& places() const { return law->places; }
   bool IsConstant(Eigen::Index parameter) const {
     return std::count(constant.begin(), constant.end(), parameter) > 0;
   }

@@ -51,7 +51,7 @@ class Residuals {
     return isfinite(energy) && isfinite(law[kAt.log_vs()]);
   }
 
-  static constexpr Layout kAt = LayoutOf<L>(W == PartFit::estimated);
+  static constexpr FallingPlaces kAt = PlacesOf<L, W>();
 
  private:
   /// Subtracts the part of the residuals that is in the span of the basis.
@@ -156,17 +156,17 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
   if (cold.rank < both.cols()) return std::nullopt;
   const Eigen::Index q = problem.rigid.cols();
 
-  const Layout at = problem.layout();
+  const FallingPlaces at = problem.places();
   FitPoint point{Eigen::VectorXd(at.size())};
   point.x[at.log_vs()] = std::log(velocity);
   if (problem.warming == PartFit::none) {
-    at.law.In(point.x) = cold.solution.head(columns.cols());
+    at.law().In(point.x) = cold.solution.head(columns.cols());
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
     // with warming: the time constant that explains most in addition to these columns
     const InitialGuess start = ScanBesideRigid(columns, cold.solution.tail(q), problem);
     const Eigen::VectorXd law = start.parameters.head(columns.cols());
-    at.law.In(point.x) = law;
+    at.law().In(point.x) = law;
     point.x[at.gain()] = start.thermal.gain;
     point.x[at.log_time_constant()] = std::log(start.thermal.time_constant);
     Eigen::VectorXd force = ClosedLoop::Along(m, columns).Simulate(law, start.thermal).force;

@@ -40,7 +40,11 @@ struct StribeckProblem {
   const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
   Eigen::MatrixXd rigid{};  // [N x q] gravity and inertia, whose unknowns follow x; [0 x 0]: none
 
-  Layout layout() const { return law.layout(warming == PartFit::estimated); }
+  FallingPlaces places() const {
+    FallingPlaces at = law.places;
+    if (warming == PartFit::estimated) at.heat = 2;
+    return at;
+  }
 };
 
 /// Columns, followed by those of the problem's rigid part. columns: [N x d]; returns [N x d + q]

@@ -49,10 +49,10 @@ Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Sele
   return {Status::not_identifiable, ExplainNoFall(law.rest(), SlowSpeeds(measurements, selection))};
 }
 
-StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
-                            const Uncertainty& uncertainty) {
-  const Eigen::MatrixXd covariance = at.law.Block(uncertainty.covariance);
-  return {law.fall.dot(at.law.Of(x)), std::sqrt(law.fall.dot(covariance * law.fall)),
+StribeckEvidence EvidenceOf(const FallingLaw& law, const FallingPlaces& at,
+                            const Eigen::VectorXd& x, const Uncertainty& uncertainty) {
+  const Eigen::MatrixXd covariance = at.law().Block(uncertainty.covariance);
+  return {law.fall.dot(at.law().Of(x)), std::sqrt(law.fall.dot(covariance * law.fall)),
           uncertainty.Deviation(at.log_vs())};
 }
 

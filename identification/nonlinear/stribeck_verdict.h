@@ -36,8 +36,8 @@ Refusal NotConverged();
 Refusal NoFall(const FallingLaw& law, const LogSamples& measurements, const Selection& selection);
 
 /// The figures of a fit about its Stribeck effect. at: of x; uncertainty: of law and ln vs, at least, where x has them.
-StribeckEvidence EvidenceOf(const FallingLaw& law, const Layout& at, const Eigen::VectorXd& x,
-                            const Uncertainty& uncertainty);
+StribeckEvidence EvidenceOf(const FallingLaw& law, const FallingPlaces& at,
+                            const Eigen::VectorXd& x, const Uncertainty& uncertainty);
 
 /// Why ks and stribeck_velocity cannot be distinguished: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.

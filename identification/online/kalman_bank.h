@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "identification/layout.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
@@ -42,19 +41,24 @@ void TakeIn(const Eigen::Matrix<double, D, 1>& a, double y, double forgetting,
 }
 
 /// The places of p, k, ln tau and E in a state: d parameters of the law, heat, and the energy now.
-constexpr Layout StateLayout(Eigen::Index d) {
-  return Layout::InOrder({{&Layout::law, d}, {&Layout::heat, 2}, {&Layout::start, 1}});
-}
+struct StatePlaces {
+  Eigen::Index d = 0;
+
+  constexpr Eigen::Index gain() const { return d; }
+  constexpr Eigen::Index log_time_constant() const { return d + 1; }
+  constexpr Eigen::Index energy() const { return d + 2; }
+  constexpr Eigen::Index size() const { return d + 3; }
+};
 
 /// What is known of (p, k, ln tau, E): the d = D parameters of a linear law, the thermal gain and
 /// time constant, and the energy now. D may be Eigen::Dynamic; only then a step allocates.
 template <int D>
 struct KalmanState {
-  static constexpr int kSize = D == Eigen::Dynamic ? D : static_cast<int>(StateLayout(D).size());
+  static constexpr int kSize = D == Eigen::Dynamic ? D : D + 3;
   Eigen::Matrix<double, kSize, 1> mean;            // [d + 3]
   Eigen::Matrix<double, kSize, kSize> covariance;  // [d + 3 x d + 3]
 
-  Layout layout() const { return StateLayout(mean.size() - StateLayout(0).size()); }
+  StatePlaces places() const { return {mean.size() - StatePlaces().size()}; }
 };
 
 /// One sample and the interval that follows it.
@@ -79,8 +83,8 @@ struct KalmanOutcome {
 template <int D>
 void Correct(const KalmanSample<D>& sample, double noise, KalmanOutcome<D>& outcome) {
   auto& [mean, covariance] = outcome.state;
-  const Layout at = outcome.state.layout();
-  const Eigen::Index d = at.law.size;
+  const StatePlaces at = outcome.state.places();
+  const Eigen::Index d = at.d;
   const Eigen::Matrix<double, KalmanState<D>::kSize, 1> Pa =
       covariance.template leftCols<D>(d) * sample.levels + covariance.col(at.energy());
   outcome.innovation =
@@ -95,8 +99,8 @@ void Correct(const KalmanSample<D>& sample, double noise, KalmanOutcome<D>& outc
 template <int D>
 void Predict(const KalmanSample<D>& sample, KalmanState<D>& state) {
   auto& [mean, covariance] = state;
-  const Layout at = state.layout();
-  const Eigen::Index d = at.law.size;
+  const StatePlaces at = state.places();
+  const Eigen::Index d = at.d;
   const double gain = mean[at.gain()];
   const ThermalHold<> hold = HoldOver(sample.step, std::exp(mean[at.log_time_constant()]));
   const double energy = mean[at.energy()];
@@ -168,7 +172,7 @@ KalmanBank<D> MakeBank(const KalmanPrior<D>& prior) {
   bank.count = 100;  // samples that this guess counts as
   bank.log_weight.fill(0);
   bank.members.fill(prior.state);
-  const Eigen::Index at = prior.state.layout().log_time_constant();
+  const Eigen::Index at = prior.state.places().log_time_constant();
   for (int i = 0; i < KalmanBank<D>::kMembers; ++i) {
     bank.members[i].mean[at] = std::log(prior.shortest) + i * Spacing(prior);
     bank.members[i].covariance(at, at) = std::pow(kOverlap * Spacing(prior), 2);

@@ -53,9 +53,9 @@ std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
   std::vector<EstimatedRow> rows;
   EstimatedRow at;
   for (; at.row < fit.parameters.size(); ++at.row) {
-    const FitParameter& row = fit.parameters[at.row];
+    const Unknown& row = fit.parameters[at.row];
     if (!row.estimated) continue;
-    const bool matters = IsNominal(row.role) || row.role == Role::heat || row.role == Role::start ||
+    const bool matters = IsNominal(row.role) || IsHeat(row.role) || row.role == Role::start ||
                          row.role == Role::jump;
     if (matters && !row.name.empty()) rows.push_back(at);
     if (row.role == Role::jump) ++at.jump;
@@ -65,9 +65,8 @@ std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
 }
 
 /// Friction and start with one row of the table at another value.
-void Set(const FitParameter& row, size_t jump, double value, Friction& friction,
-         ThermalStart& start) {
-  SetFriction(row, value, friction);
+void Set(const Unknown& row, size_t jump, double value, Friction& friction, ThermalStart& start) {
+  if (double* const place = row.PlaceIn(friction)) *place = value;
   if (row.role == Role::start) start.energy = value;
   if (row.role == Role::jump) start.jumps[jump].change = value;
 }
@@ -79,13 +78,13 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
   const Uncertainty& uncertainty = inference.uncertainty;
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, uncertainty.covariance.rows());
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
-    const FitParameter& row = fit.parameters[at.row];
+    const Unknown& row = fit.parameters[at.row];
     const double value = inference.parameters[at.row].value;
     const double deviation = uncertainty.Deviation(at.column);
 
     // a step of one standard deviation of the value; one that could turn a sign gives no slope
     const double step = row.ValueByCoordinate(value) * deviation;
-    const bool keeps_its_sign = IsNominal(row.role) || row.role == Role::heat;
+    const bool keeps_its_sign = IsNominal(row.role) || IsHeat(row.role);
     if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
 
     // E on both sides
@@ -146,7 +145,7 @@ void Move(const FigureChange& change, EstimatedParameter& figure) {
 /// intervals where k and tau have none.
 std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& inference, double h) {
   // k and tau as they were fitted, and the discrete pair of one sampling interval
-  const size_t gain_row = *fit.RowOf(Role::heat, 0), tau_row = *fit.RowOf(Role::heat, 1);
+  const size_t gain_row = *fit.RowOf(Role::gain), tau_row = *fit.RowOf(Role::time_constant);
   const Thermal fitted{fit.parameters[gain_row].value, fit.parameters[tau_row].value};
   const ParameterInterval& known_gain = inference.parameters[gain_row];
   const ParameterInterval& known_tau = inference.parameters[tau_row];
@@ -195,9 +194,9 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
 /// All rows that have a name; the discrete pair follows gain and time constant.
 std::vector<EstimatedParameter> ParametersOf(const Fit& fit, const Inference& inference, double h) {
   std::vector<EstimatedParameter> all;
-  const std::optional<size_t> tau = fit.RowOf(Role::heat, 1);
+  const std::optional<size_t> tau = fit.RowOf(Role::time_constant);
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     const ParameterInterval& estimated = inference.parameters[i];
     if (!row.name.empty()) {
       all.push_back({row.name, estimated.value, row.unit, estimated.std, estimated.interval95});
@@ -211,7 +210,7 @@ std::vector<EstimatedParameter> ParametersOf(const Fit& fit, const Inference& in
 
 TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
   TraceEntry entry{iterate.iteration, {}, iterate.rmse};
-  const std::optional<size_t> gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1);
+  const std::optional<size_t> gain = fit.RowOf(Role::gain), tau = fit.RowOf(Role::time_constant);
   for (size_t i = 0; i < iterate.values.size(); ++i) {
     // values that are not known yet are left out of the entry
     if (std::isnan(iterate.values[i])) continue;
@@ -232,7 +231,7 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   std::vector<Eigen::Index> columns;
   std::vector<double> slopes;  // of the value by its coordinate
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     if (!row.estimated || row.name.empty() || !inference.parameters[i].interval95) continue;
     of.parameters.push_back(row.name);
     columns.push_back(ColumnOf(fit, i));
@@ -301,7 +300,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   }
   // a verdict may have changed parameters
   const bool is_as_fitted = std::ranges::equal(inference.parameters, fit.parameters, {},
-                                               &ParameterInterval::value, &FitParameter::value);
+                                               &ParameterInterval::value, &Unknown::value);
   if (!fit.end_energy || !is_as_fitted) end = EndAlong(m, friction, fit.Start());
   const FigureErrors errors = ErrorsBySlopes(fit, inference, slopes);
 
@@ -333,10 +332,10 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
 Friction ReportedFriction(const Fit& fit, const Inference& inference) {
   Friction friction = fit.friction;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
-    if (IsNominal(row.role)) SetFriction(row, inference.parameters[i].value, friction);
+    const Unknown& row = fit.parameters[i];
+    if (IsNominal(row.role)) *row.PlaceIn(friction) = inference.parameters[i].value;
   }
-  if (const auto gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1); gain && tau) {
+  if (const auto gain = fit.RowOf(Role::gain), tau = fit.RowOf(Role::time_constant); gain && tau) {
     friction.thermal = Thermal{inference.parameters[*gain].value, inference.parameters[*tau].value};
   }
   return friction;

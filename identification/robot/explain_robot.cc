@@ -13,8 +13,8 @@ namespace warmjoint {
 std::string SummaryOfJoint(const JointFit& fit, const JointColumns& c) {
   return fmt::format(
       "fitted {} samples with the description as prior{}{}, residual {:.3g} {}",
-      c.samples.keep.count(), fit.at.law.size == 4 ? ", friction that rises at low speed" : "",
-      fit.at.heat ? ", warming" : "", std::sqrt(fit.solved.noise.variance), c.torque_unit);
+      c.samples.keep.count(), fit.Slows() ? ", friction that rises at low speed" : "",
+      fit.Has(Role::gain) ? ", warming" : "", std::sqrt(fit.solved.noise.variance), c.torque_unit);
 }
 
 std::string ExplainDidNotMove(const std::string& joint, double travel, JointKind kind) {

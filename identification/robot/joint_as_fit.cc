@@ -19,34 +19,31 @@ constexpr double kRounding = 1e-9;  // of a half width
 constexpr double kKnownGain =
     1.5;  // why: a torque with an error of a half is known no better than from the data sheet
 
-FitParameter ParameterOf(const JointFit& fit, Index row) {
+Unknown ParameterOf(const JointFit& fit, Index row) {
   const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
   // at its bound, but for rounding
   const double value = ValueOf(fit, row),
                at_bound = kRounding * HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), row));
   const bool held = IsNominal(unknown.role) && value - unknown.lower <= at_bound;
-  FitParameter parameter = WithValue(unknown, held ? unknown.lower : value);
-  parameter.has_interval =
-      !unknown.name.empty() && (row != fit.at.given.log_gain || KnowsGain(fit));
+  Unknown parameter = WithValue(unknown, held ? unknown.lower : value);
+  parameter.has_interval = !unknown.name.empty() && (unknown.role != Role::scale || KnowsGain(fit));
   return parameter;
 }
 
 Friction FrictionValue(const JointFit& fit, const JointColumns& c) {
   Friction friction;
-  const bool slows = fit.at.law.size == 4;
+  const bool slows = fit.Slows();
   friction.law = slows ? "asymmetric_stribeck" : "asymmetric";
-  for (Index row = fit.at.law.begin; row < fit.at.law.end(); ++row) {
+  const Slice law = fit.At(Role::law);
+  for (Index row = law.begin; row < law.end(); ++row) {
     friction.parameters[fit.model.table[static_cast<std::size_t>(row)].name] = fit.solved.x[row];
   }
   if (slows) {
     friction.parameters[std::string(kStribeckVelocityRow.name)] = fit.slow_share * c.top_speed;
     friction.parameters[std::string(kStribeckExponentRow.name)] = 2;
   }
-  friction.load_gain = fit.solved.x[fit.at.load.begin];
-  if (fit.at.heat) {
-    friction.thermal =
-        Thermal{fit.solved.x[fit.at.heat->begin], std::exp(fit.solved.x[fit.at.heat->begin + 1])};
-  }
+  friction.load_gain = fit.solved.x[fit.At(Role::load).begin];
+  if (fit.model.heat) friction.thermal = fit.model.heat->At(fit.solved.x);
   return friction;
 }
 
@@ -59,10 +56,7 @@ EndEnergy EndOf(const JointFit& fit) {
 }  // namespace
 
 double ValueOf(const JointFit& fit, Index row) {
-  const Unknown& unknown = fit.model.table[static_cast<std::size_t>(row)];
-  const double x = fit.solved.x[row];
-  if (unknown.coordinate != Coordinate::logarithm) return x;
-  return (row == fit.at.given.log_gain ? fit.at.given.sign : 1) * std::exp(x);
+  return fit.model.table[static_cast<std::size_t>(row)].ValueAt(fit.solved.x[row]);
 }
 
 double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
@@ -72,7 +66,7 @@ double HalfWidthOf(const JointFit& fit, const VectorXd& weights) {
 }
 
 bool KnowsGain(const JointFit& fit) {
-  return HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), fit.at.given.log_gain)) <
+  return HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), fit.At(Role::scale).begin)) <
          std::log(kKnownGain);
 }
 
@@ -86,7 +80,8 @@ LogSamples SamplesOf(const JointFit& fit, const JointColumns& c) {
   m.torque = c.samples.torque;
   m.further_starts = c.samples.starts;
   const SampleRange all{0, c.samples.time.size()};
-  m.load = fit.at.given.Gain(fit.solved.x) * c.carried.At(all, fit.at.given.z.Of(fit.solved.x));
+  const GivenPlaces given = fit.Given();
+  m.load = given.Gain(fit.solved.x) * c.carried.At(all, given.z.Of(fit.solved.x));
   return m;
 }
 
@@ -105,7 +100,7 @@ Fit FitOf(const JointFit& fit, const JointColumns& c, const ModelSamples& sample
   made.effective_parameters = fit.effective_parameters;
   made.jacobian = [&fit] { return ModelAt(fit.model, fit.solved.x).All().derivatives; };
   made.errors.covariance = [uncertainty = fit.uncertainty] { return uncertainty; };
-  if (fit.at.heat) made.end_energy = [&fit] { return EndOf(fit); };
+  if (fit.model.heat) made.end_energy = [&fit] { return EndOf(fit); };
   return made;
 }
 

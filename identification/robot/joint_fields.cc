@@ -80,7 +80,8 @@ void AddFields(const JointColumns& c, const FieldSet& fields, JointFit& fit) {
   fit.solved.x = UnknownsOf(made);
   fit.solved.noise = NoiseScaleOf(made.residual());
   fit.solved.residual = c.samples.torque - torque;
-  made.parameters[static_cast<std::size_t>(fit.at.given.log_gain)].has_interval = KnowsGain(fit);
+  made.parameters[static_cast<std::size_t>(fit.At(Role::scale).begin)].has_interval =
+      KnowsGain(fit);
   fit.fields = std::make_shared<const FieldsOfJoint>(FieldsOfJoint{fields, std::move(made)});
 }
 

@@ -47,7 +47,8 @@ JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
 
 VectorXd MeanCoulomb(const JointFit& fit) {
   VectorXd weights = VectorXd::Zero(fit.model.size());
-  weights[fit.at.law.begin + 1] = weights[fit.at.law.begin + 2] = .5;
+  const Index law = fit.At(Role::law).begin;
+  weights[law + 1] = weights[law + 2] = .5;
   return weights;
 }
 
@@ -83,16 +84,16 @@ std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const Jo
   const auto say = [&](std::string sentence) {
     causes.push_back(Note(std::move(sentence), SentenceIn::any_answer));
   };
-  if (fit.at.given.sign < 0) say(ExplainTurnedSign(c.joint));
+  if (fit.Given().sign < 0) say(ExplainTurnedSign(c.joint));
   if (fit.description_error > 1) say(ExplainWrongDescription(c.joint, fit.description_error));
-  if (fit.at.offset) {
-    const Index row = fit.at.offset->begin;
+  if (fit.Has(Role::offset)) {
+    const Index row = fit.At(Role::offset).begin;
     const double half = HalfWidthOf(fit, VectorXd::Unit(fit.model.size(), row));
     if (std::abs(fit.Value(row)) > half) {
       say(ExplainOffset(c.joint, fit.Value(row), half, c.torque_unit));
     }
   }
-  const Index rotor = fit.at.rotor.begin;
+  const Index rotor = fit.At(Role::inertia).begin;
   VectorXd by_rotor = VectorXd::Zero(fit.model.size());
   by_rotor[rotor] = 1;
   if (fit.Value(rotor) + HalfWidthOf(fit, by_rotor) < 0) say(kNegativeRotor);
@@ -181,10 +182,10 @@ RobotJointEstimate ReportNothing(const JointColumns& c, RobotJointSummary summar
 RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
                                RobotJointSummary summary,
                                const std::optional<JointHoldOut>& holdout) {
-  const double gain = ValueOf(fit, fit.at.given.log_gain);
+  const double gain = ValueOf(fit, fit.At(Role::scale).begin);
   summary.gain = gain;
-  if (c.basis.cols() <= fit.at.given.z.size && c.described.size() > 0) {
-    const VectorXd z = fit.at.given.z.Of(fit.solved.x);
+  if (c.basis.cols() <= fit.At(Role::direction).size && c.described.size() > 0) {
+    const VectorXd z = fit.At(Role::direction).Of(fit.solved.x);
     const VectorXd mended = c.described + c.basis * z.head(c.basis.cols());
     summary.inertials.assign(mended.begin(), mended.end());
   }

@@ -44,16 +44,16 @@ constexpr double kUnseen = .4;
 JointUnits UnitsOf(const JointColumns& c) { return {c.kind, c.torque_unit}; }
 
 /// An unknown with a prior about 0, which reports leave out.
-Unknown Nuisance(double deviation) {
+Unknown Nuisance(Role role, double deviation) {
   Unknown row;
-  row.role = Role::gravity;
+  row.role = role;
   row.prior = Normal{0, deviation};
   return row;
 }
 
 /// An offset of the torque, which is not friction.
 Unknown OffsetUnknown(const JointUnits& units) {
-  return {.name = std::string(kTorqueOffset), .role = Role::gravity, .unit = units.torque};
+  return {.name = std::string(kTorqueOffset), .role = Role::offset, .unit = units.torque};
 }
 
 /// Columns of the law over the samples. [N x 3], and one more where friction rises at low speed
@@ -95,80 +95,79 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
     law.push_back(UnknownOf(kStaticRiseRow, Role::law, units));
     fit.slow_share = kSlowShares.at(static_cast<std::size_t>(*slow));
   }
-  fit.at.law = model.Append(law);
+  model.Append(law);
   Unknown load = LoadUnknown(units);
   load.prior = Normal{0, kLoadSpread};
-  fit.at.load = model.Append({load});
+  model.Append({load});
   // an error of the description's own may be negative
   Unknown rotor = InertiaUnknown(units);
   rotor.name = "rotor_inertia";
   rotor.lower = -kInfinity;
-  fit.at.rotor = model.Append({rotor});
+  model.Append({rotor});
 
   // the rigid part, its gain about that of the robot's other joints
   const GainPrior prior = PriorOfGain(c, guess, q.middle_gain);
   const double start = guess.IsSure() ? std::abs(guess.value) : prior.middle;
-  fit.at.given.sign = guess.IsSure() && guess.value < 0 ? -1 : 1;
-  fit.at.given.log_gain =
-      model
-          .Append({{.name = "gain",
-                    .role = Role::gravity,
-                    .unit = c.torque_unit + "/(" + std::string(kTorqueUnit.For(c.kind)) + ")",
-                    .coordinate = Coordinate::logarithm,
-                    .start = std::log(start),
-                    .prior = Normal{std::log(prior.middle), q.gain_spread.value_or(prior.spread)},
-                    .largest_step = kGainStep}})
-          .begin;
-  const Unknown direction = Nuisance(1);
-  fit.at.given.z = model.Append(
+  const double sign = guess.IsSure() && guess.value < 0 ? -1 : 1;
+  model.Append({{.name = "gain",
+                 .role = Role::scale,
+                 .unit = c.torque_unit + "/(" + std::string(kTorqueUnit.For(c.kind)) + ")",
+                 .coordinate = Coordinate::logarithm,
+                 .value = sign * start,
+                 .prior = Normal{std::log(prior.middle), q.gain_spread.value_or(prior.spread)},
+                 .largest_step = kGainStep}});
+  const Unknown direction = Nuisance(Role::direction, 1);
+  model.Append(
       std::vector<Unknown>(static_cast<std::size_t>(c.rigid.directions.cols()), direction));
-  const Unknown harmonic = Nuisance(kRippleShare * further.ripple);
-  fit.at.ripple =
+  const Unknown harmonic = Nuisance(Role::ripple, kRippleShare * further.ripple);
+  const Slice ripple =
       model.Append(std::vector<Unknown>(static_cast<std::size_t>(c.ripple.cols()), harmonic));
 
+  const Slice of_law = fit.At(Role::law);
   model.blocks = {
-      std::make_shared<FrictionBlock>(fit.at.law, LawColumnsOf(c, slow), LossColumnsOf(c, slow)),
-      std::make_shared<LoadBlock>(fit.at.load.begin, fit.at.given, c.carried,
+      std::make_shared<FrictionBlock>(of_law, LawColumnsOf(c, slow), LossColumnsOf(c, slow)),
+      std::make_shared<LoadBlock>(fit.At(Role::load).begin, fit.Given(), c.carried,
                                   LoadBlock::Directions{c.Direction(), c.sign}),
-      std::make_shared<LinearBlock>(fit.at.rotor, Shared(c.acceleration)),
-      std::make_shared<GivenBlock>(fit.at.given, c.rigid),
+      std::make_shared<LinearBlock>(fit.At(Role::inertia), Shared(c.acceleration)),
+      std::make_shared<GivenBlock>(fit.Given(), c.rigid),
   };
-  if (c.ripple.cols() > 0) {
-    model.blocks.push_back(std::make_shared<LinearBlock>(fit.at.ripple, Shared(c.ripple)));
+  if (ripple.size > 0) {
+    model.blocks.push_back(std::make_shared<LinearBlock>(ripple, Shared(c.ripple)));
   }
   if (further.flanks) {
-    model.alike = {{fit.at.law.begin + 1, fit.at.law.begin + 2, *further.flanks}};
-    fit.at.offset = model.Append({OffsetUnknown(units)});
+    model.alike = {{of_law.begin + 1, of_law.begin + 2, *further.flanks}};
+    const Slice offset = model.Append({OffsetUnknown(units)});
     const VectorXd ones = VectorXd::Ones(c.velocity.size());
-    model.blocks.push_back(std::make_shared<LinearBlock>(*fit.at.offset, Shared(ones)));
+    model.blocks.push_back(std::make_shared<LinearBlock>(offset, Shared(ones)));
   }
 }
 
 void AddHeat(const JointColumns& c, const HeatGuess& guess, JointFit& fit) {
   std::vector<Unknown> heat = HeatUnknowns(UnitsOf(c));
-  heat[0].start = guess.gain;
-  heat[1].start = std::log(guess.time_constant);
+  heat[0].value = guess.gain;
+  heat[1].value = guess.time_constant;
   heat[1].largest_step = .5;
-  fit.at.heat = fit.model.Append(heat);
+  const Slice at = fit.model.Append(heat);
   // the speed in the direction in which the joint moves
   const VectorXd moved = c.velocity.cwiseAbs().cwiseProduct(c.sign);
   fit.model.heat = HeatLoop{.loop = std::make_shared<const ClosedLoop>(
                                 c.samples.time, moved, MatrixXd(moved.size(), 0), c.samples.starts),
                             .direction = c.Direction(),
-                            .friction = fit.at.given.z.end(),
-                            .parameters = *fit.at.heat};
+                            .friction = fit.Given().z.end(),
+                            .parameters = at};
 }
 
 /// The directions of the description, which a first fit holds while the noise is not known.
-std::vector<Index> Directions(const JointPlaces& at) {
+std::vector<Index> Directions(const JointFit& fit) {
+  const Slice z = fit.At(Role::direction);
   std::vector<Index> held;
-  for (Index i = at.given.z.begin; i < at.given.z.end(); ++i) held.push_back(i);
+  for (Index i = z.begin; i < z.end(); ++i) held.push_back(i);
   return held;
 }
 
 /// Solves first with the description as it is, then with all unknowns free.
 void SolveFresh(const JointColumns& c, JointFit& fit) {
-  fit.solved = Solve(fit.model, c.samples, fit.model.Start(), Directions(fit.at));
+  fit.solved = Solve(fit.model, c.samples, fit.model.Start(), Directions(fit));
   fit.solved = Solve(fit.model, c.samples, fit.solved.x);
 }
 
@@ -179,7 +178,7 @@ double LevelOf(const JointColumns& c, const GainGuess& guess, const JointQuestio
   plain.ripple.resize(c.ripple.rows(), 0);
   AddBlocks(plain, guess, q, {}, first);
   SolveFresh(c, first);
-  const Index law = first.at.law.begin;
+  const Index law = first.At(Role::law).begin;
   const double mean = (first.Value(law + 1) + first.Value(law + 2)) / 2;
   return std::max(mean, std::sqrt(first.solved.noise.variance));
 }
@@ -226,7 +225,7 @@ JointFit FitSlow(const JointColumns& c, const GainGuess& guess, const JointQuest
                  const Further& further, const JointFit& cold) {
   JointFit fit;
   AddBlocks(c, guess, q, further, fit);
-  const Index rise = fit.at.law.end() - 1, size = cold.solved.x.size();
+  const Index rise = fit.At(Role::law).end() - 1, size = cold.solved.x.size();
   VectorXd x = VectorXd::Zero(size + 1);
   x.head(rise) = cold.solved.x.head(rise);
   x.tail(size - rise) = cold.solved.x.tail(size - rise);
@@ -245,7 +244,7 @@ void SolveOn(const JointColumns& c, JointFit& fit) {
 /// By how many times its prior the description is wrong, as the log has it: the root of z^T (I - C)^-1 z over the number of directions
 /// that the log tells of, C the covariance of z, since the estimate of a z ~ N(0, 1) has the variance I - C. 1 where chance explains it.
 double DescriptionErrorOf(const JointFit& fit, const JointQuestion& q) {
-  const Slice& at = fit.at.given.z;
+  const Slice at = fit.At(Role::direction);
   if (at.size == 0) return 1;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> told(MatrixXd::Identity(at.size, at.size) -
                                                      at.Block(fit.uncertainty.covariance));
@@ -282,7 +281,7 @@ double ReachOf(const JointFit& fit, const JointQuestion& q) {
 void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
   if (fit.fields) {
     // what is within chance is at its bound
-    for (const FitParameter& row : fit.fields->fit.parameters) {
+    for (const Unknown& row : fit.fields->fit.parameters) {
       if (row.role == Role::law && row.value < row.lower) fit.beyond.push_back(row.name);
     }
     return;
@@ -301,7 +300,7 @@ void FindBeyond(const JointColumns& c, const JointQuestion& q, JointFit& fit) {
 std::optional<double> FindOffset(const JointColumns& c, const JointQuestion& q,
                                  const JointFit& fit) {
   const JointFit free = WithoutBounds(c, fit);
-  const Index up = fit.at.law.begin + 1, down = up + 1;
+  const Index up = fit.At(Role::law).begin + 1, down = up + 1;
   const double mean = (free.Value(up) + free.Value(down)) / 2;
   if (!(mean > 0)) return std::nullopt;
   const double difference = free.Value(up) - free.Value(down);
@@ -349,7 +348,7 @@ std::optional<JointFit> FindSlow(const JointColumns& c, const GainGuess& guess,
     if (best && !(slow.solved.noise.variance < best->solved.noise.variance)) continue;
     best = std::move(slow);
   }
-  const Index rise = best->at.law.end() - 1;
+  const Index rise = best->At(Role::law).end() - 1;
   const double level_of_one = q.error_level / static_cast<double>(shares) / q.joints;
   const double reach = StudentQuantile(best->uncertainty.degrees_of_freedom, 1 - level_of_one);
   const bool is_shown =
@@ -374,6 +373,12 @@ JointFit Concluded(const JointColumns& c, const JointQuestion& q, JointFit cold,
 }
 
 }  // namespace
+
+GivenPlaces JointFit::Given() const {
+  const Index scale = At(Role::scale).begin;
+  const double value = model.table[static_cast<std::size_t>(scale)].value;
+  return {scale, std::copysign(1.0, value), At(Role::direction)};
+}
 
 void JointColumns::AddDirections(const MatrixXd& of_rigid, const MatrixXd& of_carried) {
   const auto append = [](const MatrixXd& columns, MatrixXd& directions) {
@@ -442,7 +447,7 @@ JointFit FitJoint(const JointColumns& c, const GainGuess& guess, const JointQues
       SolveOn(c, warm);
       AddErrors(c, warm);
       // the fit has to agree, with a time constant within those that were tried
-      const Index gain = warm.at.heat->begin;
+      const Index gain = warm.At(Role::gain).begin;
       const bool is_told = warm.Value(gain) < -heat.limit * warm.Deviation(gain) &&
                            warm.Value(gain + 1) >= std::log(heat.shortest);
       if (is_told && Predicts(warm, fit, c)) return Concluded(c, q, fit, std::move(warm));

@@ -102,26 +102,15 @@ GainPrior PriorOfGain(const JointColumns& columns, const GainGuess& guess, doubl
 /// Whether the torque is in N.m or N.
 bool IsTorque(const JointColumns& columns);
 
-/// The places of the unknowns of a joint's model.
-struct JointPlaces {
-  Slice law;  // viscous, coulomb_positive, coulomb_negative and, where it slows, static_rise
-  Slice load, rotor;
-  GivenPlaces given;
-  Slice ripple;
-  std::optional<Slice> offset;
-  std::optional<Slice> heat;
-};
-
 /// The fields about a joint's fit.
 struct FieldsOfJoint {
   FieldSet asked;
   Fit fit;  // of the joint's table, with them
 };
 
-/// A joint's friction as it was fitted.
+/// A joint's friction as it was fitted. Its law has viscous, coulomb_positive, coulomb_negative and, where it slows, static_rise.
 struct JointFit {
   Model model;
-  JointPlaces at;
   SolvedModel solved;
   Uncertainty uncertainty;          // of x
   double effective_parameters = 0;  // that the log determines, and not the priors
@@ -133,6 +122,12 @@ struct JointFit {
   std::vector<std::string> beyond;  // rows of the law beyond their bound, beyond chance
   std::shared_ptr<const FieldsOfJoint> fields{};
 
+  Slice At(Role role) const { return model.At(role); }
+  /// Whether the model has a part.
+  bool Has(Role role) const { return At(role).size > 0; }
+  bool Slows() const { return At(Role::law).size == 4; }
+  /// The unknowns of the rigid torque.
+  GivenPlaces Given() const;
   double Value(Eigen::Index row) const { return solved.x[row]; }
   double Deviation(Eigen::Index row) const { return std::sqrt(uncertainty.covariance(row, row)); }
 };

@@ -30,12 +30,12 @@ class SharedSquares {
   SharedSquares(const std::vector<JointFit>& fits, const std::vector<JointColumns>& columns)
       : fits_(fits), columns_(columns) {
     for (const JointFit& fit : fits) {
-      const Slice& z = fit.at.given.z;
+      const Slice z = fit.At(Role::direction);
       Places& own = places_.emplace_back();
       for (Index i = 0; i < fit.model.size(); ++i) {
         const bool held = std::ranges::find(fit.solved.at_bound, i) != fit.solved.at_bound.end();
         if (held || (i >= z.begin && i < z.end())) continue;
-        if (i == fit.at.given.log_gain && RowOf(fit, i).prior->deviation >= kFreeSpread) {
+        if (RowOf(fit, i).role == Role::scale && RowOf(fit, i).prior->deviation >= kFreeSpread) {
           gains_.push_back(all_.size());
         }
         own.Add(i, all_.Append({RowOf(fit, i)}).begin);
@@ -45,7 +45,7 @@ class SharedSquares {
     // the directions are those of every joint
     z_.begin = all_.size();
     for (std::size_t j = 0; j < fits.size(); ++j) {
-      const Slice& z = fits[j].at.given.z;
+      const Slice z = fits[j].At(Role::direction);
       for (Index k = 0; k < z.size; ++k) {
         if (j == 0) all_.Append({RowOf(fits[j], z.begin + k)});
         places_[j].Add(z.begin + k, z_.begin + k);
@@ -66,7 +66,7 @@ class SharedSquares {
       const JointFit& fit = fits_[j];
       x(places_[j].here) = fit.solved.x(places_[j].of_joint);
       const MatrixXd h = fit.solved.gram / fit.solved.noise.scale() + fit.model.PriorPrecision();
-      const Slice& own = fit.at.given.z;
+      const Slice own = fit.At(Role::direction);
       const MatrixXd of_z = InverseScaled(own.Block(InverseScaled(h)));
       precision += of_z - MatrixXd::Identity(z_.size, z_.size);
       product += of_z * own.Of(fit.solved.x);

@@ -18,7 +18,7 @@ std::string_view BesideFriction(const Fit& fit) {
 }
 
 /// "inertia is -0.1 kg.m^2, below 0 with its whole 95 % interval, -0.2 to -0.05"
-std::string BelowZero(const FitParameter& inertia, const std::array<double, 2>& interval95) {
+std::string BelowZero(const Unknown& inertia, const std::array<double, 2>& interval95) {
   return fmt::format("inertia is {:.3g} {}, below 0 with its whole 95 % interval, {:.3g} to {:.3g}",
                      inertia.value, inertia.unit, interval95[0], interval95[1]);
 }
@@ -80,7 +80,7 @@ std::string ExplainNoFriction(double share) {
       100 * share);
 }
 
-std::string ExplainNegativeInertia(const FitParameter& inertia,
+std::string ExplainNegativeInertia(const Unknown& inertia,
                                    const std::array<double, 2>& interval95) {
   return fmt::format(
       "{}, and there is no fit without it: the torque is late or early against the "
@@ -88,7 +88,7 @@ std::string ExplainNegativeInertia(const FitParameter& inertia,
       BelowZero(inertia, interval95));
 }
 
-std::string ExplainHeldInertia(const FitParameter& inertia, const std::array<double, 2>& interval95,
+std::string ExplainHeldInertia(const Unknown& inertia, const std::array<double, 2>& interval95,
                                double share) {
   return fmt::format(
       "{}: it was fitted as 0, and intervals cover by how much that changes the friction, {:.2g} % "

@@ -33,9 +33,8 @@ std::string ExplainNoFriction(double share);
 
 /// The sentence about an inertia below 0 without which there is no fit; the next is about one that was taken out. share: by which
 /// that changes the friction
-std::string ExplainNegativeInertia(const FitParameter& inertia,
-                                   const std::array<double, 2>& interval95);
-std::string ExplainHeldInertia(const FitParameter& inertia, const std::array<double, 2>& interval95,
+std::string ExplainNegativeInertia(const Unknown& inertia, const std::array<double, 2>& interval95);
+std::string ExplainHeldInertia(const Unknown& inertia, const std::array<double, 2>& interval95,
                                double share);
 /// Whether the torque's sign may be turned: not where friction is known to brake.
 enum class TorqueSign { known, doubtful };

@@ -25,7 +25,7 @@ std::string Describe(const Excess& excess) {
                      excess.below ? "below" : "above", excess.bound, reach);
 }
 
-bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
+bool Warms(const Fit& fit) { return fit.RowOf(Role::gain).has_value(); }
 
 /// The identifier of the linear laws with warming or without, as a fit has it.
 std::string_view LinearLike(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nominal-ls"; }
@@ -52,7 +52,7 @@ std::string RemedyForFallingSlope(const Fit& fit) {
 }
 
 /// What makes a fit leave its bounds, and what to try.
-std::string RemedyForBound(const FitParameter& parameter, const Fit& fit) {
+std::string RemedyForBound(const Unknown& parameter, const Fit& fit) {
   if (parameter.part == LawPart::slope) return RemedyForFallingSlope(fit);
   // neither slope nor level: a linear law may do without it
   if (parameter.part != LawPart::level) {

@@ -14,7 +14,7 @@ namespace warmjoint {
 
 /// A parameter of the law outside of its physical bound.
 struct Excess {
-  const FitParameter& parameter;
+  const Unknown& parameter;
   std::optional<std::array<double, 2>> interval95;
   double bound = 0;
   bool below = false;   // the bound; else above

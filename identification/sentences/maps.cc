@@ -69,7 +69,7 @@ std::string ExplainMapBesideLoss(std::string_view position, std::string_view los
                      position, loss);
 }
 
-std::string ExplainHeldBesideMaps(const FitParameter& parameter) {
+std::string ExplainHeldBesideMaps(const Unknown& parameter) {
   return fmt::format("noise puts {} beyond its bound {}, so it is set to that", parameter.name,
                      parameter.lower);
 }

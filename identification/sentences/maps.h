@@ -64,7 +64,7 @@ inline constexpr const char* kMotorTurnsWithJoint =
     "the motor is taken to turn with the joint: give --gear, or log motor_position";
 
 /// The sentence about a parameter of the law that was set to its lower bound.
-std::string ExplainHeldBesideMaps(const FitParameter& parameter);
+std::string ExplainHeldBesideMaps(const Unknown& parameter);
 /// The sentence about parameters, by their names, that maps can imitate.
 std::string ExplainImitated(const std::vector<std::string>& names);
 /// The sentence about friction below 0 at a speed. fit: with gravity or without

@@ -7,7 +7,7 @@ namespace warmjoint {
 
 /// A parameter, and how far something changes it, in its unit.
 struct MovedParameter {
-  const FitParameter& parameter;
+  const Unknown& parameter;
   double change = 0;
 };
 

@@ -74,7 +74,7 @@ std::string AddHeat(LawFit& law) {
       [&](const ThermalFit& alone) {
         const Eigen::VectorXd left =
             law.rows.torque - Kept(problem.Respond(alone).torque, law.input().selection);
-        return problem.CovarianceOf(alone, left).Deviation(alone.layout.energy());
+        return problem.CovarianceOf(alone, left).Deviation(alone.At(Role::start).begin);
       },
       law.fit);
 
@@ -254,7 +254,7 @@ std::optional<std::string> WhyNotIdentifiable(const LawFit& law) {
   const double reach = StudentQuantile(FewestFreedom(selection, p), kIntervalLevel) /
                        StudentQuantile(kInfinity, kIntervalLevel);
   const double deviation =
-      fit.Deviation(fit.layout.log_time_constant(), fit.squares / degrees_of_freedom);
+      fit.Deviation(fit.At(Role::time_constant).begin, fit.squares / degrees_of_freedom);
   return UnidentifiableWarming({explained, reach * deviation, fit.thermal().time_constant,
                                 law.scanned.shortest, law.scanned.longest, longest,
                                 MedianStep(law.measurements().time)});
@@ -286,7 +286,7 @@ std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
     entry.iteration = static_cast<int>(trace.size()) - 1;
     entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
     // law, gain and time constant, which the fit has as its logarithm
-    const Eigen::Index count = warm.layout.heat.end();
+    const Eigen::Index count = warm.At(Role::time_constant).end();
     entry.values.assign(iterate.x.begin(), iterate.x.begin() + count);
     entry.values.back() = std::exp(entry.values.back());
   }
@@ -414,10 +414,10 @@ Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat) 
   return MayBeLate(given) ? FitBehindDelay(given, in_time) : in_time(given);
 }
 
-std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                                    const LogSamples& measurements) {
+std::vector<Unknown> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
+                               const LogSamples& measurements) {
   const JointUnits units = UnitsOf(measurements);
-  std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
+  std::vector<Unknown> rows = HeatParameters(warm.thermal(), measurements);
   if (warm.estimates_initial_energy()) {
     rows.push_back(WithValue(StartUnknown(units), warm.initial_energy()));
   }

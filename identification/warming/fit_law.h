@@ -23,8 +23,8 @@ Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat);
 
 /// Rows of the table for the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
 /// further starts among them
-std::vector<FitParameter> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                                    const LogSamples& measurements);
+std::vector<Unknown> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
+                               const LogSamples& measurements);
 
 /// Notes with a fit what is uncertain about its heat: losses within gaps of the log, and how warm the joint was as further
 /// recordings began where that of the first alone was expected.

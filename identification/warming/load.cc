@@ -30,7 +30,7 @@ double ChangeOf(const Fit& fit, const VectorXd& load, const VectorXd& before) {
 void AddLoadOfGravity(const VectorXd& load, const LogSamples& m, Fit& fit) {
   std::vector<Index> columns;
   Index column = 0;
-  for (const FitParameter& row : fit.parameters) {
+  for (const Unknown& row : fit.parameters) {
     if (!row.estimated) continue;
     if (row.role == Role::gravity) columns.push_back(column);
     ++column;

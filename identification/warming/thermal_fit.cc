@@ -19,23 +19,57 @@ using Eigen::VectorXd;
 
 constexpr double kFirm = 1e-9;  // of the residuals' scale: the least spread of a prior
 
-/// Law and rigid part in a layout.
-Model WithoutHeat(const LawBlocks& blocks, const Layout& at) {
-  Model model;
+/// Rows of a model, which has no names.
+std::vector<Unknown> RowsOf(Role role, Index count) {
+  Unknown unknown;
+  unknown.role = role;
+  return std::vector<Unknown>(static_cast<size_t>(count), unknown);
+}
+
+/// What is known of an unknown before the log, of noise of such a scale.
+Normal PriorAt(double mean, double spread, double scale) {
+  return {mean, std::max(spread, kFirm * scale)};
+}
+
+/// The unknowns of heat, E(0) and jumps, and what is known of them.
+void AppendHeat(const ThermalRows& rows, Model& model) {
+  model.Append(RowsOf(Role::gain, 1));
+  Unknown tau;
+  tau.role = Role::time_constant;
+  tau.coordinate = Coordinate::logarithm;
+  model.Append({tau});
+  if (rows.initial.spread > 0) {
+    Unknown start;
+    start.role = Role::start;
+    if (rows.initial.is_expected()) {
+      start.prior = PriorAt(rows.initial.mean, rows.initial.spread, rows.scale);
+    }
+    model.Append({start});
+  }
+  std::vector<Unknown> jumps = RowsOf(Role::jump, std::ssize(rows.jump_samples));
+  for (size_t i = 0; i < jumps.size(); ++i) {
+    const double spread = rows.jump_spread[static_cast<Index>(i)];
+    if (std::isfinite(spread)) jumps[i].prior = PriorAt(0, spread, rows.scale);
+  }
+  model.Append(jumps);
+}
+
+/// Adds the blocks of law and rigid part, the latter with its unknowns, to a table that has those of the law.
+void AddBlocks(const LawBlocks& blocks, Model& model) {
   model.samples = blocks.law->rows();
-  for (const auto& [part, role] : {std::pair(at.law, Role::law),
-                                   {at.heat, Role::heat},
-                                   {at.start, Role::start},
-                                   {at.jumps, Role::jump},
-                                   {at.rigid, Role::gravity}}) {
-    Unknown unknown;
-    unknown.role = role;
-    model.Append(std::vector<Unknown>(static_cast<size_t>(part.size), unknown));
+  const Slice rigid = model.Append(RowsOf(Role::gravity, blocks.rigid->cols()));
+  model.blocks = {
+      std::make_shared<FrictionBlock>(model.At(Role::law), blocks.law, blocks.of_losses)};
+  if (rigid.size > 0) {
+    model.blocks.push_back(std::make_shared<LinearBlock>(rigid, blocks.rigid));
   }
-  model.blocks = {std::make_shared<FrictionBlock>(at.law, blocks.law, blocks.of_losses)};
-  if (at.rigid.size > 0) {
-    model.blocks.push_back(std::make_shared<LinearBlock>(at.rigid, blocks.rigid));
-  }
+}
+
+/// Law and rigid part.
+Model WithoutHeat(const LawBlocks& blocks) {
+  Model model;
+  model.Append(RowsOf(Role::law, blocks.law->cols()));
+  AddBlocks(blocks, model);
   return model;
 }
 
@@ -63,40 +97,23 @@ MatrixXd WarmJacobian(const LawBlocks& blocks, const VectorXd& parameters, const
   VectorXd x(model.size());
   x << parameters, thermal.gain, std::log(thermal.time_constant), initial_energy, jumps.values;
   MatrixXd jacobian = ModelAt(model, x).All().derivatives;
-  jacobian.col(rows.layout().log_time_constant()) /= thermal.time_constant;  // from log tau to tau
+  jacobian.col(model.At(Role::time_constant).begin) /=
+      thermal.time_constant;  // from log tau to tau
   return jacobian;
 }
 
-Layout ThermalRows::layout() const {
-  return Layout::InOrder({{&Layout::law, blocks.law->cols()},
-                          {&Layout::heat, 2},
-                          {&Layout::start, initial.spread > 0 ? 1 : 0},
-                          {&Layout::jumps, std::ssize(jump_samples)},
-                          {&Layout::rigid, blocks.rigid->cols()}});
-}
-
 Model ThermalRows::MakeModel() const {
-  const Layout at = layout();
-  Model model = WithoutHeat(blocks, at);
+  Model model;
+  model.Append(RowsOf(Role::law, blocks.law->cols()));
+  AppendHeat(*this, model);
+  AddBlocks(blocks, model);
   model.heat = HeatLoop{.loop = blocks.loop,
                         .direction = blocks.loop->direction(),
-                        .friction = at.law.size,
-                        .parameters = at.heat,
-                        .start = at.start,
+                        .friction = blocks.law->cols(),
+                        .parameters = {model.At(Role::gain).begin, 2},
+                        .start = model.At(Role::start),
                         .jump_samples = jump_samples,
-                        .jumps = at.jumps};
-  const auto row = [&](Index i) -> Unknown& { return model.table[static_cast<size_t>(i)]; };
-  row(at.log_time_constant()).coordinate = Coordinate::logarithm;
-  // what is known before the log
-  const auto prior = [&](double mean, double spread) {
-    return Normal{mean, std::max(spread, kFirm * scale)};
-  };
-  for (Index i = 0; i < at.jumps.size; ++i) {
-    if (std::isfinite(jump_spread[i])) row(at.jumps.begin + i).prior = prior(0, jump_spread[i]);
-  }
-  if (at.start.size > 0 && initial.is_expected()) {
-    row(at.energy()).prior = prior(initial.mean, initial.spread);
-  }
+                        .jumps = model.At(Role::jump)};
   return model;
 }
 
@@ -108,7 +125,7 @@ double ThermalRows::ScaleOf(const ThermalFit& fit) const {
 
 InitialGuess StartFrom(const ThermalFit& fit) {
   InitialGuess start;
-  start.parameters.resize(fit.layout.law.size + fit.layout.rigid.size);
+  start.parameters.resize(fit.At(Role::law).size + fit.At(Role::gravity).size);
   start.parameters << fit.law(), fit.rigid();
   start.thermal = fit.thermal();
   return start;
@@ -116,20 +133,19 @@ InitialGuess StartFrom(const ThermalFit& fit) {
 
 ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start) {
   ThermalFit fit;
-  fit.layout = rows.layout();
   fit.initial = rows.initial;
   const auto model = std::make_shared<const Model>(rows.MakeModel());
   const double variance = rows.scale * rows.scale;
   fit.model = model;
   fit.prior = variance * model->PriorPrecision();
   // from the scanned law and heat, without jumps, with the E(0) that is expected
-  const Layout& at = fit.layout;
-  fit.x = VectorXd::Zero(at.size());
-  at.law.In(fit.x) = start.parameters.head(at.law.size);
-  fit.x[at.gain()] = start.thermal.gain;
-  fit.x[at.log_time_constant()] = std::log(start.thermal.time_constant);
-  if (at.start.size > 0) fit.x[at.energy()] = rows.initial.mean;
-  at.rigid.In(fit.x) = start.parameters.tail(at.rigid.size);
+  fit.x = VectorXd::Zero(model->size());
+  const Slice law = fit.At(Role::law), rigid = fit.At(Role::gravity);
+  law.In(fit.x) = start.parameters.head(law.size);
+  fit.x[fit.At(Role::gain).begin] = start.thermal.gain;
+  fit.x[fit.At(Role::time_constant).begin] = std::log(start.thermal.time_constant);
+  if (fit.estimates_initial_energy()) fit.x[fit.At(Role::start).begin] = rows.initial.mean;
+  rigid.In(fit.x) = start.parameters.tail(rigid.size);
 
   Minimum found = SolveAtNoise(*model, rows.samples, variance, fit.x);
   fit.x = std::move(found.x);
@@ -147,9 +163,7 @@ ThermalFit FitThermalFriction(const ThermalRows& rows, const InitialGuess& start
 
 ThermalFit FitWithoutHeat(const LawBlocks& blocks, const ModelSamples& samples) {
   ThermalFit fit;
-  fit.layout =
-      Layout::InOrder({{&Layout::law, blocks.law->cols()}, {&Layout::rigid, blocks.rigid->cols()}});
-  fit.model = std::make_shared<const Model>(WithoutHeat(blocks, fit.layout));
+  fit.model = std::make_shared<const Model>(WithoutHeat(blocks));
   LinearMinimum found = SolveLinear(*fit.model, samples);
   fit.converged = found.solved.rank == fit.model->size();
   fit.mixed = std::move(found.solved.mixed);
@@ -163,7 +177,7 @@ ThermalFit FitWithoutHeat(const LawBlocks& blocks, const ModelSamples& samples) 
 
 EndEnergy EndOf(const ThermalFit& fit) {
   const HeatState end = ModelAt(*fit.model, fit.x).End();
-  return {end.energy, end.slopes.head(fit.layout.rigid.begin)};
+  return {end.energy, end.slopes.head(fit.At(Role::gravity).begin)};
 }
 
 }  // namespace warmjoint

@@ -9,9 +9,9 @@
 
 #include "identification/fit/fit.h"
 #include "identification/forward/closed_loop.h"
-#include "identification/layout.h"
 #include "identification/model/model.h"
 #include "identification/model/model_squares.h"
+#include "identification/table.h"
 #include "identification/warming/scan_time_constant.h"
 
 namespace warmjoint {
@@ -67,9 +67,8 @@ struct ThermalRows {
   std::vector<Eigen::Index> jump_samples{};  // [J] at which E jumps
   Eigen::VectorXd jump_spread{};  // [J] standard deviation of each jump, N.m or N, or infinite
 
-  /// Law, heat, E(0) where it is not held, jumps, gravity and inertia.
-  Layout layout() const;
-  /// The model in this layout. Each jump has a prior about 0 with its spread, an expected E(0) one about its mean.
+  /// The model: law, heat, E(0) where it is not held, jumps, and gravity with inertia. Each jump has a prior about 0 with its spread,
+  /// an expected E(0) one about its mean.
   Model MakeModel() const;
   /// The rms of the residual that a fit to these rows leaves.
   double ScaleOf(const ThermalFit& fit) const;
@@ -83,21 +82,23 @@ struct ThermalFit {
   Eigen::MatrixXd cofactor;     // [p x p] (J^T J + P)^-1
   std::vector<FitPoint> trace;  // the solution last
   bool converged = false;
-  Layout layout;
-  std::shared_ptr<const Model> model;  // in that layout
-  Eigen::MatrixXd prior;               // [p x p] P: what is known of x before the log
-  InitialEnergy initial;               // what was known of E(0)
-  std::vector<Eigen::Index> mixed;     // columns of law and gravity that cannot be distinguished
+  std::shared_ptr<const Model> model;
+  Eigen::MatrixXd prior;            // [p x p] P: what is known of x before the log
+  InitialEnergy initial;            // what was known of E(0)
+  std::vector<Eigen::Index> mixed;  // columns of law and gravity that cannot be distinguished
 
-  bool has_heat() const { return layout.heat.size > 0; }
-  bool estimates_initial_energy() const { return layout.start.size > 0; }
-  Thermal thermal() const { return layout.ThermalAt(x); }  // of a fit with heat
+  bool has_heat() const { return model->heat.has_value(); }
+  bool estimates_initial_energy() const { return At(Role::start).size > 0; }
+  Slice At(Role role) const { return model->At(role); }
+  Thermal thermal() const { return model->heat->At(x); }  // of a fit with heat
   // N.m or N
-  double initial_energy() const { return estimates_initial_energy() ? x[layout.energy()] : 0; }
-  Eigen::VectorXd law() const { return layout.law.Of(x); }      // [d]
-  Eigen::VectorXd jumps() const { return layout.jumps.Of(x); }  // [J] of E, N.m or N
+  double initial_energy() const {
+    return estimates_initial_energy() ? x[At(Role::start).begin] : 0;
+  }
+  Eigen::VectorXd law() const { return At(Role::law).Of(x); }     // [d]
+  Eigen::VectorXd jumps() const { return At(Role::jump).Of(x); }  // [J] of E, N.m or N
   EnergyJumps JumpsOfE() const { return {model->heat->jump_samples, jumps()}; }
-  Eigen::VectorXd rigid() const { return layout.rigid.Of(x); }  // [q]
+  Eigen::VectorXd rigid() const { return At(Role::gravity).Of(x); }  // [q]
   /// The deviation of an unknown for a variance of the noise.
   double Deviation(Eigen::Index i, double variance) const {
     return std::sqrt(variance * cofactor(i, i));

@@ -175,8 +175,8 @@ Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
               .action = Action::widen,
               .sentence = ExplainUntoldDelay(*late.torque_delay, step)};
   for (size_t i = 0; i < in_time.parameters.size(); ++i) {
-    const FitParameter& row = in_time.parameters[i];
-    const auto other = std::ranges::find(late.parameters, row.name, &FitParameter::name);
+    const Unknown& row = in_time.parameters[i];
+    const auto other = std::ranges::find(late.parameters, row.name, &Unknown::name);
     if (!row.estimated || row.name.empty() || other == late.parameters.end()) continue;
     cause.Add(i, other->value - row.value);
   }
@@ -192,7 +192,7 @@ Cause UntoldShape(const Fit& fit, const MatrixXd& rows, const VectorXd& shape) {
   Cause cause{.source = Source::late_torque, .action = Action::widen};
   Index column = 0;
   for (size_t i = 0; i < fit.parameters.size() && bias.size() > 0; ++i) {
-    const FitParameter& row = fit.parameters[i];
+    const Unknown& row = fit.parameters[i];
     if (row.estimated) cause.Add(i, row.ValueByCoordinate(row.value) * bias[column++]);
   }
   return cause;

@@ -90,7 +90,7 @@ double LeastSquaresOf(Fit fit, const LogSamples& m, const Selection& selection) 
 
     // from there on
     for (size_t i = 0; i < model->rows.size(); ++i) {
-      FitParameter& row = fit.parameters[model->rows[i]];
+      Unknown& row = fit.parameters[model->rows[i]];
       row.value += move[static_cast<Eigen::Index>(i)];
       if (row.role == Role::law) fit.friction.parameters[row.name] = row.value;
       if (row.name == "thermal_gain") fit.friction.thermal->gain = row.value;

@@ -173,7 +173,7 @@ LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
     }
     // how sure the time constant is
     const EstimatedParameter* tau =
-        estimate.Find(fmt::format("{}{}", prefix, NameOf(Role::heat, 1)));
+        estimate.Find(fmt::format("{}{}", prefix, NameOf(Role::time_constant)));
     const double tau_deviation = tau ? DeviationOf(*tau).value_or(0) : 0;
     left.stages.push_back({energy->value, *deviation, thermal->time_constant, tau_deviation});
   }

@@ -139,7 +139,7 @@ SharedDirections SharedOf(const RobotData& data, const RobotRows& free,
     JointQuestion held = question;
     if (IsTorque(columns[at])) held.gain_spread = kHeldGain * prior.spread;
     JointFit& fit = fits[at] = FitJoint(columns[at], guesses[at], held);
-    const auto gain = static_cast<std::size_t>(fit.at.given.log_gain);
+    const auto gain = static_cast<std::size_t>(fit.At(Role::scale).begin);
     fit.model.table[gain].prior->deviation = prior.spread;
   });
   return FitShared(fits, columns);

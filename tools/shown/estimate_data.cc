@@ -204,7 +204,7 @@ Tree GuessFacts(const LogSamples& measurements, const Selection& selection,
   if (selection.count() == 0) return nullptr;
   const FirstGuess guess = GuessThermal(measurements, selection);
   if (!guess.thermal) return nullptr;
-  const std::vector<FitParameter> rows = HeatParameters(*guess.thermal, measurements);
+  const std::vector<Unknown> rows = HeatParameters(*guess.thermal, measurements);
   const TorqueEnvelope& envelope = *guess.envelope;
   Tree facts{{"gain", guess.thermal->gain},      {"time_constant", guess.thermal->time_constant},
              {"gain_unit", rows[0].unit},        {"cold", envelope.cold},

@@ -177,9 +177,9 @@ Estimate ReadAnswer(const std::string& text, const std::string& label) {
 
 /// The discrete pair (22) of an estimate that brings only the continuous one, without intervals.
 void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
-  const EstimatedParameter* gain = Find(Role::heat, estimate, 0);
+  const EstimatedParameter* gain = Find(Role::gain, estimate);
   // only where the answer has the continuous pair alone
-  const EstimatedParameter* time_constant = Find(Role::heat, estimate, 1);
+  const EstimatedParameter* time_constant = Find(Role::time_constant, estimate);
   if (!gain || !time_constant || time_constant->value <= 0) return;
   if (estimate.Find(kDiscreteGainName) || estimate.Find(kPoleName)) return;
 

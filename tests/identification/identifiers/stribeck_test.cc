@@ -147,10 +147,10 @@ TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
   const StribeckProblem problem{m,  selection, FindIntervals(m.time), 2, PartFit::estimated,
                                 10, law};
   const Eigen::Index levels = law.levels();
-  const Layout at = problem.layout();
+  const FallingPlaces at = problem.places();
   FitPoint start{Eigen::VectorXd(at.size())};
   const std::vector<double> values = LawValues(warm);
-  at.law.In(start.x) = Eigen::Map<const Eigen::VectorXd>(values.data(), levels);
+  at.law().In(start.x) = Eigen::Map<const Eigen::VectorXd>(values.data(), levels);
   start.x[at.log_vs()] = std::log(0.05);
   start.x[at.gain()] = -3;
   start.x[at.log_time_constant()] = std::log(60);
@@ -161,7 +161,7 @@ TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
     Friction friction = warm;
     for (Eigen::Index i = 0; i < levels; ++i) {
       friction.parameters[std::string(law.law.parameters[static_cast<size_t>(i)].name)] =
-          at.law.Of(x)[i];
+          at.law().Of(x)[i];
     }
     friction.parameters["stribeck_velocity"] = std::exp(x[at.log_vs()]);
     friction.thermal = at.ThermalAt(x);

@@ -94,10 +94,10 @@ TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const JointColumns c = Columns(truth, seed);
     const JointFit fit = Fit(c);
-    const Index law = fit.at.law.begin;
+    const Index law = fit.At(Role::law).begin;
     const VectorXd off{{Off(fit, law, truth.viscous), Off(fit, law + 1, truth.forwards),
-                        Off(fit, law + 2, truth.backwards), Off(fit, fit.at.load.begin, truth.load),
-                        Off(fit, fit.at.given.log_gain, std::log(truth.gain))}};
+                        Off(fit, law + 2, truth.backwards), Off(fit, fit.At(Role::load).begin, truth.load),
+                        Off(fit, fit.At(Role::scale).begin, std::log(truth.gain))}};
     squares += off.cwiseAbs2();
   }
   EXPECT_LT(squares.maxCoeff(), 45.3) << squares.transpose();
@@ -107,17 +107,17 @@ TEST(RobotJoint, TellsAnOffsetOfTheTorqueFromFriction) {
   // one that is smaller than the friction, and one that leaves none of it in one direction
   JointTruth truth;
   truth.backwards = 5.4;
-  EXPECT_FALSE(Fit(Columns(truth, 1)).at.offset);
+  EXPECT_FALSE(Fit(Columns(truth, 1)).Has(Role::offset));
   for (const double offset : {3.0, -7.0}) {
     double squares = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
       JointColumns c = Columns(truth, seed);
       c.samples.torque.array() += offset;
       const JointFit fit = Fit(c);
-      ASSERT_TRUE(fit.at.offset) << offset << ", seed " << seed;
+      ASSERT_TRUE(fit.Has(Role::offset)) << offset << ", seed " << seed;
       EXPECT_TRUE(fit.beyond.empty());
-      const Index law = fit.at.law.begin;
-      EXPECT_LT(std::abs(Off(fit, fit.at.offset->begin, offset)), 4) << seed;
+      const Index law = fit.At(Role::law).begin;
+      EXPECT_LT(std::abs(Off(fit, fit.At(Role::offset).begin, offset)), 4) << seed;
       EXPECT_LT(std::abs(Off(fit, law + 1, truth.forwards)), 4) << seed;
       EXPECT_LT(std::abs(Off(fit, law + 2, truth.backwards)), 4) << seed;
       EXPECT_LT(fit.Deviation(law + 1), .1 * truth.forwards);
@@ -129,12 +129,12 @@ TEST(RobotJoint, TellsAnOffsetOfTheTorqueFromFriction) {
 
 TEST(RobotJoint, FindsWarmingWhereItIsAndNotWhereItIsNot) {
   JointTruth truth;
-  EXPECT_FALSE(Fit(Columns(truth, 5), true).at.heat);
+  EXPECT_FALSE(Fit(Columns(truth, 5), true).model.heat);
   truth.thermal_gain = -.5;
   const JointFit fit = Fit(Columns(truth, 5), true);
-  ASSERT_TRUE(fit.at.heat);
-  EXPECT_LT(std::abs(Off(fit, fit.at.heat->begin, truth.thermal_gain)), 4);
-  EXPECT_LT(std::abs(Off(fit, fit.at.heat->begin + 1, std::log(truth.tau))), 4);
+  ASSERT_TRUE(fit.model.heat);
+  EXPECT_LT(std::abs(Off(fit, fit.At(Role::gain).begin, truth.thermal_gain)), 4);
+  EXPECT_LT(std::abs(Off(fit, fit.At(Role::gain).begin + 1, std::log(truth.tau))), 4);
 }
 
 TEST(RobotJoint, DoesNotTakeFrictionThatFollowsTheMotionForWarming) {
@@ -145,7 +145,7 @@ TEST(RobotJoint, DoesNotTakeFrictionThatFollowsTheMotionForWarming) {
     c.samples.torque[i] -= c.sign[i] * 2.5 * mean / (c.top_speed * c.top_speed);
     mean += c.step / 2 * (c.velocity[i] * c.velocity[i] - mean);
   }
-  EXPECT_FALSE(Fit(c, true).at.heat);
+  EXPECT_FALSE(Fit(c, true).model.heat);
 }
 
 /// The fit with fields.
@@ -169,7 +169,7 @@ TEST(RobotJoint, FieldsHoldWhatReturnsAtEachPlace) {
     const double mean = c.samples.keep.select(ripple.array(), 0).sum() /
                         static_cast<double>(c.samples.keep.count());
     const auto off = [&](const JointFit& fit) {
-      const Index law = fit.at.law.begin;
+      const Index law = fit.At(Role::law).begin;
       return VectorXd{{Off(fit, law, truth.viscous), Off(fit, law + 1, truth.forwards + mean),
                        Off(fit, law + 2, truth.backwards + mean)}};
     };
@@ -185,8 +185,8 @@ TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
   JointTruth truth;
   truth.thermal_gain = -.5;
   const JointFit warm = FitToFields(Columns(truth, 5), true);
-  ASSERT_TRUE(warm.at.heat);
-  EXPECT_LT(std::abs(Off(warm, warm.at.heat->begin, truth.thermal_gain)), 4);
+  ASSERT_TRUE(warm.model.heat);
+  EXPECT_LT(std::abs(Off(warm, warm.At(Role::gain).begin, truth.thermal_gain)), 4);
 
   // a friction that wanders, which some logs show as a warming where there are no fields
   truth.thermal_gain = 0;
@@ -200,9 +200,9 @@ TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
       walk += .008 * normal(random);
       c.samples.torque[i] += walk * c.sign[i];
     }
-    if (!Fit(c, true).at.heat) continue;
+    if (!Fit(c, true).model.heat) continue;
     ++without;
-    claimed += FitToFields(c, true).at.heat ? 1 : 0;
+    claimed += FitToFields(c, true).model.heat ? 1 : 0;
   }
   EXPECT_EQ(without, 2);
   EXPECT_EQ(claimed, 0);
@@ -230,7 +230,7 @@ TEST(RobotJoint, JointsTogetherTellWhatTheDescriptionHasWrong) {
     squares += (shared.z - z).cwiseAbs2().cwiseQuotient(shared.covariance.diagonal()).sum();
     // as sure as either alone at least
     for (const JointFit& fit : fits) {
-      const Slice& at = fit.at.given.z;
+      const Slice at = fit.At(Role::direction);
       const VectorXd alone = fit.uncertainty.covariance.diagonal().segment(at.begin, at.size);
       EXPECT_LT(shared.covariance.diagonal().sum(), 1.1 * alone.sum());
     }
