@@ -17,7 +17,8 @@ constexpr double kFarthest =
     20;  // why: lengths of the log so far, beyond which nobody trusts a forecast
 constexpr double kFirst = 60;  // s, why: shorter logs are refused for their few holds
 constexpr double kLeastStep =
-    0.03;  // why: of the time, so that a stop is late by less than the forecast's own error
+    0.01;  // why: of the time, so that a stop is late by a fifth of the forecast's own error
+constexpr double kLongestStep = 0.1;  // why: of the time, since a wide interval foretells little
 
 /// Minutes of the log's kind of motion until the half width is `share`; nothing where it takes too long. half: at its end
 std::optional<double> Forecast(const Estimate& estimate, const LogView& log, const DesignAim& aim,
@@ -118,7 +119,7 @@ Sufficiency LookUntil(const PreparedLog& log, const DesignAim& aim,
     if (found.reached || whole) return found;
     // half of the way to where it is foretold, and no smaller step than is worth it
     const double step = found.minutes_more ? 30 * *found.minutes_more : kLeastStep * at;
-    at = std::min(at + std::clamp(step, kLeastStep * at, at), seconds);
+    at = std::min(at + std::clamp(step, kLeastStep * at, kLongestStep * at), seconds);
   }
 }
 
