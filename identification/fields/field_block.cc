@@ -19,7 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // numbers of knots; why: with half of them intervals of halves of real logs agree less often
-constexpr Index kPlaceKnots = 40, kFewestPlaceKnots = 8, kTimeKnots = 24, kSpeedKnots = 10;
+constexpr Index kPlaceKnots = 40, kFewestPlaceKnots = 8, kTimeKnots = 24, kSpeedKnots = 10,
+                kTemperatureKnots = 8;
 constexpr double kPlaceSpacing =
     0.05;  // rad; why: what is finer returns within a row and acts as noise
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -83,8 +84,8 @@ void MakeOrthogonal(const MatrixXd& others, const MatrixXd& weights, FieldBlock&
 }
 
 /// The mean of a block's columns over the motion, without signs. [m]
-VectorXd MeanInMotion(const FieldBlock& block, const FieldRows::Motion& motion) {
-  const SparseRows columns = block.UnsignedAt(motion.time, motion.position, motion.velocity);
+VectorXd MeanInMotion(const FieldBlock& block, const FieldMotion& motion) {
+  const SparseRows columns = block.UnsignedAt(motion);
   const auto samples = static_cast<double>(std::max<Index>(columns.rows(), 1));
   return columns.transpose() * VectorXd::Constant(columns.rows(), 1 / samples);
 }
@@ -154,6 +155,19 @@ FieldBlock OverSpeed(double scale, const FieldRows& rows) {
   return block;
 }
 
+FieldBlock OverTemperature(double scale, const FieldRows& rows) {
+  const VectorXd& at = rows.temperature;
+  FieldBlock block{.kind = FieldKind::temperature_friction};
+  block.knots = Even(at.minCoeff(), at.maxCoeff(), kTemperatureKnots);
+  const double range = at.maxCoeff() - at.minCoeff();
+  for (const double share : {0.5, 1.0, 2.0}) {
+    block.lengths.push_back(share * range);
+    block.kernels.push_back(Matern(block.knots.Distances(), block.lengths.back()));
+  }
+  block.amplitude_scale = scale;
+  return block;
+}
+
 // half-normal priors of the amplitudes, shares of the friction; why: without them a curve over the speed goes to three times
 // the friction, and the law to its negative
 constexpr double kLoadScale = 0.5, kTorqueDriftScale = 0.3, kFrictionScale = 0.15;
@@ -166,6 +180,8 @@ FieldBlock Make(FieldKind kind, const FieldRows& rows, JointKind joint) {
       return OverPlace(kind, kFrictionScale, rows, joint);
     case FieldKind::speed_friction:
       return OverSpeed(kFrictionScale, rows);
+    case FieldKind::temperature_friction:
+      return OverTemperature(kFrictionScale, rows);
     case FieldKind::time_friction:
       return OverTime(kind, kFrictionScale, rows);
     case FieldKind::time_torque:
@@ -223,27 +239,31 @@ MatrixXd Knots::Distances() const {
   return distances;
 }
 
-SparseRows FieldBlock::UnsignedAt(const VectorXd& time, const VectorXd& position,
-                                  const VectorXd& velocity) const {
+FieldMotion MotionOf(const LogSamples& m) {
+  return {m.time, m.position, m.velocity, m.temperature.value_or(VectorXd())};
+}
+
+SparseRows FieldBlock::UnsignedAt(const FieldMotion& at) const {
   switch (kind) {
     case FieldKind::place_torque:
     case FieldKind::place_friction:
-      return knots.Columns(position);
+      return knots.Columns(at.position);
     case FieldKind::speed_friction:
-      return knots.Columns(RootOfSpeed(velocity, fastest));
+      return knots.Columns(RootOfSpeed(at.velocity, fastest));
+    case FieldKind::temperature_friction:
+      return knots.Columns(at.temperature);
     case FieldKind::time_friction:
     case FieldKind::time_torque:
       break;
   }
-  return knots.Columns(time);
+  return knots.Columns(at.time);
 }
 
-SparseRows FieldBlock::ColumnsAt(const VectorXd& time, const VectorXd& position,
-                                 const VectorXd& velocity) const {
-  SparseRows at = UnsignedAt(time, position, velocity);
-  if (!IsFriction(kind)) return at;
-  for (Index n = 0; n < at.rows(); ++n) at.row(n) *= Sign(velocity[n]);
-  return at;
+SparseRows FieldBlock::ColumnsAt(const FieldMotion& at) const {
+  SparseRows signed_columns = UnsignedAt(at);
+  if (!IsFriction(kind)) return signed_columns;
+  for (Index n = 0; n < signed_columns.rows(); ++n) signed_columns.row(n) *= Sign(at.velocity[n]);
+  return signed_columns;
 }
 
 bool IsSymmetric(const Law& law) {
@@ -256,10 +276,12 @@ std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const Fi
   std::vector<FieldBlock> blocks;
   for (const FieldKind kind : kinds) {
     FieldBlock& block = blocks.emplace_back(Make(kind, rows, joint));
-    block.columns = block.ColumnsAt(rows.time, rows.position, rows.velocity);
+    block.columns = block.ColumnsAt(rows);
     block.mean = MeanInMotion(block, rows.motion);
     const bool levels_differ = kind == FieldKind::place_torque && !IsSymmetric(law);
-    if (kind == FieldKind::place_friction || levels_differ) {
+    const bool has_level =
+        kind == FieldKind::place_friction || kind == FieldKind::temperature_friction;
+    if (has_level || levels_differ) {
       MakeOrthogonal(MatrixXd::Ones(block.size(), 1), block.mean.transpose(), block);
     } else if (kind == FieldKind::speed_friction) {
       const MatrixXd of_law = LawColumns(law, block.fastest * block.knots.at.cwiseAbs2());

@@ -3,7 +3,7 @@
 
 #include <warmjoint/fields.h>
 #include <warmjoint/friction.h>
-#include <warmjoint/recording.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -21,18 +21,22 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// The only way in which a joint moves, 1 or -1; 0 where it moves both ways: at 3 % of the samples at least, of which less are a return.
 int OnlyWay(const Eigen::VectorXd& velocity);
 
-/// The rows of a fit: means over neighbouring samples that move in one direction.
-struct FieldRows {
+/// What fields depend on, at n samples.
+struct FieldMotion {
   Eigen::VectorXd time, position, velocity;  // [n] s, rad or m, rad/s or m/s
-  Eigen::MatrixXd flat;                      // [n x p] columns without a field's prior
-  Eigen::VectorXd torque;                    // [n] N.m or N
+  Eigen::VectorXd temperature{};             // [n] degC; or empty, where it was not logged
+};
+FieldMotion MotionOf(const LogSamples& m);
+
+/// The rows of a fit: means over neighbouring samples that move in one direction.
+struct FieldRows : FieldMotion {
+  Eigen::MatrixXd flat;    // [n x p] columns without a field's prior
+  Eigen::VectorXd torque;  // [n] N.m or N
   /// [p] of what is known of the unknowns of flat columns beforehand, and its precision, 0 where nothing is; or empty
   Eigen::VectorXd prior_mean{};
   Eigen::MatrixXd prior_precision{};  // [p x p]
-  /// Of all samples in motion, also those at reversals, which make no rows: what figures are means over. [k] each
-  struct Motion {
-    Eigen::VectorXd time, position, velocity;
-  } motion{};
+  /// Of all samples in motion, also those at reversals, which make no rows: what figures are means over. [k]
+  FieldMotion motion{};
   double step = 0.04;  // s, from a row to the next, median
   Eigen::Array<bool, Eigen::Dynamic, 1>
       follows;                         // [n] whether a row is the next after the one before it
@@ -68,12 +72,10 @@ struct FieldBlock {
   double amplitude_scale = 0;  // of the half-normal prior of its amplitude, a share of the friction
   double fastest = 1;          // rad/s or m/s, at which a knot over the root of the speed is 1
 
-  /// The columns at other places, times and speeds. [n] each; returns [n x m]
-  SparseRows ColumnsAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
-                       const Eigen::VectorXd& velocity) const;
+  /// The columns at other places, times, speeds and temperatures. [n x m]
+  SparseRows ColumnsAt(const FieldMotion& at) const;
   /// The same without the sign of the velocity.
-  SparseRows UnsignedAt(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
-                        const Eigen::VectorXd& velocity) const;
+  SparseRows UnsignedAt(const FieldMotion& at) const;
   Eigen::Index size() const { return knots.size(); }
 };
 
@@ -81,10 +83,11 @@ struct FieldBlock {
 bool IsSymmetric(const Law& law);
 
 /// The fields over a log's rows. Knots: 40 over the position (.05 rad apart at least; over one turn where the joint travels more than
-/// two), 24 over time, shared by the recordings, of which each has fields over time of its own, 10 over the root of the speed.
-/// Kernels: Matern 3/2 over position and speed, exp(-|dt|/l) over time. Lengths over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
+/// two), 24 over time, shared by the recordings, of which each has fields over time of its own, 10 over the root of the speed,
+/// 8 over a temperature.
+/// Kernels: Matern 3/2 over position, speed and temperature, exp(-|dt|/l) over time. Lengths over the position reach from 1.5 knots to the longest of a 20th of the travel and the lesser of .32 rad and a fifth of it: longer
 /// ones are what a law, gravity or a curve over the speed does.
-/// Friction over position is orthogonal, over the motion, to a level, that over speed, over the rows, to the law, so that the law's parameters are those of
+/// Friction over position and over temperature is orthogonal, over the motion, to a level, that over speed, over the rows, to the law, so that the law's parameters are those of
 /// its best line; torque over position to a constant where the law has a level for each direction, which would be the same. law: linear
 std::vector<FieldBlock> MakeFields(const std::vector<FieldKind>& kinds, const FieldRows& rows,
                                    JointKind joint, const Law& law);

@@ -66,13 +66,20 @@ GaussianAxis AxisOver(const Knots& knots) {
   return axis;
 }
 
+/// Whether a field is of its log alone: it changes with what friction files do not know.
+bool IsOverTime(FieldKind kind) {
+  return kind == FieldKind::temperature_friction || kind == FieldKind::time_friction ||
+         kind == FieldKind::time_torque;
+}
+
 }  // namespace
 
 VectorXd FieldsAlong(const SolvedFields& solved, Index p, const LogSamples& m) {
   const Index others = solved.evidence.flat() - p;
   VectorXd along = VectorXd::Constant(m.size(), solved.posterior.mean.segment(p, others).sum());
+  const FieldMotion motion = MotionOf(m);
   for (size_t k = 0; k < solved.blocks.size(); ++k) {
-    along += solved.blocks[k].ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
+    along += solved.blocks[k].ColumnsAt(motion) * solved.ValuesOf(k);
   }
   return along;
 }
@@ -82,17 +89,18 @@ VectorXd FrictionOverTime(const SolvedFields& solved) {
   for (size_t k = 0; k < solved.blocks.size(); ++k) {
     const FieldBlock& block = solved.blocks[k];
     if (block.kind != FieldKind::time_friction) continue;
-    return block.UnsignedAt(rows.time, rows.position, rows.velocity) * solved.ValuesOf(k);
+    return block.UnsignedAt(rows) * solved.ValuesOf(k);
   }
   return {};
 }
 
 VectorXd DriftAlong(const SolvedFields& solved, const LogSamples& m) {
   VectorXd along = VectorXd::Zero(m.size());
+  const FieldMotion motion = MotionOf(m);
   for (size_t k = 0; k < solved.blocks.size(); ++k) {
     const FieldBlock& block = solved.blocks[k];
-    if (block.kind != FieldKind::time_friction && block.kind != FieldKind::time_torque) continue;
-    along += block.ColumnsAt(m.time, m.position, m.velocity) * solved.ValuesOf(k);
+    if (!IsOverTime(block.kind)) continue;
+    along += block.ColumnsAt(motion) * solved.ValuesOf(k);
     if (block.kind != FieldKind::time_friction) continue;
     const double mean = block.mean.dot(solved.ValuesOf(k));
     along -= mean * m.velocity.unaryExpr([](double v) -> double { return Sign(v); });
@@ -186,11 +194,12 @@ VectorXd FieldFigures::MeansOfFields() const {
 VectorXd FieldFigures::OfFields(double speed) const {
   VectorXd function = means_;
   const VectorXd at = VectorXd::Constant(1, speed);
+  const FieldMotion there{at, at, at};
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
     const FieldBlock& block = solved_.blocks[k];
     if (block.kind != FieldKind::speed_friction) continue;
     function.segment(solved_.evidence.Begin(k), block.size()) =
-        block.UnsignedAt(at, at, at).transpose() * VectorXd::Ones(1);
+        block.UnsignedAt(there).transpose() * VectorXd::Ones(1);
   }
   return function;
 }
@@ -217,7 +226,8 @@ std::vector<ErrorUpTo<MatrixXd>> FieldFigures::CovariancesUpTo() const {
   const std::pair<ErrorBy, std::vector<FieldKind>> later[] = {
       {ErrorBy::place, {FieldKind::place_torque, FieldKind::place_friction}},
       {ErrorBy::speed, {FieldKind::speed_friction}},
-      {ErrorBy::time, {FieldKind::time_friction, FieldKind::time_torque}}};
+      {ErrorBy::time,
+       {FieldKind::temperature_friction, FieldKind::time_friction, FieldKind::time_torque}}};
   // from the whole on, one after the other becomes known
   std::vector<ErrorUpTo<MatrixXd>> all{
       {ErrorBy::strength, solved_.posterior.covariance},

@@ -102,6 +102,10 @@ FieldRows MakeFieldRows(const Fit& fit, const LogSamples& m, const MatrixXd& oth
       Means(fit.residual() + jacobian * UnknownsOf(fit) + Kept(left_out, fit.used), groups);
   const SampleMask moving = InMotion(m.velocity);
   rows.motion = {Chosen(m.time, moving), Chosen(m.position, moving), Chosen(m.velocity, moving)};
+  if (m.temperature) {
+    rows.temperature = mean(*m.temperature);
+    rows.motion.temperature = Chosen(*m.temperature, moving);
+  }
   rows.follows.resize(std::ssize(groups));
   std::vector<double> steps;
   for (Index g = 0; g < rows.size(); ++g) {

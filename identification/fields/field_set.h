@@ -11,11 +11,11 @@
 namespace warmjoint {
 
 inline constexpr const char* kWordsOfFields =
-    "auto, none, or some of q,r,v,d,t with commas between them, each once";
+    "auto, none, or some of q,r,v,k,d,t with commas between them, each once";
 /// What the option of a program says of them.
 inline constexpr const char* kFieldsHelp =
     "what the model may lack, with a strength that the log decides: auto, none, or some of "
-    "q,r,v,d,t (fields.md)";
+    "q,r,v,k,d,t (fields.md)";
 /// The fields of such a text; nothing where it is none.
 std::optional<FieldSet> FieldsIn(const std::string& text);
 

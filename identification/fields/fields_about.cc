@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kWarmer = 1;      // K; why: thermometers of drives have steps of that size
 constexpr Index kFewestRows = 60;  // why: fewer do not show how noise is correlated
 
 /// Columns that stand in a fit with fields alone: a constant torque, which a field over the place has as its mean.
@@ -31,6 +33,13 @@ MatrixXd ConstantOf(const Fit& fit, const Law& law, const LogSamples& m) {
   const bool constant = fit.gravity && fit.gravity->kind != GravityKind::sincos;
   const bool has = !constant && IsSymmetric(law) && OnlyWay(Kept(m.velocity, fit.used)) == 0;
   return MatrixXd::Ones(m.size(), has ? 1 : 0);
+}
+
+/// Whether the joint's temperature was logged and changed.
+bool GetsWarmer(const Fit& fit, const LogSamples& m) {
+  if (!m.temperature || !m.temperature->allFinite()) return false;
+  const VectorXd temperature = Kept(*m.temperature, fit.used);
+  return temperature.allFinite() && temperature.maxCoeff() - temperature.minCoeff() > kWarmer;
 }
 
 /// The fields that a log can have: over the place where gravity has not every place, over place and speed where these vary.
@@ -46,8 +55,11 @@ std::vector<FieldKind> Possible(const FieldSet& asked, const Fit& fit, const Log
         fit.gravity->kind == GravityKind::paired) {
       continue;
     }
-    // of a drift beside a warming no likelihood decides (the tests for lack of fit do)
-    if (kind == FieldKind::time_friction && fit.friction.thermal) continue;
+    // of a drift beside a warming no likelihood decides (the tests for lack of fit do); a temperature is its rival
+    const bool changes =
+        kind == FieldKind::time_friction || kind == FieldKind::temperature_friction;
+    if (changes && fit.friction.thermal) continue;
+    if (kind == FieldKind::temperature_friction && !GetsWarmer(fit, m)) continue;
     if (kind == FieldKind::speed_friction && !(speed.maxCoeff() > speed.minCoeff())) continue;
     kinds.push_back(kind);
   }
@@ -98,6 +110,16 @@ double DriftOf(const SolvedFields& solved, double friction) {
   const VectorXd drift = FrictionOverTime(solved);
   if (drift.size() == 0) return 0;
   return std::sqrt((drift.array() - drift.mean()).square().mean()) / friction;
+}
+
+/// By how much the friction changes a kelvin, N.m/K or N/K, the mean over the temperatures; nothing where there is no such field.
+std::optional<double> ByTemperature(const SolvedFields& solved) {
+  if (AmplitudeOf(FieldKind::temperature_friction, solved) == 0) return std::nullopt;
+  const auto block =
+      std::ranges::find(solved.blocks, FieldKind::temperature_friction, &FieldBlock::kind);
+  const VectorXd values = solved.ValuesOf(static_cast<size_t>(block - solved.blocks.begin()));
+  const VectorXd& at = block->knots.at;
+  return (values[values.size() - 1] - values[0]) / (at[at.size() - 1] - at[0]);
 }
 
 /// Changes the table and the model to x, [p]. held: columns of rows that are at a bound
@@ -223,6 +245,9 @@ Fit Conclude(const Round& round) {
   const VectorXd left_out = Kept(VectorXd(fit.fields->rest - DriftAlong(solved, m)), fit.used);
   const std::vector<FieldShare> shares = figures.Shares(round.friction);
   fit.summary += SummaryOfFields(shares, left_out.cwiseAbs().maxCoeff() / round.friction);
+  if (const auto slope = ByTemperature(solved)) {
+    fit.causes.push_back(Note(ExplainTemperature(*slope, m.torque_unit)));
+  }
   if (std::ranges::count(shares, FieldKind::time_friction, &FieldShare::kind) > 0) {
     fit.causes.push_back(Note(ExplainMeansOverLog(fit.fields->time_friction)));
   }

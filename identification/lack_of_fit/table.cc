@@ -113,6 +113,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        .quantity = Say<kOnTemperature>,
        .remedy = RemedyForTemperature,
        .harm = of_effect,
+       .in_field = FieldKind::temperature_friction,
        .features = OfTemperature},
       {.name = "time",
        .words = kTestOfTime,

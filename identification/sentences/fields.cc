@@ -16,6 +16,8 @@ std::string_view NameOfField(FieldKind kind) {
       return "friction over the place";
     case FieldKind::speed_friction:
       return "a curve over the speed";
+    case FieldKind::temperature_friction:
+      return "friction over the measured temperature";
     case FieldKind::time_friction:
       return "friction over time";
     case FieldKind::time_torque:
@@ -44,6 +46,14 @@ std::string ExplainMeansOverLog(double drift) {
       "its "
       "figures are means over the log",
       100 * drift);
+}
+
+std::string ExplainTemperature(double slope, std::string_view torque_unit) {
+  return fmt::format(
+      "the friction changes with the measured temperature, by {:.2g} {}/K, rather than with the "
+      "heat of its own losses: its figures are means over the log, and the friction file has no "
+      "temperature",
+      slope, torque_unit);
 }
 
 std::string ExplainFewFieldRows(Eigen::Index rows, Eigen::Index fewest) {

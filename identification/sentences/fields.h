@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace warmjoint {
@@ -32,6 +33,8 @@ inline constexpr const char* kFrictionFalls =
     "median speed, and the fall is in the friction at speeds and in the map over the velocity";
 /// The sentence about figures of a friction that changes over the log. drift: rms about its mean, of the friction
 std::string ExplainMeansOverLog(double drift);
+/// Of one that changes with a temperature. slope: N.m/K or N/K
+std::string ExplainTemperature(double slope, std::string_view torque_unit);
 std::string ExplainFewFieldRows(Eigen::Index rows, Eigen::Index fewest);
 
 }  // namespace warmjoint

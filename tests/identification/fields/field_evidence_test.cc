@@ -127,8 +127,7 @@ TEST(FieldEvidence, KeepsTheLawThatOfTheBestLine) {
   const auto blocks = MakeFields({FieldKind::place_friction, FieldKind::speed_friction}, rows,
                                  JointKind::rotary, ViscousCoulombLaw());
   const VectorXd sign = rows.velocity.array().sign().matrix();
-  const SparseRows moving =
-      blocks[0].UnsignedAt(rows.motion.time, rows.motion.position, rows.motion.velocity);
+  const SparseRows moving = blocks[0].UnsignedAt(rows.motion);
   const VectorXd of_place = moving.transpose() * VectorXd::Ones(part) / part;
   const VectorXd of_speed = blocks[1].columns.transpose() * sign / rows.size();
   for (const MatrixXd& kernel : blocks[0].kernels) {
@@ -139,6 +138,26 @@ TEST(FieldEvidence, KeepsTheLawThatOfTheBestLine) {
   }
 }
 
+TEST(FieldEvidence, TellsATemperatureFromADrift) {
+  // friction follows a temperature that rises and falls; without that column it is a drift
+  constexpr double slope = -0.2;  // N.m/K
+  FieldRows rows = RowsWithRipple(0.5, 0, 8);
+  const VectorXd rise = 4 * (VectorXd::LinSpaced(rows.size(), 0, 15)).array().sin();
+  rows.torque += slope * rise.cwiseProduct(rows.velocity.cwiseSign());
+  rows.temperature = 25 + rise.array();
+  rows.motion.temperature = rows.temperature;
+  const auto both = MakeFields({FieldKind::temperature_friction, FieldKind::time_friction}, rows,
+                               JointKind::rotary, ViscousCoulombLaw());
+  const FieldEvidence evidence(rows, both, 5);
+  const FieldHyperparameters best = evidence.Maximise();
+  EXPECT_GT(best.amplitudes[0], 0.05);
+  EXPECT_LT(best.amplitudes[1], 0.2 * best.amplitudes[0]);
+  // the values at its knots rise as the friction does
+  const VectorXd values = evidence.At(best).mean.segment(evidence.Begin(0), both[0].size());
+  const VectorXd& at = both[0].knots.at;
+  EXPECT_NEAR((values[at.size() - 1] - values[0]) / (at[at.size() - 1] - at[0]), slope, 0.02);
+}
+
 TEST(FieldEvidence, GivesEachRecordingADriftOfItsOwn) {
   FieldRows rows = RowsWithRipple(0, 0, 7);
   const Index half = rows.size() / 2;
@@ -147,7 +166,7 @@ TEST(FieldEvidence, GivesEachRecordingADriftOfItsOwn) {
       MakeFields({FieldKind::time_friction}, rows, JointKind::rotary, ViscousCoulombLaw());
   const auto at = [&](Index row) {
     const auto one = [row](const VectorXd& column) { return VectorXd(column.segment(row, 1)); };
-    return MatrixXd(blocks[0].ColumnsAt(one(rows.time), one(rows.position), one(rows.velocity)));
+    return MatrixXd(blocks[0].ColumnsAt({one(rows.time), one(rows.position), one(rows.velocity)}));
   };
   // neighbours in time on both sides of the start, and within a recording
   for (const MatrixXd& kernel : blocks[0].kernels) {
@@ -169,8 +188,8 @@ TEST(FieldEvidence, FollowsATurn) {
   const VectorXd here = VectorXd::Constant(1, -0.7);
   const VectorXd there = here.array() + 4 * std::numbers::pi;
   const VectorXd zero = VectorXd::Zero(1), forwards = VectorXd::Ones(1);
-  const MatrixXd one = blocks[0].ColumnsAt(zero, here, forwards);
-  const MatrixXd other = blocks[0].ColumnsAt(zero, there, forwards);
+  const MatrixXd one = blocks[0].ColumnsAt({zero, here, forwards});
+  const MatrixXd other = blocks[0].ColumnsAt({zero, there, forwards});
   EXPECT_LT((one - other).norm(), 1e-12);
   EXPECT_NEAR(one.sum(), 1, 1e-12);
 }

@@ -104,6 +104,26 @@ TEST(FitWithFields, HoldsAFrictionThatFallsWithSpeed) {
   }
 }
 
+TEST(FitWithFields, FollowsALoggedTemperature) {
+  // friction that falls by .2 N.m a kelvin, of surroundings that warm and cool the joint, not its losses
+  constexpr double slope = -0.2;
+  Measurements m = test::Excited(test::Cold(), 4000, 4);
+  const Eigen::ArrayXd time = m.time.array() - m.time[0];
+  const Eigen::ArrayXd rise = 8 * (15 * time / time[m.size() - 1]).sin();
+  m.torque.array() += slope * rise * m.velocity.array().sign();
+  m.temperature = (25 + rise).matrix();
+  const Estimate estimate = test::Answer("nominal-ls", m, kFields);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
+  ASSERT_FALSE(estimate.friction_at_speeds.empty());
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    // at the mean temperature
+    const double truth = test::Cold().parameters.at("coulomb") + slope * rise.mean() +
+                         test::Cold().parameters.at("viscous") * std::abs(one.speed);
+    EXPECT_NEAR(one.value, truth, 4 * one.std);
+    EXPECT_LT(one.std, 0.01 * truth);
+  }
+}
+
 TEST(FitWithFields, IsWithoutARippleAboutLeastSquares) {
   const Estimate with = test::Answer("nominal-ls", Rippled(0, 3), kFields);
   auto options = kFields;
