@@ -12,7 +12,8 @@ namespace {
 /// The number of a friction that a parameter of an estimate stands for; nothing where it is not of the friction.
 double* NumberOf(Friction& friction, const std::string& name) {
   if (friction.thermal && name == NameOf(Role::gain)) return &friction.thermal->gain;
-  if (friction.thermal && name == NameOf(Role::time_constant)) return &friction.thermal->time_constant;
+  if (friction.thermal && name == NameOf(Role::time_constant))
+    return &friction.thermal->time_constant;
   const auto found = friction.parameters.find(name);
   return found == friction.parameters.end() ? nullptr : &found->second;
 }

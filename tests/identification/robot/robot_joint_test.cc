@@ -96,7 +96,8 @@ TEST(RobotJoint, HoldsTheTruthWithinItsErrors) {
     const JointFit fit = Fit(c);
     const Index law = fit.At(Role::law).begin;
     const VectorXd off{{Off(fit, law, truth.viscous), Off(fit, law + 1, truth.forwards),
-                        Off(fit, law + 2, truth.backwards), Off(fit, fit.At(Role::load).begin, truth.load),
+                        Off(fit, law + 2, truth.backwards),
+                        Off(fit, fit.At(Role::load).begin, truth.load),
                         Off(fit, fit.At(Role::scale).begin, std::log(truth.gain))}};
     squares += off.cwiseAbs2();
   }
