@@ -19,7 +19,7 @@ double* Unknown::PlaceIn(Friction& friction) const {
   }
 }
 
-Slice PlacesOf(Role role, const std::vector<Unknown>& table) {
+Slice SliceOf(Role role, const std::vector<Unknown>& table) {
   const auto first = std::ranges::find(table, role, &Unknown::role);
   const auto last =
       std::find_if(first, table.end(), [&](const Unknown& row) { return row.role != role; });

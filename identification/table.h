@@ -90,6 +90,6 @@ struct Slice {
 };
 
 /// The places of a table's rows with a role; where it has none, none at its end.
-Slice PlacesOf(Role role, const std::vector<Unknown>& table);
+Slice SliceOf(Role role, const std::vector<Unknown>& table);
 
 }  // namespace warmjoint

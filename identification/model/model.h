@@ -137,8 +137,8 @@ struct Model {
   Eigen::VectorXd PriorMean() const;
   /// Appends rows and returns their places.
   Slice Append(const std::vector<Unknown>& rows);
-  /// The places of the rows with a role (PlacesOf).
-  Slice At(Role role) const { return PlacesOf(role, table); }
+  /// The places of the rows with a role (SliceOf).
+  Slice At(Role role) const { return SliceOf(role, table); }
 };
 
 /// A model at one point, a stretch of the log after the other: rows of all samples are far larger than the log.

@@ -71,7 +71,7 @@ using BristleFallingLaws = LawList<LuGre, AsymmetricLuGre>;
 
 /// The places of the unknowns of a fit of L, with the heat where it is estimated.
 template <typename L, PartFit W = PartFit::none>
-constexpr FallingPlaces PlacesOf() {
+constexpr FallingPlaces FallingPlacesOf() {
   FallingPlaces at;
   while (L::parameters[at.levels].name != kStribeckVelocityRow.name) ++at.levels;
   if (W == PartFit::estimated) at.heat = 2;
@@ -86,7 +86,7 @@ constexpr FallingPlaces PlacesOf() {
 template <typename L, typename T>
 std::array<T, L::parameters.size()> ValuesOf(const T* x, double exponent = 2) {
   using std::exp;
-  constexpr FallingPlaces at = PlacesOf<L>();
+  constexpr FallingPlaces at = FallingPlacesOf<L>();
   std::array<T, L::parameters.size()> values;
   std::copy_n(x, at.gain(), values.begin());
   // some are in x by their logarithms

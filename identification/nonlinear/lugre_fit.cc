@@ -74,7 +74,7 @@ template <typename L, typename T>
 LugreResponse<T> FollowLugre(const LugreProblem& problem, const T* x) {
   const Eigen::Index n = problem.motion.size();
   const auto p = ValuesOf<L>(x);
-  const T& inertia = x[PlacesOf<L>().inertia()];
+  const T& inertia = x[FallingPlacesOf<L>().inertia()];
   LugreResponse<T> response;
   response.torque.reserve(static_cast<size_t>(n));
   Eigen::Index row = 0;  // of the used samples
@@ -139,7 +139,7 @@ class Residuals {
 
 /// How many parameters x has of law L.
 template <typename L>
-constexpr int kSize = static_cast<int>(PlacesOf<L>().size());
+constexpr int kSize = static_cast<int>(FallingPlacesOf<L>().size());
 
 template <typename L>
 using Cost = ceres::AutoDiffCostFunction<Residuals<L>, ceres::DYNAMIC, kSize<L>>;
@@ -295,7 +295,7 @@ Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugreFit& fit) {
   return ForLaw(problem, [&]<typename L>() {
     const Eigen::VectorXd& x = fit.solution.x;
     const auto p = ValuesOf<L>(x.data());
-    Eigen::VectorXd torque = x[PlacesOf<L>().inertia()] * problem.acceleration;
+    Eigen::VectorXd torque = x[FallingPlacesOf<L>().inertia()] * problem.acceleration;
     size_t recording = 0;
     // each recording from its own load
     for (Eigen::Index first = 0, end = 0; first < n; first = end) {

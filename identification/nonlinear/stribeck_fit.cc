@@ -51,7 +51,7 @@ class Residuals {
     return isfinite(energy) && isfinite(law[kAt.log_vs()]);
   }
 
-  static constexpr FallingPlaces kAt = PlacesOf<L, W>();
+  static constexpr FallingPlaces kAt = FallingPlacesOf<L, W>();
 
  private:
   /// Subtracts the part of the residuals that is in the span of the basis.
