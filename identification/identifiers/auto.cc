@@ -205,6 +205,27 @@ Structure WithLagOrFields(const Structure& chosen, const Lateness& late,
   return squares(lagged) < squares(with) ? lagged : with;
 }
 
+// of -2 log p: odds of twenty to one; why: a friction file holds a warming, and no measured temperature
+constexpr double kOdds = 5.99;
+
+/// The same law without warming, whose friction follows the temperature that the log has, where that is likelier than the warming.
+std::optional<Structure> FollowingTemperature(const Structure& chosen, const Fit& fit,
+                                              const Lateness& late, const IdentifierInput& input) {
+  const FieldSet& fields = input.options.Get<AutoOptions>().fields;
+  const bool may_follow =
+      input.measurements.temperature && fields.Has(FieldKind::temperature_friction);
+  if (!may_follow || !chosen.CanWarm() || !fit.fields) return std::nullopt;
+  const Structure cold = Structure{NominalLs(), "law"}
+                             .With(chosen.identifier.options.Get<LawOption>())
+                             .With(GravityOption{chosen.gravity()});
+  // without a drift, which no likelihood tells from a warming
+  FieldOption rivals{fields};
+  std::erase(rivals.fields.kinds, FieldKind::time_friction);
+  const Fit rival = FitOnAll(cold.With(rivals), late, input);
+  if (!rival.fields || !(rival.fields->cost + kOdds < fit.fields->cost)) return std::nullopt;
+  return cold.With(FieldOption{fields});
+}
+
 /// Why this structure was chosen.
 std::string Reason(const std::vector<StructureCandidate>& contenders, const Choice& choice,
                    int blocks, const std::string& unit) {
@@ -279,13 +300,16 @@ Fit FitChosen(const IdentifierInput& input) {
   // fitted to every sample, with the reason before the summary of the fit
   input.Tell("fitting " + chosen.Name() + " to every sample");
   chosen = WithLagOrFields(chosen, late, input);
-  const std::string name =
-      chosen.CanHaveFields() ? chosen.With(FieldOption{}).Name() : chosen.Name();
   const MakeFit make = [&](const IdentifierInput& other) { return FitOnAll(chosen, late, other); };
   Fit fit = WithoutNegativeInertia(make(input), input, make);
+  if (const auto rival = FollowingTemperature(chosen, fit, late, input)) {
+    chosen = *rival;
+    reported.reason = kFollowsTemperature;
+    fit = WithoutNegativeInertia(make(input), input, make);
+  }
 
   // what is reported, and the same structure for other samples
-  reported.chosen = name;
+  reported.chosen = chosen.CanHaveFields() ? chosen.With(FieldOption{}).Name() : chosen.Name();
   const auto inertia = fit.RowOf(Role::inertia);
   if (inertia && !fit.parameters[*inertia].estimated) {
     chosen.identifier.options = WithoutInertia(chosen.identifier.options);

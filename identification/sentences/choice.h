@@ -36,6 +36,8 @@ std::string ExplainSmallestError(const ComparedStructure& chosen, std::string_vi
                                  int blocks);
 std::string ExplainSimplest(const ComparedStructure& chosen, const ComparedStructure& best,
                             std::string_view unit, int blocks);
+inline constexpr const char* kFollowsTemperature =
+    "friction follows the measured temperature, which is likelier than the heat of its losses";
 /// The sentence about the only structure that is not dropped; the next is about one that was chosen by BIC.
 std::string ExplainOnlyOne(std::string_view chosen);
 std::string ExplainChosenByBic(std::string_view chosen, int blocks);

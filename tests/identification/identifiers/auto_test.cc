@@ -57,6 +57,27 @@ TEST(Auto, ChoosesTheLawAndTheWarmingOfAJoint) {
   }
 }
 
+TEST(Auto, TellsALoggedTemperatureFromTheHeatOfLosses) {
+  constexpr double slope = -0.3;  // N.m/K
+  Measurements warm =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
+  const Eigen::ArrayXd rise =
+      8 * (1 - (-(warm.time.array() - warm.time[0]) / (0.25 * warm.time[3599])).exp());
+  warm.temperature = (20 + rise).matrix();
+  // surroundings that warm a joint as its losses would
+  Measurements follows =
+      test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
+  follows.torque.array() += slope * rise * follows.velocity.array().sign();
+  follows.temperature = warm.temperature;
+  const Estimate of_losses = test::Fitted("auto", warm, {{"fields", "auto"}}),
+                 of_temperature = test::Fitted("auto", follows, {{"fields", "auto"}});
+  EXPECT_NEAR(of_losses.Find("thermal_gain")->value, -3, 0.1) << of_losses.FullMessage();
+  ASSERT_EQ(of_temperature.status, Status::ok) << of_temperature.FullMessage();
+  EXPECT_FALSE(of_temperature.Find("thermal_gain"));
+  EXPECT_NEAR(of_temperature.Find("coulomb")->value,
+              test::Cold().parameters.at("coulomb") + slope * rise.mean(), 0.1);
+}
+
 TEST(Auto, FindsTwoLevelsBesideASmallFall) {
   // the difference of the levels hides the fall from the law with one
   Friction joint = test::TwoLevelStribeckJoint();
