@@ -43,6 +43,14 @@ MatrixXd Matern(const MatrixXd& distance, double length) {
   return (1 + x) * (-x).exp();
 }
 
+/// Gives a block its lengths, and the kernel at each.
+void AddKernels(std::vector<double> lengths, MatrixXd (*kernel)(const MatrixXd&, double),
+                FieldBlock& block) {
+  const MatrixXd distances = block.knots.Distances();
+  for (const double length : lengths) block.kernels.push_back(kernel(distances, length));
+  block.lengths = std::move(lengths);
+}
+
 Knots Even(double first, double last, Index count) {
   return {VectorXd::LinSpaced(count, first, last), std::nullopt};
 }
@@ -97,10 +105,7 @@ VectorXd RootOfSpeed(const VectorXd& velocity, double fastest) {
 
 FieldBlock OverPlace(FieldKind kind, double scale, const FieldRows& rows, JointKind joint) {
   FieldBlock block{.kind = kind, .knots = PlaceKnots(rows.position, joint)};
-  block.lengths = PlaceLengths(block.knots, joint);
-  for (const double length : block.lengths) {
-    block.kernels.push_back(Matern(block.knots.Distances(), length));
-  }
+  AddKernels(PlaceLengths(block.knots, joint), Matern, block);
   block.amplitude_scale = scale;
   return block;
 }
@@ -132,10 +137,7 @@ FieldBlock OverTime(FieldKind kind, double scale, const FieldRows& rows) {
   for (const SampleRange& piece : block.knots.Pieces()) {
     longest = std::max(longest, block.knots.at[piece.end() - 1] - block.knots.at[piece.first]);
   }
-  for (const double share : {0.1, 1.0 / 3, 1.0, 4.0}) block.lengths.push_back(share * longest);
-  for (const double length : block.lengths) {
-    block.kernels.push_back(Exponential(block.knots.Distances(), length));
-  }
+  AddKernels({0.1 * longest, 1.0 / 3 * longest, longest, 4 * longest}, Exponential, block);
   block.amplitude_scale = scale;
   return block;
 }
@@ -147,10 +149,7 @@ FieldBlock OverSpeed(double scale, const FieldRows& rows) {
   const VectorXd root = RootOfSpeed(rows.velocity, block.fastest);
   const double least = root.minCoeff();
   block.knots = Even(least, std::max(root.maxCoeff(), least + kLeastSpeedRange), kSpeedKnots);
-  block.lengths = {0.3, 0.6, 1.2};
-  for (const double length : block.lengths) {
-    block.kernels.push_back(Matern(block.knots.Distances(), length));
-  }
+  AddKernels({0.3, 0.6, 1.2}, Matern, block);
   block.amplitude_scale = scale;
   return block;
 }
@@ -160,10 +159,7 @@ FieldBlock OverTemperature(double scale, const FieldRows& rows) {
   FieldBlock block{.kind = FieldKind::temperature_friction};
   block.knots = Even(at.minCoeff(), at.maxCoeff(), kTemperatureKnots);
   const double range = at.maxCoeff() - at.minCoeff();
-  for (const double share : {0.5, 1.0, 2.0}) {
-    block.lengths.push_back(share * range);
-    block.kernels.push_back(Matern(block.knots.Distances(), block.lengths.back()));
-  }
+  AddKernels({0.5 * range, range, 2 * range}, Matern, block);
   block.amplitude_scale = scale;
   return block;
 }

@@ -39,7 +39,7 @@ MatrixXd ConstantOf(const Fit& fit, const Law& law, const LogSamples& m) {
 bool GetsWarmer(const Fit& fit, const LogSamples& m) {
   if (!m.temperature || !m.temperature->allFinite()) return false;
   const VectorXd temperature = Kept(*m.temperature, fit.used);
-  return temperature.allFinite() && temperature.maxCoeff() - temperature.minCoeff() > kWarmer;
+  return temperature.maxCoeff() - temperature.minCoeff() > kWarmer;
 }
 
 /// The fields that a log can have: over the place where gravity has not every place, over place and speed where these vary.
