@@ -141,7 +141,7 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
     return std::make_shared<const Selection>(WithoutSettling(input.selection, time, settling));
   };
   const auto fit_to = [&](const Selection& samples) {
-    return FitWithinBounds(identifier.fit, input.With(samples));
+    return WithoutNegativeInertia(identifier.fit, input.With(samples));
   };
   SettledFit settled{fit_to(input.selection)};
   Fit plain;  // to all samples
@@ -339,7 +339,7 @@ Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& i
 
 Estimate IdentifyUnchecked(const Identifier& identifier, const IdentifierInput& given) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  Fit fit = FitWithinBounds(identifier.fit, input);
+  Fit fit = WithoutNegativeInertia(identifier.fit, input);
   NameOneSpeed(input.measurements, input.selection, fit);
   Inference by_noise = ByNoise(fit);
   const std::vector<Cause> causes = OwnCauses(fit, by_noise);

@@ -122,43 +122,22 @@ std::optional<double> ByTemperature(const SolvedFields& solved) {
   return (values[values.size() - 1] - values[0]) / (at[at.size() - 1] - at[0]);
 }
 
-/// Changes the table and the model to x, [p]. held: columns of rows that are at a bound
-void Take(const VectorXd& x, const std::vector<Index>& held, Fit& fit) {
-  Index column = 0;
-  for (Unknown& row : fit.parameters) {
-    if (!row.estimated) continue;
-    row.value = row.ValueAt(x[column++]);
-    // exactly at the bound
-    if (std::ranges::find(held, column - 1) != held.end()) {
-      const bool below = std::abs(row.value - row.lower) <= std::abs(row.upper - row.value);
-      row.value = below ? row.lower : row.upper;
-    }
-  }
-  FollowTable(fit);
-}
-
-/// Puts rows of the law that leave their bounds by no more than their interval to these: what is beyond is noise. report: [p x p + m]; returns their columns
-std::vector<Index> HoldBounds(const MatrixXd& report, const Fit& fit, FieldPosterior& posterior) {
-  std::vector<Index> held;
-  std::vector<double> gaps;
-  Index column = -1;
+/// Conditions a posterior on rows of the law that are at their bounds. columns: of x; report: [p x p + m]; fit: with the values that it
+/// reports without that
+void Condition(const std::vector<Index>& columns, const MatrixXd& report, const Fit& fit,
+               FieldPosterior& posterior) {
+  std::vector<const Unknown*> estimated;
   for (const Unknown& row : fit.parameters) {
-    if (!row.estimated) continue;
-    ++column;
-    if (!IsNominal(row.role)) continue;
-    const double value = report.row(column).dot(posterior.mean);
-    const double gap = std::clamp(value, row.lower, row.upper) - value;
-    const VectorXd function = report.row(column);
-    const double deviation = std::sqrt(function.dot(posterior.covariance * function));
-    if (gap == 0 || std::abs(gap) > kNormal95 * deviation) continue;
-    held.push_back(column);
-    gaps.push_back(gap);
+    if (row.estimated) estimated.push_back(&row);
   }
-  if (held.empty()) return held;
-  const MatrixXd of = report(held, Eigen::all);
+  VectorXd gaps(std::ssize(columns));
+  for (size_t i = 0; i < columns.size(); ++i) {
+    const Unknown& row = *estimated[static_cast<size_t>(columns[i])];
+    gaps[static_cast<Index>(i)] = std::clamp(row.value, row.lower, row.upper) - row.value;
+  }
+  const MatrixXd of = report(columns, Eigen::all);
   const MatrixXd pull = posterior.covariance * of.transpose();
-  posterior.mean += pull * (of * pull).ldlt().solve(VectorXd::Map(gaps.data(), std::ssize(gaps)));
-  return held;
+  posterior.mean += pull * (of * pull).ldlt().solve(gaps);
 }
 
 /// Whether a fit is linear in its unknowns.
@@ -208,31 +187,45 @@ std::unique_ptr<Round> Solve(FitForFields at, const FieldSet& asked, const Vecto
   return round;
 }
 
+/// F + G + M a of law and fields at the posterior. [N] N.m or N
+VectorXd TorqueAt(const Round& round, const SolvedFields& solved) {
+  const FitForFields& at = round.at;
+  const VectorXd x = UnknownsOf(at.fit);
+  return at.torque_of(at.fit, at.motion) +
+         at.fit.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
+         FieldsAlong(solved, x.size(), at.motion);
+}
+
 /// The answer: the fit moved to the posterior, with what fields add to it.
 Fit Conclude(const Round& round) {
   const LogSamples& m = round.at.motion;
   Fit fit = round.at.fit;
   SolvedFields solved = round.solved();
   const FieldFigures figures(solved, round.at.fit, m);
-  const std::vector<Index> held = HoldBounds(figures.report(), round.at.fit, solved.posterior);
-  const VectorXd x = UnknownsOf(fit);
-  const VectorXd torque = round.at.torque_of(fit, m) +
-                          fit.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
-                          FieldsAlong(solved, x.size(), m);
+  VectorXd torque = TorqueAt(round, solved);
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(torque, fit.used);
   fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
   const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
-  Take(figures.Reported(), held, fit);
+  HoldAt(figures.Reported(), {}, fit);
+  fit.end_energy = nullptr;
+  fit.errors = {};
+  fit.errors.covariance = [uncertainty] { return uncertainty; };
+  // what noise puts beyond the bounds of the law
+  if (auto left = FindLeftByNoise(fit, ByNoise(fit))) {
+    Condition(left->columns, figures.report(), fit, solved.posterior);
+    torque = TorqueAt(round, solved);
+    fit.fitted = Kept(torque, fit.used);
+    Cause held = HoldAt(figures.Reported(), left->columns, fit);
+    held.sentence = std::move(left->sentence);
+    fit.causes.push_back(std::move(held));
+  }
   if (figures.Falls()) {
     for (Unknown& row : fit.parameters) {
       if (row.role == Role::law && row.part == LawPart::slope) row.has_interval = false;
     }
     fit.causes.push_back(Note(kFrictionFalls));
   }
-  fit.end_energy = nullptr;
-  fit.errors = {};
-  fit.errors.covariance = [uncertainty] { return uncertainty; };
   const double cost = round.evidence->Cost(round.best);
   fit.fields = FittedFields{.cost = CostOf(round.at.fit, round.rows, round.friction, cost),
                             .time_torque = AmplitudeOf(FieldKind::time_torque, solved),
@@ -240,7 +233,7 @@ Fit Conclude(const Round& round) {
   for (const FieldBlock& block : round.blocks) fit.fields->present.kinds.push_back(block.kind);
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
   fit.fields->rest = torque - round.at.torque_of(fit, m);
-  fit.count += static_cast<int>(round.evidence->size() - x.size());
+  fit.count += static_cast<int>(round.evidence->size() - UnknownsOf(fit).size());
   // what the friction file leaves out: the parts of fields that may be chance, and what lies between the centres of maps
   const VectorXd left_out = Kept(VectorXd(fit.fields->rest - DriftAlong(solved, m)), fit.used);
   const std::vector<FieldShare> shares = figures.Shares(round.friction);

@@ -97,7 +97,8 @@ struct Fit {
   // the model
   Friction friction;  // law, warming and maps, whatever their bounds
   std::optional<GravityModel> gravity;
-  std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
+  Eigen::MatrixXd gravity_by_rows;  // [m x q] its values by the table's rows of it
+  std::optional<double> inertia;    // torque over acceleration, kg.m^2 or kg
   /// [N] M a where the fit computed its own a from the velocities, N.m or N; else empty.
   Eigen::VectorXd inertia_torque;
   std::optional<FittedFields> fields{};

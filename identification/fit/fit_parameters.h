@@ -59,8 +59,7 @@ void Append(const std::vector<Unknown>& rows, Fit& fit);
 Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
                     const Measurements& measurements);
 
-/// Gives the fit's model the values of its table: friction, E(0), gravity, inertia and delay. Values of `paired` gravity, which follow
-/// from all rows together, stay.
+/// Gives the fit's model the values of its table: friction, E(0), gravity, inertia and delay.
 void FollowTable(Fit& fit);
 
 /// The which-th parameter with such a role, or nullptr.

@@ -88,8 +88,9 @@ struct Identifier {
   std::string name;
   std::string summary;
   Options options;  // at their defaults
-  /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw.
-  Fit (*fit)(const IdentifierInput& input);
+  /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw. Of the list (identifier_list.h): the
+  /// law keeps its physical bounds (inference/bounds.h).
+  std::function<Fit(const IdentifierInput& input)> fit;
   /// The view to which it is fitted, unless its option `motion` asks for another.
   View view = View::constant_speed;
   std::string earlier_name{};  // by which it is still found; or empty

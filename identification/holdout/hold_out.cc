@@ -65,8 +65,8 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
   const bool steady = input.view == View::constant_speed;
   const Selection chosen = steady ? Within(all.selection, input.selection) : all.selection;
   const IdentifierInput seen = all.With(chosen);
-  const MakeFit make = all_data.structure ? all_data.structure : identifier.fit;
-  return FirstPart{split, FitWithinBounds(make, seen)};
+  const auto& make = all_data.structure ? all_data.structure : identifier.fit;
+  return FirstPart{split, WithoutNegativeInertia(make, seen)};
 }
 
 HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, double fraction,
@@ -139,7 +139,7 @@ std::optional<Eigen::VectorXd> UnseenResiduals(const Identifier& identifier,
     Selection block = input.selection;
     block.keep = block.keep && !others.keep;
     const IdentifierInput rest = input.With(others);
-    const Fit fit = EnforceBounds(identifier.fit(rest), rest.measurements);
+    const Fit fit = identifier.fit(rest);
     if (!GivesFriction(fit)) return std::nullopt;
     const TorquePrediction predicted =
         PredictTorque(ModelOf(fit), m, std::move(block), fit.Start());

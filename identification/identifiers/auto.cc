@@ -215,7 +215,7 @@ std::optional<Structure> FollowingTemperature(const Structure& chosen, const Fit
   const bool may_follow =
       input.measurements.temperature && fields.Has(FieldKind::temperature_friction);
   if (!may_follow || !chosen.CanWarm() || !fit.fields) return std::nullopt;
-  const Structure cold = Structure{NominalLs(), "law"}
+  const Structure cold = Structure{FindIdentifier("nominal-ls"), "law"}
                              .With(chosen.identifier.options.Get<LawOption>())
                              .With(GravityOption{chosen.gravity()});
   // without a drift, which no likelihood tells from a warming
@@ -301,11 +301,11 @@ Fit FitChosen(const IdentifierInput& input) {
   input.Tell("fitting " + chosen.Name() + " to every sample");
   chosen = WithLagOrFields(chosen, late, input);
   const MakeFit make = [&](const IdentifierInput& other) { return FitOnAll(chosen, late, other); };
-  Fit fit = WithoutNegativeInertia(make(input), input, make);
+  Fit fit = WithoutNegativeInertia(make, input);
   if (const auto rival = FollowingTemperature(chosen, fit, late, input)) {
     chosen = *rival;
     reported.reason = kFollowsTemperature;
-    fit = WithoutNegativeInertia(make(input), input, make);
+    fit = WithoutNegativeInertia(make, input);
   }
 
   // what is reported, and the same structure for other samples

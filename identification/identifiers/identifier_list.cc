@@ -1,18 +1,25 @@
 #include "identification/identifiers/identifier_list.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "identification/inference/bounds.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 
 namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
-  static const std::vector<Identifier> identifiers{
-      NominalLs(),          PositionRidge(),   MotorRidge(), EnergyMap(), LoadMap(),
-      LpvEnergy(),          EnergyAls(),       EnergyMl(),   Rls(),       Kalman(),
-      StribeckIdentifier(), LuGreIdentifier(), Auto(),
-  };
+  static const std::vector<Identifier> identifiers = [] {
+    std::vector<Identifier> all{
+        NominalLs(),          PositionRidge(),   MotorRidge(), EnergyMap(), LoadMap(),
+        LpvEnergy(),          EnergyAls(),       EnergyMl(),   Rls(),       Kalman(),
+        StribeckIdentifier(), LuGreIdentifier(), Auto(),
+    };
+    // the law of any of them keeps its physical bounds
+    for (Identifier& one : all) one.fit = WithinBounds(std::move(one.fit));
+    return all;
+  }();
   return identifiers;
 }
 

@@ -8,7 +8,7 @@
 
 namespace warmjoint {
 
-/// Each is described at the top of its file.
+/// Each is described at the top of its file. For the list: who looks one up has its law within the physical bounds.
 Identifier NominalLs();
 Identifier PositionRidge();
 Identifier MotorRidge();

@@ -123,7 +123,7 @@ constexpr double kHopeless = 4;         // of the mean squared error of another
 constexpr double kFewParameters = 0.1;  // of the rows
 
 Trial Try(const Structure& structure, const IdentifierInput& input) {
-  Trial trial{structure, EnforceBounds(structure.Quick().Fitted(input), input.measurements)};
+  Trial trial{structure, structure.Quick().Fitted(input)};
   trial.gives_friction = GivesFriction(trial.fit);
   // the shape that was chosen for a map stays with the structure
   if (!trial.fit.friction.maps.empty()) {
@@ -260,8 +260,9 @@ ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
 
   // energy-ml has both maps, over position and over the motor's angle
   const auto chosen = [&](WarmMap position) {
-    const Options options =
-        EnergyMl().options.With(GravityOption{gravity}).With(WarmMapOptions{{}, position});
+    const Options options = FindIdentifier("energy-ml")
+                                .options.With(GravityOption{gravity})
+                                .With(WarmMapOptions{{}, position});
     return MapGivenEnergy(quick_.With(options), energy);
   };
   ChosenKernels kernels;

@@ -68,7 +68,7 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
   return wide.With(over);
 }
 
-bool Structure::CanWarm() const { return identifier.name == EnergyMl().name; }
+bool Structure::CanWarm() const { return identifier.IsCalled("energy-ml"); }
 
 bool Structure::CanEstimateLag() const {
   return identifier.options.Find<LagOption>() &&
@@ -141,17 +141,17 @@ std::vector<FittedGravity> GravityKinds(const IdentifierInput& input) {
 }
 
 std::vector<Structure> ColdStructures(FittedGravity gravity) {
-  return LinearStructures(NominalLs(), gravity,
+  return LinearStructures(FindIdentifier("nominal-ls"), gravity,
                           {ViscousCoulomb::name, Coulomb::name, Asymmetric::name});
 }
 
 std::vector<Structure> WarmStructures(FittedGravity gravity) {
-  return LinearStructures(EnergyMl(), gravity,
+  return LinearStructures(FindIdentifier("energy-ml"), gravity,
                           {Coulomb::name, ViscousCoulomb::name, Asymmetric::name});
 }
 
 Structure StribeckStructure(PartFit warming, FittedGravity gravity) {
-  return Structure{StribeckIdentifier(), "warming"}
+  return Structure{FindIdentifier("stribeck"), "warming"}
       .With(StribeckOptions{.warming = warming})
       .With(GravityOption{gravity});
 }
@@ -180,15 +180,15 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity
     added.strength = chosen->strength;
     added = added.WithShapeOf(chosen->map);
   };
-  const Structure warm{EnergyMl()};
+  const Structure warm{FindIdentifier("energy-ml")};
   for (const FittedGravity kind : kinds) {
     if (!input.measurements.position_integrated) {
-      add({PositionRidge()}, kernels.position, kind);
+      add(Structure{FindIdentifier("position-ridge")}, kernels.position, kind);
       add(warm.With(WarmMapOptions{{}, WarmMap::map}), kernels.position, kind);
     }
     // ripple of the motor, where its angle is known
     if (!knows_motor) continue;
-    add({MotorRidge()}, kernels.motor, kind);
+    add(Structure{FindIdentifier("motor-ridge")}, kernels.motor, kind);
     add(warm.With(WarmMapOptions{{}, WarmMap::motor}), kernels.motor, kind);
   }
   return structures;

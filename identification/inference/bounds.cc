@@ -1,6 +1,5 @@
 #include "identification/inference/bounds.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +14,8 @@
 #include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
 #include "identification/inference/apply.h"
+#include "identification/model/normal_equations.h"
+#include "identification/model/solve.h"
 #include "identification/sentences/friction.h"
 #include "identification/sentences/law.h"
 #include "models/friction/parameter_rows.h"
@@ -67,30 +68,73 @@ std::optional<std::array<double, 2>> IntervalBelowZero(const Fit& fit, std::size
   return interval && (*interval)[1] < 0 ? interval : std::nullopt;
 }
 
-/// Changes the table by changes of x, [p], and the model with it. Returns the row of the values that changed.
-Cause Move(const Eigen::VectorXd& moves, Fit& fit) {
-  Cause cause{.source = Source::bound, .action = Action::hold};
-  Eigen::Index column = 0;
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    Unknown& row = fit.parameters[i];
-    if (!row.estimated) continue;
-    const double move = moves[column++], before = row.value;
-    row.value = row.coordinate == Coordinate::logarithm ? before * std::exp(move) : before + move;
-    // exactly at the bound
-    if (IsNominal(row.role)) row.value = std::clamp(row.value, row.lower, row.upper);
-    cause.Add(i, row.value - before);
-  }
-  FollowTable(fit);
-  return cause;
-}
-
-}  // namespace
-
+/// Whether the value of a row of the law lies outside of its bounds, by chance or not.
 bool LeavesBounds(const std::vector<Unknown>& parameters) {
   return std::ranges::any_of(parameters, [](const Unknown& one) {
     return IsNominal(one.role) && !(one.value >= one.lower && one.value <= one.upper);
   });
 }
+
+/// The rows of the law outside of their bounds.
+std::vector<Excess> ExcessesOf(const Fit& fit, const Inference& by_noise) {
+  std::vector<Excess> found;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Unknown& row = fit.parameters[i];
+    if (!IsNominal(row.role)) continue;
+    if (const auto excess = FindExcess(row, by_noise.parameters[i])) found.push_back(*excess);
+  }
+  return found;
+}
+
+/// The estimated rows, of which those of the law alone have bounds, and x at their values.
+Model BoundedRows(const std::vector<Unknown>& table) {
+  Model rows;
+  std::ranges::copy_if(table, std::back_inserter(rows.table), &Unknown::estimated);
+  for (Unknown& row : rows.table) {
+    if (IsNominal(row.role)) continue;
+    row.lower = row.coordinate == Coordinate::logarithm ? 0 : -kInfinity;
+    row.upper = kInfinity;
+  }
+  return rows;
+}
+
+/// The minimum within the bounds of squares that are quadratic about the values of the table.
+Minimum NearestWithin(const std::vector<Unknown>& table, const Uncertainty& uncertainty) {
+  const Model rows = BoundedRows(table);
+  const Eigen::VectorXd free = rows.Start();
+  // of white noise where it is known: then a linear law is fitted as if the held rows were left out
+  const bool white = uncertainty.white.rows() == free.size() && uncertainty.white.allFinite();
+  const Eigen::MatrixXd h = InverseScaled(white ? uncertainty.white : uncertainty.covariance);
+  SquaresProblem problem = WithinLimits(rows);
+  problem.sums = [&](const Eigen::VectorXd& x) -> RowSums {
+    const Eigen::VectorXd left = free - x, product = h * left;
+    return {h, product, left.dot(product)};
+  };
+  return Minimise(problem, free.cwiseMax(problem.lower).cwiseMin(problem.upper));
+}
+
+/// The fit with its law within the bounds. measurements: of the fit
+Fit HoldLaw(Fit fit, const LogSamples& measurements) {
+  const bool stands = !fit.refusal && !IsRefused(fit.causes);
+  if (!stands || !LeavesBounds(fit.parameters) || !fit.friction.maps.empty()) return fit;
+  const Inference by_noise = Apply(ByNoise(fit), fit.causes);
+  if (by_noise.status != Status::ok) return fit;
+  auto left = FindLeftByNoise(fit, by_noise);
+  if (!left) return fit;
+  const Minimum nearest = NearestWithin(fit.parameters, by_noise.uncertainty);
+  if (!nearest.converged) return fit;
+
+  // the model of the fit follows, so that the residual is that of what is reported
+  const Eigen::VectorXd before = TorqueOf(fit, measurements);
+  Cause cause = HoldAt(nearest.x, nearest.at_bound, fit);
+  cause.sentence = std::move(left->sentence);
+  fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
+  fit.end_energy = nullptr;
+  fit.causes.push_back(std::move(cause));
+  return fit;
+}
+
+}  // namespace
 
 bool GivesFriction(const Fit& fit) {
   const bool stands = !fit.refusal && !IsRefused(fit.causes);
@@ -102,12 +146,9 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
       .source = Source::bound, .action = Action::refuse, .status = Status::inadequate_model};
 
   // parameters that could not be held at their bounds; friction that rises from rest has a sentence of its own
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const Unknown& row = fit.parameters[i];
-    if (!IsNominal(row.role) || row.part == LawPart::rest_rise) continue;
-    const auto excess = FindExcess(row, by_noise.parameters[i]);
-    if (!excess) continue;
-    cause.sentence = ExplainExcess(*excess, fit);
+  for (const Excess& excess : ExcessesOf(fit, by_noise)) {
+    if (excess.parameter.part == LawPart::rest_rise) continue;
+    cause.sentence = ExplainExcess(excess, fit);
     return cause;
   }
   if (!RisesFromRest(fit.friction)) return std::nullopt;
@@ -115,38 +156,48 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
   return cause;
 }
 
-void HoldActiveBounds(const Inference& by_noise, const LogSamples& measurements, Fit& fit) {
-  // free gravity and maps have weights outside of the table, which would have to be fitted again
-  const bool free = fit.gravity && fit.gravity->kind == GravityKind::paired;
-  if (free || !fit.friction.maps.empty()) return;
-  std::vector<Eigen::Index> held;
-  std::vector<double> gaps;
-  std::vector<Excess> beyond;
-  Eigen::Index column = -1;
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const Unknown& row = fit.parameters[i];
-    column += row.estimated;
-    const auto excess =
-        IsNominal(row.role) ? FindExcess(row, by_noise.parameters[i]) : std::nullopt;
-    if (!excess) continue;
-    if (excess->beyond || !excess->interval95) return;
-    held.push_back(column);
-    gaps.push_back(excess->bound - row.value);
-    beyond.push_back(*excess);
+std::optional<LeftByNoise> FindLeftByNoise(const Fit& fit, const Inference& by_noise) {
+  const std::vector<Excess> outside = ExcessesOf(fit, by_noise);
+  const auto by_chance = [](const Excess& one) { return one.interval95 && !one.beyond; };
+  if (outside.empty() || !std::ranges::all_of(outside, by_chance)) return std::nullopt;
+  LeftByNoise left{{}, ExplainHeld(outside)};
+  Eigen::Index column = 0;
+  for (const Unknown& row : fit.parameters) {
+    if (!row.estimated) continue;
+    const auto same = [&](const Excess& one) { return &one.parameter == &row; };
+    if (std::ranges::any_of(outside, same)) left.columns.push_back(column);
+    ++column;
   }
-  // the other parameters, by the covariance, with these held
-  const Eigen::MatrixXd& covariance = by_noise.uncertainty.covariance;
-  const Eigen::Map<const Eigen::VectorXd> gap(gaps.data(), static_cast<Eigen::Index>(gaps.size()));
-  const Eigen::VectorXd before = TorqueOf(fit, measurements);
-  Cause cause =
-      Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);
-  cause.sentence = ExplainHeld(beyond);
-  fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
-  fit.end_energy = nullptr;
-  fit.causes.push_back(std::move(cause));
+  return left;
 }
 
-Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit& make) {
+Cause HoldAt(const Eigen::VectorXd& x, const std::vector<Eigen::Index>& held, Fit& fit) {
+  Cause cause{.source = Source::bound, .action = Action::hold};
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    Unknown& row = fit.parameters[i];
+    if (!row.estimated) continue;
+    const double before = row.value;
+    row.value = row.ValueAt(x[column]);
+    // exactly at the bound
+    if (std::ranges::find(held, column++) != held.end()) {
+      const bool below = std::abs(row.value - row.lower) <= std::abs(row.upper - row.value);
+      row.value = below ? row.lower : row.upper;
+    }
+    cause.Add(i, row.value - before);
+  }
+  FollowTable(fit);
+  return cause;
+}
+
+MakeFit WithinBounds(MakeFit make) {
+  return [make = std::move(make)](const IdentifierInput& input) {
+    return HoldLaw(make(input), input.measurements);
+  };
+}
+
+Fit WithoutNegativeInertia(const MakeFit& make, const IdentifierInput& input) {
+  Fit fit = make(input);
   const auto row = fit.RowOf(Role::inertia);
   if (fit.refusal || IsRefused(fit.causes) || !row) return fit;
   const auto interval = IntervalBelowZero(fit, *row);
@@ -174,10 +225,6 @@ Fit WithoutNegativeInertia(Fit fit, const IdentifierInput& input, const MakeFit&
   cause.sentence = ExplainHeldInertia(inertia, *interval, change.norm() / friction.norm());
   without.causes.push_back(std::move(cause));
   return without;
-}
-
-Fit FitWithinBounds(const MakeFit& make, const IdentifierInput& input) {
-  return EnforceBounds(WithoutNegativeInertia(make(input), input, make), input.measurements);
 }
 
 }  // namespace warmjoint

@@ -185,13 +185,6 @@ Inference Infer(const Fit& fit) {
   return Apply(by_noise, OwnCauses(fit, by_noise));
 }
 
-Fit EnforceBounds(Fit fit, const LogSamples& measurements) {
-  if (fit.refusal || IsRefused(fit.causes) || !LeavesBounds(fit.parameters)) return fit;
-  const Inference by_noise = Apply(ByNoise(fit), fit.causes);
-  if (by_noise.status == Status::ok) HoldActiveBounds(by_noise, measurements, fit);
-  return fit;
-}
-
 Uncertainty CovarianceOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
   // a fit whose table lacks some of the fitted parameters has a function of its own

@@ -70,10 +70,6 @@ std::vector<Cause> OwnCauses(const Fit& fit, const Inference& by_noise);
 /// The inference from the noise, with the fit's own causes applied.
 Inference Infer(const Fit& fit);
 
-/// The fit where parameters that noise puts beyond a bound are set to it (bounds.h). It is the fit itself where there is
-/// nothing to set, or where a whole interval lies beyond. measurements: of the fit.
-Fit EnforceBounds(Fit fit, const LogSamples& measurements);
-
 /// The parts of an interval by noise: that of white noise, what colour and unevenness add, and what few segments add.
 /// slopes: [p] of the figure by the coordinates; half: of its interval
 /// The parts of a half width of a fit with fields, from its deviations up to each. half: the whole

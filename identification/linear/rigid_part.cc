@@ -130,6 +130,7 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
   const Eigen::Index q = rigid.gravity_count();
   if (q > 0) {
     fit.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};
+    fit.gravity_by_rows = rigid.transform;
     Append(WithValues(GravityUnknowns(rigid.kind, q, UnitsOf(measurements)), values.head(q)), fit);
   }
   if (!measurements.acceleration) return;

@@ -67,6 +67,8 @@ VectorXd StepOf(const SquaresProblem& problem, const VectorXd& x, const RowSums&
     b[i] = 0;
   }
   VectorXd step = problem.step ? problem.step(h, b, x) : SolveScaled(h, b);
+  // exactly where they are: rounding would take them off their bounds
+  for (const Index i : fixed) step[i] = 0;
   if (problem.largest_step.size() > 0) {
     step = step.cwiseMin(problem.largest_step).cwiseMax(-problem.largest_step);
   }

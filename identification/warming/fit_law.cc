@@ -9,7 +9,6 @@
 #include "identification/fit/fit_data.h"
 #include "identification/fit/fit_parameters.h"
 #include "identification/fit/seen_samples.h"
-#include "identification/inference/bounds.h"
 #include "identification/inference/hausman_test.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/huber.h"
@@ -145,18 +144,12 @@ void Whiten(LawFit& law) {
   ThermalFit white = law.problem.FitAgain(rows, plain);
   if (!white.converged) return;
 
-  // back to the plain fit where whitening changes too much, or leaves the bounds
+  // back to the plain fit where whitening changes too much
   const Uncertainty uncertainty = law.problem.CovarianceOf(plain, left);
   law.unwhitened =
       FindDisagreement({plain.x, uncertainty.covariance}, {white.x, innovation * white.cofactor},
                        uncertainty.degrees_of_freedom);
-  const Law& nominal = law.problem.task().law;
-  const Eigen::VectorXd values = white.law();
-  const JointUnits units = UnitsOf(law.measurements());
-  if (law.unwhitened ||
-      LeavesBounds(WithValues(LawUnknowns(nominal, values.size(), units), values))) {
-    return;
-  }
+  if (law.unwhitened) return;
   law.whitening = std::move(whitening);
   law.Take(std::move(rows), std::move(white));
 }

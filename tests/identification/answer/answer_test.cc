@@ -284,7 +284,7 @@ Estimate UnderWeights(const std::vector<double>& weights) {
     logs.push_back(test::RecordHour(test::Cold(), 1 + logs.size()));
     logs.back().torque.array() += weight * logs.back().position.array().sin();
   }
-  Identifier identifier = NominalLs();
+  Identifier identifier = FindIdentifier("nominal-ls");
   identifier.options = identifier.options.Read({{"gravity", "sincos"}});
   return IdentifyAndCheck(identifier, {Prepare(std::move(logs)), identifier.options, {}}, {});
 }

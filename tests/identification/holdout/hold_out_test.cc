@@ -141,7 +141,8 @@ std::optional<Eigen::VectorXd> ErrorsOfSixBlocks(const Identifier& identifier,
 }
 
 TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
-  const auto errors = ErrorsOfSixBlocks(EnergyMl(), test::RecordHour(test::TableOne(), 4));
+  const auto errors =
+      ErrorsOfSixBlocks(FindIdentifier("energy-ml"), test::RecordHour(test::TableOne(), 4));
   ASSERT_TRUE(errors);
   // 0.25, known to sqrt(2 / 600) = 6 % on each block; five of these; a fit without the first ten
   // minutes hardly sees the time constant, so that its block is left out
@@ -149,7 +150,8 @@ TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
 }
 
 TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
-  const auto errors = ErrorsOfSixBlocks(NominalLs(), test::RecordHour(test::TableOne(), 4));
+  const auto errors =
+      ErrorsOfSixBlocks(FindIdentifier("nominal-ls"), test::RecordHour(test::TableOne(), 4));
   ASSERT_TRUE(errors);
   EXPECT_GT((*errors)[0], 10 * 0.25);  // the first ten minutes are the cold ones
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "identification/fit/fit_data.h"
 #include "identification/fit/fit_parameters.h"
 #include "identification/inference/bounds.h"
 #include "identification/preparation/select.h"
@@ -210,7 +211,7 @@ TEST(BeyondBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
   EXPECT_EQ(judged.Judge().status, Status::ok);
 }
 
-TEST(EnforceBounds, HoldsWhatNoisePutsBeyond) {
+TEST(WithinBounds, HoldsWhatNoisePutsOutside) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
   Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
   int held = 0, voided = 0, covered = 0;
@@ -229,16 +230,85 @@ TEST(EnforceBounds, HoldsWhatNoisePutsBeyond) {
     if (viscous.value > 0) continue;
     ++held;
 
-    // the other is that of the law without the parameter, but for what colour and unevenness of the noise seem to tell;
-    // the fitted torque, too
+    // the fit is that of the law without the parameter
     const Estimate other = test::Fitted("nominal-ls", log, {{"law", "coulomb"}});
-    EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 0.2 * *coulomb.std);
-    EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-4 * other.metrics->rmse);
+    EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 1e-9);
+    EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-9);
   }
   // binomial: 190 +- 3 x 10, 10 + 3 x 3.1, and 95 % of 390 less 3 x 4.3
   EXPECT_NEAR(held, 190, 30);
   EXPECT_LE(voided, 20);
   EXPECT_GT(covered, 0.95 * (400 - voided) - 13);
+}
+
+TEST(WithinBounds, HoldsSeveralRowsAtOnce) {
+  // levels of both directions that are 0, and a slope: the fit is that of the slope alone wherever both levels are held
+  Friction friction{
+      "asymmetric", {{"viscous", 4}, {"coulomb_positive", 0}, {"coulomb_negative", 0}}, {}, 0, 1};
+  int both = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Measurements m =
+        test::RecordFriction(friction, 1, test::AlternatingSpeeds(400, seed), 0.5, seed);
+    const PreparedLog log = Prepare(m, SelectMoving(m));
+    const Estimate estimate = test::Fitted("nominal-ls", log, {{"law", "asymmetric"}});
+    if (estimate.status != Status::ok) continue;
+    const double forwards = estimate.Find("coulomb_positive")->value;
+    const double backwards = estimate.Find("coulomb_negative")->value;
+    EXPECT_GE(forwards, 0);
+    EXPECT_GE(backwards, 0);
+    if (forwards > 0 || backwards > 0) continue;
+    ++both;
+    const LogSamples& seen = log.constant_speed().measurements;
+    const Eigen::VectorXd v = Kept(seen.velocity, log.constant_speed().selection);
+    const Eigen::VectorXd torque = Kept(seen.torque, log.constant_speed().selection);
+    EXPECT_NEAR(estimate.Find("viscous")->value, v.dot(torque) / v.squaredNorm(), 1e-9);
+  }
+  EXPECT_GT(both, 3);
+}
+
+TEST(WithinBounds, HoldsALawBesideGravityOverPlaces) {
+  Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
+  int answered = 0, held = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Measurements m =
+        test::RecordFriction(friction, 1, test::AlternatingSpeeds(2000, seed), 0.5, seed);
+    m.torque.array() += 8 * m.position.array().sin();
+    const PreparedLog log = Prepare(m, SelectMoving(m));
+    const Estimate estimate = test::Fitted("nominal-ls", log, {{"gravity", "paired"}});
+    if (estimate.status != Status::ok) continue;
+    ++answered;
+    if (estimate.Find("viscous")->value > 0) continue;
+    ++held;
+    // law and gravity are fitted anew with the bound
+    const Estimate other =
+        test::Fitted("nominal-ls", log, {{"law", "coulomb"}, {"gravity", "paired"}});
+    EXPECT_NEAR(estimate.Find("coulomb")->value, other.Find("coulomb")->value, 1e-9);
+    EXPECT_TRUE(estimate.gravity->values.isApprox(other.gravity->values, 1e-9));
+  }
+  // half are held, and 2.5 % outside with their whole interval: binomial, three deviations
+  EXPECT_GE(answered, 17);
+  EXPECT_NEAR(held, 10, 3 * 2.3);
+}
+
+TEST(WithinBounds, HoldsTheLawOfAJointThatWarms) {
+  Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
+  friction.thermal = Thermal{-1.5, 600};
+  int held = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Measurements m =
+        test::RecordFriction(friction, 1, test::AlternatingSpeeds(3600, seed), 0.5, seed);
+    const PreparedLog log = Prepare(m, SelectMoving(m));
+    const Estimate estimate = test::Fitted("energy-ml", log);
+    if (estimate.status != Status::ok || estimate.Find("viscous")->value > 0) continue;
+    ++held;
+    // the squares are quadratic within the noise: the other unknowns are those of the fit without the slope
+    const Estimate other = test::Fitted("energy-ml", log, {{"law", "coulomb"}});
+    for (const char* name : {"coulomb", "thermal_gain", "thermal_time_constant"}) {
+      const EstimatedParameter& one = *estimate.Find(name);
+      EXPECT_NEAR(one.value, other.Find(name)->value, 0.05 * *one.std) << name;
+    }
+  }
+  EXPECT_GT(held, 0);
 }
 
 }  // namespace
