@@ -19,6 +19,12 @@ double* Unknown::PlaceIn(Friction& friction) const {
   }
 }
 
+std::vector<Unknown> Unnamed(Role role, Eigen::Index count) {
+  Unknown row;
+  row.role = role;
+  return std::vector<Unknown>(static_cast<size_t>(count), row);
+}
+
 Slice SliceOf(Role role, const std::vector<Unknown>& table) {
   const auto first = std::ranges::find(table, role, &Unknown::role);
   const auto last =

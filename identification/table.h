@@ -74,6 +74,9 @@ struct Unknown {
   double ValueByCoordinate(double at) const { return coordinate == Coordinate::logarithm ? at : 1; }
 };
 
+/// Rows that no report has, of which nothing is known.
+std::vector<Unknown> Unnamed(Role role, Eigen::Index count);
+
 /// Unknowns that are contiguous in x.
 struct Slice {
   Eigen::Index begin = 0, size = 0;

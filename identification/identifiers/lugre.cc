@@ -167,13 +167,7 @@ std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const F
   if (steady.count() < 8) return std::nullopt;
 
   // the curve over the speed without warming, at the best vs of a scan
-  const StribeckProblem problem{m,
-                                steady,
-                                EvenIntervals(m.size(), 1),
-                                kExponent,
-                                PartFit::none,
-                                1,
-                                FindFallingLaw(law.steady)};
+  const StribeckProblem problem{m, steady, kExponent, PartFit::none, FindFallingLaw(law.steady)};
   const std::vector<FitPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty()) return std::nullopt;
 

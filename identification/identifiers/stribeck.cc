@@ -19,10 +19,10 @@
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/bounds.h"
+#include "identification/inference/inference.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/model/least_squares.h"
-#include "identification/model/normal_equations.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/sentences/falls.h"
@@ -49,7 +49,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   if (problem.warming == PartFit::none) return squares;
 
   // with warming, from the best time constant of a scan
-  const LawBlocks blocks(m, columns, {}, problem.rigid);
+  const LawBlocks blocks(m, columns, LossColumns(problem.law.without, m), problem.rigid);
   const InitialGuess start =
       ScanBesideRigid(columns, cold.solution.tail(problem.rigid.cols()), problem);
   const ThermalFit fit =
@@ -63,7 +63,7 @@ double SquaresWithout(const StribeckProblem& problem) {
 /// The drop of |e|^2 / s^2 that a point brings to a law that leaves the squares `without`.
 double Explained(const StribeckProblem& problem, double without, const FitPoint& point) {
   const auto degrees_of_freedom =
-      static_cast<double>(problem.selection.count() - point.x.size() - problem.rigid.cols());
+      static_cast<double>(problem.selection.count() - problem.places().size());
   return ExplainedVariances(without, point.squares, degrees_of_freedom,
                             Kept(problem.measurements.torque, problem.selection));
 }
@@ -90,12 +90,13 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
   const FallingPlaces at = problem.places();
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
+  const double step = fit.model->heat->loop->intervals().typical;
   return UnidentifiableWarming({.explained = Explained(problem, ColdSquares(problem), fit.solution),
                                 .log_deviation = uncertainty.Deviation(at.log_time_constant()),
                                 .time_constant = at.ThermalAt(fit.solution.x).time_constant,
-                                .shortest = 2 * problem.intervals.typical,
+                                .shortest = 2 * step,
                                 .longest = 5 * total,
-                                .step = problem.intervals.typical});
+                                .step = step});
 }
 
 /// Invalidates a fit whose friction drives the joint on this motion. Where the data rule the law out, or
@@ -127,23 +128,22 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   // the model, and how well it fits
   const FallingPlaces at = problem.places();
   SetFallingModel(problem.law, problem.exponent, at, best.solution.x, input.measurements, fit);
-  AddRigid(rigid, best.rigid, input.measurements, fit);
+  AddRigid(rigid, best.solution.x.tail(rigid.count()), input.measurements, fit);
   fit.used = input.selection;
   fit.torque = Kept(input.measurements.torque, fit.used);
   fit.fitted = best.fitted;
-  fit.count = static_cast<int>(best.jacobian.cols());
+  fit.jacobian = [model = best.model, x = best.solution.x] {
+    return ModelAt(*model, x).All().derivatives;
+  };
+  fit.errors.cofactor = best.cofactor;
+  fit.count = static_cast<int>(best.solution.x.size());
   fit.effective_parameters = fit.count;
   fit.summary = SummaryOfFall(
       {.count = fit.torque.size(), .is_any_motion = input.measurements.acceleration.has_value()},
       problem.exponent);
 
   // the uncertainty of the fit, and whether it is small enough
-  const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return best.jacobian; }),
-                                                .cofactor = Cofactor(GramOf(best.jacobian)),
-                                                .residual = fit.residual(),
-                                                .selection = fit.used,
-                                                .fitted = fit.fitted});
-  fit.errors.covariance = [uncertainty] { return uncertainty; };
+  const Uncertainty uncertainty = CovarianceOf(fit);
   const StribeckEvidence evidence = EvidenceOf(problem.law, at, best.solution.x, uncertainty);
   auto why = UnidentifiableStribeck(problem.law, evidence, input.measurements, input.selection);
   if (!why) why = UnidentifiableHeat(problem, best, uncertainty);
@@ -172,15 +172,8 @@ Fit FitStribeck(const IdentifierInput& given) {
   if (auto why = UnknownSliding(input, law, unknown, rigid.columns)) return Refused(kName, *why);
 
   // scan vs, then refine the best
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  StribeckProblem problem{m,
-                          input.selection,
-                          FindIntervals(m.time, m.further_starts),
-                          options.exponent,
-                          options.warming,
-                          torque.norm() / std::sqrt(static_cast<double>(torque.size())),
-                          law,
-                          rigid.columns};
+  StribeckProblem problem{m,   input.selection, options.exponent, options.warming,
+                          law, rigid.columns};
   const double without = SquaresWithout(problem);
   const std::vector<FitPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty() || !std::isfinite(without))

@@ -31,13 +31,6 @@ Slice HeatOf(const ThermalFit& fit) {
   return {first, fit.At(Role::gravity).begin - first};
 }
 
-/// Rows with a role, without names.
-std::vector<Unknown> Unnamed(Role role, Index count) {
-  Unknown row;
-  row.role = role;
-  return std::vector<Unknown>(static_cast<std::size_t>(count), row);
-}
-
 /// Conditions on law and weights as such on all unknowns. p: their number
 Conditions Extended(const Conditions& conditions, Index p) {
   Conditions all{MatrixXd::Zero(conditions.rows.rows(), p), conditions.values};

@@ -28,7 +28,7 @@ struct FallingPlaces {
   Eigen::Index levels = 0;  // parameters before vs
   Eigen::Index shape = 1;   // log(vs); with a bristle log(sigma0) and sigma1, too
   Eigen::Index heat = 0;    // 2: gain and log(tau)
-  Eigen::Index rigid = 0;   // 1: the inertia
+  Eigen::Index rigid = 0;   // gravity and inertia; with a bristle 1: the inertia
 
   constexpr Slice law() const { return {0, levels}; }
   constexpr Eigen::Index log_vs() const { return levels; }

@@ -276,16 +276,15 @@ std::vector<FitPoint> ScanFall(const LugreProblem& problem, const FitPoint& poin
 LugreFit RefineLugre(const LugreProblem& problem, const FitPoint& start) {
   return ForLaw(problem, [&]<typename L>() {
     const auto n = static_cast<int>(problem.used.count());
-    Eigen::VectorXd x = start.x;
-    const auto solution = SolveByCeres<kSize<L>>(
-        std::make_unique<Cost<L>>(new Residuals<L>(problem), n), problem.constant, x.data());
+    CeresSolution solution = SolveByCeres(std::make_unique<Cost<L>>(new Residuals<L>(problem), n),
+                                          problem.constant, start.x);
     // residuals as measured less fitted, and the load of the bristles from which each recording starts
     LugreFit fit;
     fit.converged = solution.converged;
     fit.residual = -solution.residuals;
-    fit.jacobian = solution.jacobian;
-    fit.solution = {x, solution.residuals.squaredNorm()};
-    fit.loads = FollowLugre<L>(problem, x.data()).loads;
+    fit.jacobian = std::move(solution.jacobian);
+    fit.solution = {std::move(solution.x), solution.residuals.squaredNorm()};
+    fit.loads = FollowLugre<L>(problem, fit.solution.x.data()).loads;
     return fit;
   });
 }

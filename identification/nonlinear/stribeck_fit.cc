@@ -1,17 +1,21 @@
 #include "identification/nonlinear/stribeck_fit.h"
 
-#include <ceres/autodiff_cost_function.h>
+#include <ceres/jet.h>
 
-#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "identification/fit/fit_data.h"
+#include "identification/fit/fit_parameters.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/model/least_squares.h"
+#include "identification/model/model_squares.h"
+#include "identification/model/normal_equations.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 
 namespace warmjoint {
@@ -19,114 +23,65 @@ namespace {
 
 constexpr int kVelocities = 16;  // of the grid
 
-/// Residuals (F - tau) / scale of the kept samples, orthogonal to columns, in the form for Ceres' automatic derivatives.
-template <typename L, PartFit W>
-class Residuals {
+/// Friction of a law L that falls with speed, by its levels and the logarithm of its Stribeck velocity, the first unknowns.
+template <typename L>
+class FallingBlock final : public Block {
  public:
-  /// basis: [n x q] orthonormal, of the columns
-  Residuals(const StribeckProblem& problem, Eigen::MatrixXd basis)
-      : problem_(problem), basis_(std::move(basis)) {}
-
-  template <typename T>
-  bool operator()(const T* x, T* residuals) const {
-    using std::isfinite;
-    const LogSamples& m = problem_.measurements;
-    const auto law = ValuesOf<L>(x, problem_.exponent);
-    const std::vector<ThermalHold<T>> holds = HoldsOf(x);
-    T energy(0);
-    T* const first = residuals;
-    // friction with the heat of all samples before
-    for (Eigen::Index i = 0; i < m.size(); ++i) {
-      const double v = m.velocity[i];
-      T force = L::Force(v, law.data());
-      if constexpr (W == PartFit::estimated) {
-        force = WarmForce(v, force, energy);
-        const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
-        energy = ThermalStep(T(x[kAt.gain()] * hold.cooling), hold.pole, energy, Loss(v, force));
-      }
-      if (!isfinite(force)) return false;
-      if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
-    }
-    TakeOff(first);
-    return isfinite(energy) && isfinite(law[kAt.log_vs()]);
+  FallingBlock(const LogSamples& m, double exponent)
+      : of_force_(m.velocity), of_losses_(m.loss_velocity), exponent_(exponent) {}
+  void Fill(const Eigen::VectorXd& x, ModelRows& rows) const override {
+    FillAlong(of_force_, x, rows);
   }
-
-  static constexpr FallingPlaces kAt = FallingPlacesOf<L, W>();
+  bool MakesHeat() const override { return true; }
+  bool HasOwnLosses() const override { return of_losses_.has_value(); }
+  void FillLosses(const Eigen::VectorXd& x, ModelRows& rows) const override {
+    FillAlong(of_losses_ ? *of_losses_ : of_force_, x, rows);
+  }
 
  private:
-  /// Subtracts the part of the residuals that is in the span of the basis.
-  template <typename T>
-  void TakeOff(T* residuals) const {
-    for (const auto& column : basis_.colwise()) {
-      T along(0);
-      for (Eigen::Index i = 0; i < column.size(); ++i) along += column[i] * residuals[i];
-      for (Eigen::Index i = 0; i < column.size(); ++i) residuals[i] -= column[i] * along;
+  void FillAlong(const Eigen::VectorXd& velocity, const Eigen::VectorXd& x, ModelRows& rows) const {
+    constexpr auto kSize = static_cast<int>(FallingPlacesOf<L>().gain());
+    using Dual = ceres::Jet<double, kSize>;
+    std::array<Dual, static_cast<size_t>(kSize)> duals;
+    for (int j = 0; j < kSize; ++j) duals[static_cast<size_t>(j)] = Dual(x[j], j);
+    const auto law = ValuesOf<L>(duals.data(), exponent_);
+    for (Eigen::Index i = 0; i < rows.at.count; ++i) {
+      const Dual force = L::Force(velocity[rows.at.first + i], law.data());
+      rows.force[i] += force.a;
+      rows.derivatives.row(i).template head<kSize>() += force.v.transpose();
     }
   }
 
-  /// Eq. (22) over each distinct interval; none without warming.
-  template <typename T>
-  std::vector<ThermalHold<T>> HoldsOf(const T* x) const {
-    std::vector<ThermalHold<T>> holds;
-    if constexpr (W == PartFit::estimated) {
-      using std::exp;
-      const T rate = exp(-x[kAt.log_time_constant()]);
-      for (const double h : problem_.intervals.length) {
-        // nothing is left where another recording starts cold
-        holds.push_back(std::isinf(h) ? ThermalHold<T>{T(0), T(0), T(0)}
-                                      : ThermalHold<T>::Over(h * rate));
-      }
-    }
-    return holds;
-  }
-
-  const StribeckProblem& problem_;
-  Eigen::MatrixXd basis_;  // [n x q]
+  Eigen::VectorXd of_force_;                  // [N] velocity, rad/s or m/s
+  std::optional<Eigen::VectorXd> of_losses_;  // [N] where losses have another
+  double exponent_;
 };
 
-/// [n x q] columns of gravity and inertia at the kept samples.
-Eigen::MatrixXd RigidRows(const StribeckProblem& problem) {
-  if (problem.rigid.cols() == 0) return Eigen::MatrixXd(problem.selection.count(), 0);
-  return Kept(problem.rigid, problem.selection);
-}
-
-/// [n x q] orthonormal columns that span those given.
-Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& columns) {
-  if (columns.cols() == 0) return columns;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-}
-
-template <typename L, PartFit W>
-StribeckFit Refine(const StribeckProblem& problem, const FitPoint& start) {
-  constexpr int P = static_cast<int>(Residuals<L, W>::kAt.size());
-  using Cost = ceres::AutoDiffCostFunction<Residuals<L, W>, ceres::DYNAMIC, P>;
-  const auto n = static_cast<int>(problem.selection.count());
-  const auto cost = [&](const Eigen::MatrixXd& basis) {
-    return std::make_unique<Cost>(new Residuals<L, W>(problem, basis), n);
-  };
-  const Eigen::MatrixXd rigid = RigidRows(problem);
-  Eigen::VectorXd x = start.x;
-  auto solution = SolveByCeres<P>(cost(OrthonormalBasis(rigid)), {}, x.data());
-  // back from shares of the scale to torque
-  StribeckFit fit;
-  fit.converged = solution.converged;
-  const Eigen::VectorXd torque = Kept(problem.measurements.torque, problem.selection);
-  fit.fitted = torque + problem.scale * solution.residuals;
-  fit.solution = {x, problem.scale * problem.scale * solution.residuals.squaredNorm()};
-  if (rigid.cols() == 0) {
-    fit.jacobian = problem.scale * solution.jacobian;
-    return fit;
+/// Law, heat, gravity and inertia.
+Model ModelOf(const StribeckProblem& problem) {
+  const LogSamples& m = problem.measurements;
+  const FallingPlaces at = problem.places();
+  Model model;
+  model.samples = m.size();
+  const Slice law = model.Append(Unnamed(Role::law, at.gain()));
+  model.blocks.push_back(ForLawNamed(
+      SteadyFallingLaws{}, problem.law.law.name, [&]<typename L>() -> std::shared_ptr<const Block> {
+        return std::make_shared<FallingBlock<L>>(m, problem.exponent);
+      }));
+  if (at.heat > 0) {
+    const Slice heat = model.Append(HeatUnknowns(UnitsOf(m)));
+    const auto loop = std::make_shared<const ClosedLoop>(
+        ClosedLoop::Along(m, Eigen::MatrixXd(m.size(), 0), Eigen::MatrixXd(m.size(), 0)));
+    model.heat = HeatLoop{.loop = loop,
+                          .direction = m.velocity.cwiseSign(),
+                          .friction = law.size,
+                          .parameters = heat};
   }
-
-  // the rigid part is the projection of the friction's residual on its columns
-  Eigen::VectorXd alone(n);
-  const double* const at = x.data();
-  double* into = solution.jacobian.data();
-  cost(Eigen::MatrixXd(n, 0))->Evaluate(&at, alone.data(), &into);
-  fit.rigid = SolveLeastSquares(rigid, -problem.scale * alone).solution;
-  fit.jacobian = ConcatColumns(problem.scale * solution.jacobian, rigid);
-  return fit;
+  const Slice rigid = model.Append(Unnamed(Role::gravity, at.rigid));
+  if (rigid.size > 0) {
+    model.blocks.push_back(std::make_shared<LinearBlock>(rigid, Shared(problem.rigid)));
+  }
+  return model;
 }
 
 /// The derivatives of F by the linear parameters at a given vs. [N x l]
@@ -161,6 +116,7 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
   point.x[at.log_vs()] = std::log(velocity);
   if (problem.warming == PartFit::none) {
     at.law().In(point.x) = cold.solution.head(columns.cols());
+    point.x.tail(q) = cold.solution.tail(q);
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
     // with warming: the time constant that explains most in addition to these columns
@@ -169,6 +125,7 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
     at.law().In(point.x) = law;
     point.x[at.gain()] = start.thermal.gain;
     point.x[at.log_time_constant()] = std::log(start.thermal.time_constant);
+    point.x.tail(q) = start.parameters.tail(q);
     Eigen::VectorXd force = ClosedLoop::Along(m, columns).Simulate(law, start.thermal).force;
     if (q > 0) force += problem.rigid * start.parameters.tail(q);
     point.squares = (torque - Kept(force, problem.selection)).squaredNorm();
@@ -210,10 +167,19 @@ std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem) {
 }
 
 StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start) {
-  return ForLawNamed(SteadyFallingLaws{}, problem.law.law.name, [&]<typename L>() {
-    return problem.warming == PartFit::none ? Refine<L, PartFit::none>(problem, start)
-                                            : Refine<L, PartFit::estimated>(problem, start);
-  });
+  const auto model = std::make_shared<const Model>(ModelOf(problem));
+  const ModelSamples samples{.torque = problem.measurements.torque, .keep = problem.selection.keep};
+  const Eigen::VectorXd torque = Kept(problem.measurements.torque, problem.selection);
+  const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
+  CeresSolution found = SolveByCeres(CostOf(*model, samples, scale), {}, start.x);
+  // back from shares of the scale to torque
+  StribeckFit fit;
+  fit.converged = found.converged;
+  fit.model = model;
+  fit.fitted = torque + scale * found.residuals;
+  fit.cofactor = Cofactor(GramOf(scale * found.jacobian));
+  fit.solution = {std::move(found.x), scale * scale * found.residuals.squaredNorm()};
+  return fit;
 }
 
 }  // namespace warmjoint

@@ -4,12 +4,13 @@
 #include <warmjoint/prepared_log.h>
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
+#include "identification/model/model.h"
 #include "identification/nonlinear/falling_law.h"
 #include "identification/options.h"
 #include "identification/warming/scan_time_constant.h"
-#include "models/friction/intervals.h"
 
 namespace warmjoint {
 
@@ -29,20 +30,19 @@ struct StribeckOptions {
   }
 };
 
-/// The model and the samples of a fit.
+/// The law and the samples of a fit.
 struct StribeckProblem {
   const LogSamples& measurements;
   const Selection& selection;  // E runs over all samples, the fit is to those kept
-  Intervals intervals;         // FindIntervals(time, starts)
   double exponent = 2;         // delta, fixed
   PartFit warming = PartFit::none;
-  double scale = 1;                                        // about the torque's rms, N.m or N
   const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
-  Eigen::MatrixXd rigid{};  // [N x q] gravity and inertia, whose unknowns follow x; [0 x 0]: none
+  Eigen::MatrixXd rigid{};  // [N x q] gravity and inertia, the last unknowns of x; [0 x 0]: none
 
   FallingPlaces places() const {
     FallingPlaces at = law.places;
     if (warming == PartFit::estimated) at.heat = 2;
+    at.rigid = rigid.cols();
     return at;
   }
 };
@@ -62,15 +62,15 @@ InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::Vector
 std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem);
 
 struct StribeckFit {
-  FitPoint solution;         // squares: (N.m)^2 or N^2
-  Eigen::VectorXd rigid;     // [q] values of gravity and inertia
+  FitPoint solution;  // x: law, ln vs, heat, gravity and inertia; squares: (N.m)^2 or N^2
+  std::shared_ptr<const Model> model;
   Eigen::VectorXd fitted;    // [n] F + G + M a, N.m or N, over the kept samples
-  Eigen::MatrixXd jacobian;  // [n x p + q] of `fitted` by x and rigid, exact (dual numbers)
+  Eigen::MatrixXd cofactor;  // [p x p] (J^T J)^-1
   bool converged = false;
 };
 
-/// Minimises the sum of squares from a start by Levenberg-Marquardt. Gravity and inertia are linear: the squares are those of what is
-/// left orthogonal to their columns (variable projection, Golub and Pereyra 1973).
+/// Minimises the sum of squares from a start by Ceres, over the rows of a model (model/model.h): friction that falls with
+/// speed, its heat, gravity and inertia.
 StribeckFit RefineStribeck(const StribeckProblem& problem, const FitPoint& start);
 
 }  // namespace warmjoint

@@ -19,13 +19,6 @@ using Eigen::VectorXd;
 
 constexpr double kFirm = 1e-9;  // of the residuals' scale: the least spread of a prior
 
-/// Rows of a model, which has no names.
-std::vector<Unknown> RowsOf(Role role, Index count) {
-  Unknown unknown;
-  unknown.role = role;
-  return std::vector<Unknown>(static_cast<size_t>(count), unknown);
-}
-
 /// What is known of an unknown before the log, of noise of such a scale.
 Normal PriorAt(double mean, double spread, double scale) {
   return {mean, std::max(spread, kFirm * scale)};
@@ -33,7 +26,7 @@ Normal PriorAt(double mean, double spread, double scale) {
 
 /// The unknowns of heat, E(0) and jumps, and what is known of them.
 void AppendHeat(const ThermalRows& rows, Model& model) {
-  model.Append(RowsOf(Role::gain, 1));
+  model.Append(Unnamed(Role::gain, 1));
   Unknown tau;
   tau.role = Role::time_constant;
   tau.coordinate = Coordinate::logarithm;
@@ -46,7 +39,7 @@ void AppendHeat(const ThermalRows& rows, Model& model) {
     }
     model.Append({start});
   }
-  std::vector<Unknown> jumps = RowsOf(Role::jump, std::ssize(rows.jump_samples));
+  std::vector<Unknown> jumps = Unnamed(Role::jump, std::ssize(rows.jump_samples));
   for (size_t i = 0; i < jumps.size(); ++i) {
     const double spread = rows.jump_spread[static_cast<Index>(i)];
     if (std::isfinite(spread)) jumps[i].prior = PriorAt(0, spread, rows.scale);
@@ -57,7 +50,7 @@ void AppendHeat(const ThermalRows& rows, Model& model) {
 /// Adds the blocks of law and rigid part, the latter with its unknowns, to a table that has those of the law.
 void AddBlocks(const LawBlocks& blocks, Model& model) {
   model.samples = blocks.law->rows();
-  const Slice rigid = model.Append(RowsOf(Role::gravity, blocks.rigid->cols()));
+  const Slice rigid = model.Append(Unnamed(Role::gravity, blocks.rigid->cols()));
   model.blocks = {
       std::make_shared<FrictionBlock>(model.At(Role::law), blocks.law, blocks.of_losses)};
   if (rigid.size > 0) {
@@ -68,7 +61,7 @@ void AddBlocks(const LawBlocks& blocks, Model& model) {
 /// Law and rigid part.
 Model WithoutHeat(const LawBlocks& blocks) {
   Model model;
-  model.Append(RowsOf(Role::law, blocks.law->cols()));
+  model.Append(Unnamed(Role::law, blocks.law->cols()));
   AddBlocks(blocks, model);
   return model;
 }
@@ -104,7 +97,7 @@ MatrixXd WarmJacobian(const LawBlocks& blocks, const VectorXd& parameters, const
 
 Model ThermalRows::MakeModel() const {
   Model model;
-  model.Append(RowsOf(Role::law, blocks.law->cols()));
+  model.Append(Unnamed(Role::law, blocks.law->cols()));
   AppendHeat(*this, model);
   AddBlocks(blocks, model);
   model.heat = HeatLoop{.loop = blocks.loop,
